@@ -1,0 +1,122 @@
+//! The contract between the judge and the judged.
+//!
+//! Whatever implements [`Subject`] can be put on every level of a refinement plan and held
+//! against the truth: the crate's own MPM and FEM, or a solver of yours. The trait is object-safe
+//! and flat (`f64` slices, no type of this crate's algebra), so that a solver in another language
+//! can stand behind it.
+
+use thiserror::Error;
+
+/// A solver under test, at one level of refinement.
+pub trait Subject {
+    /// Advances the state by one step of length `dt` (s).
+    ///
+    /// # Errors
+    /// [`Failure`] says what broke and where. After a failure the subject is not stepped again.
+    fn step(&mut self, dt: f64) -> Result<(), Failure>;
+
+    /// Writes the present state, seen at the subject's own reference labels, into `samples`.
+    /// The labels and their order do not change during a run.
+    fn sample(&self, samples: &mut Samples);
+
+    /// What the run has cost and met so far.
+    fn census(&self) -> Census;
+}
+
+/// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Samples {
+    /// Number of space dimensions, D.
+    pub dimension: usize,
+    /// Reference positions X, `n * D` numbers (m).
+    pub label: Vec<f64>,
+    /// Displacements u = x - X, `n * D` numbers (m).
+    pub displacement: Vec<f64>,
+    /// Velocities, `n * D` numbers (m/s).
+    pub velocity: Vec<f64>,
+    /// Reference volume that each label stands for, `n` numbers (m^D): the weight in L1 and L2.
+    pub weight: Vec<f64>,
+}
+
+impl Samples {
+    /// Number of labels, `n`.
+    pub fn len(&self) -> usize {
+        self.weight.len()
+    }
+
+    /// Whether there is no label.
+    pub fn is_empty(&self) -> bool {
+        self.weight.is_empty()
+    }
+
+    /// Empties the columns and keeps their memory.
+    pub fn clear(&mut self) {
+        self.label.clear();
+        self.displacement.clear();
+        self.velocity.clear();
+        self.weight.clear();
+    }
+}
+
+/// Deterministic figures of a run: what it cost, and what a reader must know beside an error.
+/// `None` where the subject has no such thing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Census {
+    /// Particles (MPM).
+    pub particles: Option<u64>,
+    /// Particle-node pairs visited by P2G and G2P so far; for FEM, pairs of quadrature point and
+    /// node.
+    pub transfers: u64,
+    /// How often a particle has changed its cell so far (MPM).
+    pub crossings: Option<u64>,
+    /// Particles outside the grid now (MPM).
+    pub left_domain: Option<u64>,
+    /// Smallest J = det F met so far.
+    pub min_j: f64,
+}
+
+/// Where a failure happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Site {
+    /// Index of a particle.
+    #[error("particle {0}")]
+    Particle(usize),
+    /// Index of an element.
+    #[error("element {0}")]
+    Element(usize),
+    /// Index of a node.
+    #[error("node {0}")]
+    Node(usize),
+}
+
+/// Why a subject could not go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Failure {
+    /// A quantity became NaN or infinite.
+    #[error("{quantity} of {site} is not finite")]
+    NonFinite {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Where.
+        site: Site,
+    },
+    /// The deformation gradient lost its orientation.
+    #[error("{site} is inverted, J = {j:.3e}")]
+    Inverted {
+        /// Where.
+        site: Site,
+        /// The determinant that was met.
+        j: f64,
+    },
+    /// A particle has no cell any more.
+    #[error("{site} left the domain at x = {position:?}")]
+    LeftDomain {
+        /// Which particle.
+        site: Site,
+        /// Its position, D numbers (m).
+        position: Vec<f64>,
+    },
+    /// A linear system could not be solved.
+    #[error("{0}")]
+    Solve(String),
+}
