@@ -5,6 +5,7 @@
 //! and flat (`f64` slices, no type of this crate's algebra), so that a solver in another language
 //! can stand behind it.
 
+use crate::named::named;
 use thiserror::Error;
 
 /// A solver under test, at one level of refinement.
@@ -21,6 +22,20 @@ pub trait Subject {
 
     /// What the run has cost and met so far.
     fn census(&self) -> Census;
+}
+
+named! {
+    /// What the first step makes of the initial velocity `v0`.
+    ///
+    /// A step of Euler-Cromer, `v += dt a(u)`, `u += dt v`, is a leapfrog whose velocities are half
+    /// a step behind. So the start alone decides the order in time.
+    pub enum Start {
+        /// `v0` stands in for `v(-dt/2)`, as in the talk. That is a push of `dt/2 a0` too much:
+        /// first order in time, unless the initial acceleration `a0` is zero.
+        AtZero = "at_zero",
+        /// `v(-dt/2) = v0 - dt/2 a0`, the "CD" start of Wallstedt & Guilkey (2008): second order.
+        HalfStepBack = "half_step_back",
+    }
 }
 
 /// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point.

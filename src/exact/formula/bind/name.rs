@@ -1,0 +1,74 @@
+//! Names of a formula: what they stand for, and what is said of those that stand for nothing.
+
+use super::{Binder, Frame};
+use crate::exact::formula::{
+    ast::Node, builtin, error::FormulaError, hint::hint, program::Operand,
+};
+
+impl Binder<'_> {
+    /// The value that a name stands for.
+    pub(super) fn name(
+        &mut self,
+        frame: &Frame,
+        node: &Node,
+        name: &str,
+    ) -> Result<Operand, FormulaError> {
+        if let Some((_, operand)) = frame.locals.iter().find(|(local, _)| *local == name) {
+            return Ok(*operand);
+        }
+        if let Some(value) = self.scope.value(name) {
+            self.uses.insert(name.to_owned());
+            return Ok(Operand::Constant(value));
+        }
+        let span = node.span.clone();
+        if self.scope.called(name).is_some() {
+            let message = format!("the function `{name}` is not called");
+            return Err(FormulaError::new(span, message)
+                .help(format!("write its arguments in parentheses: `{name}(...)`")));
+        }
+        let known = frame.locals.iter().map(|(local, _)| *local);
+        let help = hint(name, known.chain(self.declared())).unwrap_or_else(|| frame.listing());
+        Err(FormulaError::new(span, format!("unknown name `{name}`")).help(help))
+    }
+
+    /// The error for the call of a `name` that is no function.
+    pub(super) fn not_a_function(&self, frame: &Frame, node: &Node, name: &str) -> FormulaError {
+        let local = frame.locals.iter().any(|(local, _)| *local == name);
+        let role = match frame.function {
+            _ if self.scope.value(name).is_some() => "a constant",
+            Some(_) if local => "a parameter",
+            None if local => "a variable",
+            _ => {
+                let error =
+                    FormulaError::new(node.head(name), format!("unknown function `{name}`"));
+                let callable = self.scope.functions().chain(builtin::names());
+                return match hint(name, callable) {
+                    Some(help) => error.help(help),
+                    None => error,
+                };
+            }
+        };
+        FormulaError::new(node.head(name), format!("`{name}` is {role}, not a function"))
+            .help(format!("write `{name}*(...)` to multiply"))
+    }
+
+    /// Every name that may be meant in any frame.
+    fn declared(&self) -> impl Iterator<Item = &str> {
+        let constants = self.scope.constants().map(|(name, _)| name);
+        constants.chain(self.scope.functions()).chain(builtin::names())
+    }
+}
+
+impl Frame<'_> {
+    /// The names that the formula or function has of its own.
+    fn listing(&self) -> String {
+        let names: Vec<String> =
+            self.locals.iter().map(|(local, _)| format!("`{local}`")).collect();
+        match (self.function, names.is_empty()) {
+            (None, false) => format!("the variables are {}", names.join(", ")),
+            (None, true) => "there are no variables here".to_owned(),
+            (Some(name), false) => format!("the parameters of `{name}` are {}", names.join(", ")),
+            (Some(name), true) => format!("`{name}` has no parameters"),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Bound formulas.
+
+use std::collections::BTreeSet;
+
+use super::{
+    ast::Expr,
+    bind::Binder,
+    error::FormulaError,
+    number::Number,
+    program::{Instruction, Operand, read, run},
+    scope::Scope,
+};
+
+/// Registers that fit the stack; formulas that need more allocate.
+const FEW: usize = 8;
+const MANY: usize = 32;
+
+/// A formula whose names have been resolved, ready to be evaluated.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    source: String,
+    uses: BTreeSet<String>,
+    variables: usize,
+    code: Vec<Instruction>,
+    registers: usize,
+    result: Operand,
+}
+
+impl Formula {
+    /// Resolves the names in `expr`: first as one of the `variables`, then in `scope`.
+    ///
+    /// # Errors
+    /// When a name is unknown, taken twice or used wrongly, when functions call each other in a
+    /// circle, when the bounds of a sum are not whole constants, or when a limit is exceeded.
+    pub fn bind(expr: &Expr, scope: &Scope, variables: &[&str]) -> Result<Self, FormulaError> {
+        for (position, variable) in variables.iter().enumerate() {
+            scope.fresh(variable, 0..variable.len())?;
+            if variables[..position].contains(variable) {
+                let message = format!("`{variable}` is already a variable");
+                return Err(FormulaError::new(0..variable.len(), message));
+            }
+        }
+        let mut binder = Binder::new(scope);
+        let result = binder.formula(expr, variables)?;
+        Ok(Self {
+            source: expr.source().to_owned(),
+            uses: binder.uses,
+            variables: variables.len(),
+            code: binder.code,
+            registers: binder.registers,
+            result,
+        })
+    }
+
+    /// The value at `variables`, which come in the order given to [`Formula::bind`].
+    ///
+    /// # Panics
+    /// If the number of variables is not the one that the formula was bound to.
+    pub fn eval<T: Number>(&self, variables: &[T]) -> T {
+        assert_eq!(variables.len(), self.variables, "variables of `{}`", self.source);
+        let zero = T::from(0.0);
+        match self.registers {
+            0 => self.run(variables, &mut []),
+            1..=FEW => self.run(variables, &mut [zero; FEW]),
+            ..=MANY => self.run(variables, &mut [zero; MANY]),
+            many => self.run(variables, &mut vec![zero; many]),
+        }
+    }
+
+    /// The text of the formula.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// The constants and functions of the scope that the formula uses, be it through functions.
+    pub fn uses(&self) -> &BTreeSet<String> {
+        &self.uses
+    }
+
+    /// The value, if no variable has a part in it.
+    pub fn constant(&self) -> Option<f64> {
+        match self.result {
+            Operand::Constant(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    fn run<T: Number>(&self, variables: &[T], registers: &mut [T]) -> T {
+        run(&self.code, 0, variables, registers);
+        read(self.result, variables, registers)
+    }
+}

@@ -1,0 +1,30 @@
+//! What may have been meant by an unknown name.
+
+use strsim::damerau_levenshtein;
+
+/// Names that other languages have and this one writes differently.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("e", "there is no constant `e`: write `exp(1)`"),
+    ("log", "the natural logarithm is `ln`"),
+    ("pow", "a power is written `a^b`"),
+    ("heaviside", "the unit step is `step`"),
+];
+
+/// What to write for the unknown `name`, if it resembles a candidate or is known elsewhere.
+pub(super) fn hint<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
+    let elsewhere = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
+    if let Some((_, help)) = elsewhere {
+        return Some((*help).to_owned());
+    }
+    nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
+}
+
+/// The most similar candidate. One error in three letters is tolerated, and any difference of case.
+fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = name.to_lowercase();
+    candidates
+        .map(|candidate| (damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
+        .filter(|(distance, _)| *distance <= name.len() / 3)
+        .min()
+        .map(|(_, candidate)| candidate)
+}

@@ -1,0 +1,217 @@
+//! Automatic differentiation to second order.
+
+use std::{
+    array::from_fn,
+    ops::{Add, Div, Mul, Neg, Sub},
+};
+
+use super::{
+    number::{Number, whole},
+    unary::Unary,
+};
+
+/// A value with its first and second derivatives with respect to `N` variables, for instance the
+/// coordinates of a point and the time.
+///
+/// The chain rule is applied exactly; there are no differences. `max`, `min`, `abs`, `sign`, `step`
+/// and `floor` are differentiated on the branch that was chosen, as if there were no kink or jump.
+/// Where a derivative does not exist otherwise, as that of `sqrt` at 0, it is infinite or NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jet<const N: usize> {
+    value: f64,
+    gradient: [f64; N],
+    hessian: [[f64; N]; N],
+}
+
+impl<const N: usize> Jet<N> {
+    /// The variable number `index`, at `value`.
+    ///
+    /// # Panics
+    /// If `index` is not below `N`.
+    pub fn variable(value: f64, index: usize) -> Self {
+        let mut jet = Self::from(value);
+        jet.gradient[index] = 1.0;
+        jet
+    }
+
+    /// The value, without derivatives.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The first derivative with respect to the variable `i`.
+    ///
+    /// # Panics
+    /// If `i` is not below `N`.
+    pub fn d(&self, i: usize) -> f64 {
+        self.gradient[i]
+    }
+
+    /// The second derivative with respect to the variables `i` and `j`.
+    ///
+    /// # Panics
+    /// If `i` or `j` is not below `N`.
+    pub fn dd(&self, i: usize, j: usize) -> f64 {
+        self.hessian[i][j]
+    }
+
+    /// Builds a jet from its value and the formulas of its derivatives.
+    fn build(
+        value: f64,
+        first: impl Fn(usize) -> f64,
+        second: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        Self { value, gradient: from_fn(&first), hessian: from_fn(|i| from_fn(|j| second(i, j))) }
+    }
+
+    /// The chain rule for a function of one argument with derivatives `f1` and `f2` at `self`.
+    fn chain(&self, value: f64, f1: f64, f2: f64) -> Self {
+        let jet = Self::build(
+            value,
+            |i| f1 * self.gradient[i],
+            |i, j| f2 * (self.gradient[i] * self.gradient[j]) + f1 * self.hessian[i][j],
+        );
+        if f1.is_finite() && f2.is_finite() { jet } else { jet.flattened(|i| self.is_flat(i)) }
+    }
+
+    /// Whether the variable `i` has no part in this jet.
+    fn is_flat(&self, i: usize) -> bool {
+        self.gradient[i] == 0.0 && self.hessian[i].iter().all(|&second| second == 0.0)
+    }
+
+    /// Clears the derivatives with respect to those variables that have no part in the argument.
+    /// An infinite derivative of the function, times 0, would make them NaN.
+    fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
+        Self::build(
+            self.value,
+            |i| if flat(i) { 0.0 } else { self.gradient[i] },
+            |i, j| if flat(i) || flat(j) { 0.0 } else { self.hessian[i][j] },
+        )
+    }
+}
+
+impl<const N: usize> From<f64> for Jet<N> {
+    /// A constant.
+    fn from(value: f64) -> Self {
+        Self { value, gradient: [0.0; N], hessian: [[0.0; N]; N] }
+    }
+}
+
+impl<const N: usize> Neg for Jet<N> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::build(-self.value, |i| -self.gradient[i], |i, j| -self.hessian[i][j])
+    }
+}
+
+impl<const N: usize> Add for Jet<N> {
+    type Output = Self;
+
+    fn add(self, b: Self) -> Self {
+        Self::build(
+            self.value + b.value,
+            |i| self.gradient[i] + b.gradient[i],
+            |i, j| self.hessian[i][j] + b.hessian[i][j],
+        )
+    }
+}
+
+impl<const N: usize> Sub for Jet<N> {
+    type Output = Self;
+
+    fn sub(self, b: Self) -> Self {
+        Self::build(
+            self.value - b.value,
+            |i| self.gradient[i] - b.gradient[i],
+            |i, j| self.hessian[i][j] - b.hessian[i][j],
+        )
+    }
+}
+
+impl<const N: usize> Mul for Jet<N> {
+    type Output = Self;
+
+    fn mul(self, b: Self) -> Self {
+        Self::build(
+            self.value * b.value,
+            |i| self.value * b.gradient[i] + b.value * self.gradient[i],
+            |i, j| {
+                let mixed = self.gradient[i] * b.gradient[j] + self.gradient[j] * b.gradient[i];
+                self.value * b.hessian[i][j] + b.value * self.hessian[i][j] + mixed
+            },
+        )
+    }
+}
+
+impl<const N: usize> Div for Jet<N> {
+    type Output = Self;
+
+    /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''.
+    fn div(self, b: Self) -> Self {
+        let value = self.value / b.value;
+        let gradient: [f64; N] = from_fn(|i| (self.gradient[i] - value * b.gradient[i]) / b.value);
+        Self::build(
+            value,
+            |i| gradient[i],
+            |i, j| {
+                let mixed = gradient[i] * b.gradient[j] + gradient[j] * b.gradient[i];
+                (self.hessian[i][j] - value * b.hessian[i][j] - mixed) / b.value
+            },
+        )
+    }
+}
+
+impl<const N: usize> Number for Jet<N> {
+    fn value(&self) -> f64 {
+        self.value
+    }
+
+    fn unary(self, function: Unary) -> Self {
+        let value = function.value(self.value);
+        let (first, second) = function.derivatives(self.value, value);
+        self.chain(value, first, second)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        // The derivatives are those of atan(y/x), or of -atan(x/y) where that is safer.
+        let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
+            (self / x).unary(Unary::Atan)
+        } else {
+            -(x / self).unary(Unary::Atan)
+        };
+        Self { value: libm::atan2(self.value, x.value), ..quotient }
+    }
+
+    fn powi(self, exponent: i32) -> Self {
+        let n = f64::from(exponent);
+        // x^0 and x^1 have vanishing derivatives, where the general rule says 0 * infinity at 0.
+        let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
+        let second = match exponent {
+            0 | 1 => 0.0,
+            _ => n * (n - 1.0) * power(self.value, n - 2.0),
+        };
+        self.chain(power(self.value, n), first, second)
+    }
+
+    fn pow(self, exponent: Self) -> Self {
+        let (a, b) = (self.value, exponent.value);
+        if (0..N).all(|i| exponent.is_flat(i)) {
+            return match whole(b) {
+                Some(whole) => self.powi(whole),
+                None => {
+                    let first = b * power(a, b - 1.0);
+                    self.chain(power(a, b), first, b * (b - 1.0) * power(a, b - 2.0))
+                }
+            };
+        }
+        // a^b = exp(b*ln(a)), and every derivative of the exponential is its value.
+        let value = power(a, b);
+        (exponent * self.unary(Unary::Ln)).chain(value, value, value)
+    }
+}
+
+/// The power over `f64`, so that the value of a jet has the bits of the plain evaluation.
+fn power(base: f64, exponent: f64) -> f64 {
+    Number::pow(base, exponent)
+}

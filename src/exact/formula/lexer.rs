@@ -1,0 +1,171 @@
+//! Text to tokens.
+
+use std::ops::Range;
+
+use super::error::FormulaError;
+
+/// Longest source that is read, in bytes.
+const MAX_BYTES: usize = 16 * 1024;
+/// Most tokens in one formula.
+const MAX_TOKENS: usize = 4096;
+const SYMBOLS: &[u8] = b"+-*/^(),";
+
+/// The smallest unit of a formula.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Token<'a> {
+    Number(f64),
+    Name(&'a str),
+    Symbol(char),
+    End,
+}
+
+/// A token and its place in the source.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lexeme<'a> {
+    pub(super) token: Token<'a>,
+    pub(super) span: Range<usize>,
+}
+
+/// All tokens of `source`, closed by one [`Token::End`].
+pub(super) fn tokens(source: &str) -> Result<Vec<Lexeme<'_>>, FormulaError> {
+    if source.len() > MAX_BYTES {
+        let message = format!("the formula is longer than {MAX_BYTES} bytes");
+        return Err(FormulaError::new(0..source.len(), message));
+    }
+    let mut lexer = Lexer { source, at: 0 };
+    let mut lexemes = Vec::new();
+    loop {
+        let lexeme = lexer.next()?;
+        if lexemes.len() == MAX_TOKENS && lexeme.token != Token::End {
+            let message = format!("the formula has more than {MAX_TOKENS} tokens");
+            return Err(FormulaError::new(lexeme.span, message));
+        }
+        let last = lexeme.token == Token::End;
+        lexemes.push(lexeme);
+        if last {
+            return Ok(lexemes);
+        }
+    }
+}
+
+/// Whether `name` has the form of a name: a letter or `_`, then letters, digits and `_`.
+pub(super) fn is_name(name: &str) -> bool {
+    name.bytes().next().is_some_and(starts_name) && name.bytes().all(continues_name)
+}
+
+fn starts_name(byte: u8) -> bool {
+    byte.is_ascii_alphabetic() || byte == b'_'
+}
+
+fn continues_name(byte: u8) -> bool {
+    byte.is_ascii_alphanumeric() || byte == b'_'
+}
+
+/// A position in the source. It moves over ASCII alone and so never rests inside a character.
+struct Lexer<'a> {
+    source: &'a str,
+    at: usize,
+}
+
+impl<'a> Lexer<'a> {
+    fn next(&mut self) -> Result<Lexeme<'a>, FormulaError> {
+        self.skip(|byte| byte.is_ascii_whitespace());
+        let start = self.at;
+        let token = match self.peek(0) {
+            None => Token::End,
+            Some(byte) if byte.is_ascii_digit() || byte == b'.' => self.number()?,
+            Some(byte) if starts_name(byte) => Token::Name(self.name()),
+            Some(byte) if SYMBOLS.contains(&byte) => {
+                self.at += 1;
+                Token::Symbol(char::from(byte))
+            }
+            Some(_) => return Err(self.foreign()),
+        };
+        Ok(Lexeme { token, span: start..self.at })
+    }
+
+    fn peek(&self, ahead: usize) -> Option<u8> {
+        self.source.as_bytes().get(self.at + ahead).copied()
+    }
+
+    fn digit(&self, ahead: usize) -> bool {
+        self.peek(ahead).is_some_and(|byte| byte.is_ascii_digit())
+    }
+
+    /// Moves over the bytes that satisfy `accept` and returns how many they are.
+    fn skip(&mut self, accept: impl Fn(u8) -> bool) -> usize {
+        let start = self.at;
+        while self.peek(0).is_some_and(&accept) {
+            self.at += 1;
+        }
+        self.at - start
+    }
+
+    fn name(&mut self) -> &'a str {
+        let start = self.at;
+        self.skip(continues_name);
+        &self.source[start..self.at]
+    }
+
+    fn number(&mut self) -> Result<Token<'a>, FormulaError> {
+        let start = self.at;
+        self.mantissa()?;
+        self.exponent();
+        let text = &self.source[start..self.at];
+        self.refuse_tail(start, text)?;
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(Token::Number(value)),
+            _ => {
+                Err(FormulaError::new(start..self.at, format!("the number `{text}` is too large")))
+            }
+        }
+    }
+
+    fn mantissa(&mut self) -> Result<(), FormulaError> {
+        let start = self.at;
+        self.skip(|byte| byte.is_ascii_digit());
+        if self.peek(0) == Some(b'.') {
+            self.at += 1;
+            if self.skip(|byte| byte.is_ascii_digit()) == 0 {
+                return Err(FormulaError::new(start..self.at, "expected a digit after `.`"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes `e` or `E` for an exponent only if digits follow, since `E` is also a common name.
+    fn exponent(&mut self) {
+        let sign = usize::from(matches!(self.peek(1), Some(b'+' | b'-')));
+        if matches!(self.peek(0), Some(b'e' | b'E')) && self.digit(1 + sign) {
+            self.at += 1 + sign;
+            self.skip(|byte| byte.is_ascii_digit());
+        }
+    }
+
+    /// Refuses `2E` and `1.2.3`: nothing that could belong to a number may follow one.
+    fn refuse_tail(&mut self, start: usize, number: &str) -> Result<(), FormulaError> {
+        let name = self.name();
+        if !name.is_empty() {
+            let message = format!("`{number}{name}` is neither a number nor a name");
+            return Err(FormulaError::new(start..self.at, message)
+                .help(format!("write `{number}*{name}` to multiply")));
+        }
+        if self.peek(0) == Some(b'.') {
+            self.at += 1;
+            let message = format!("the number `{number}` is followed by a second `.`");
+            return Err(FormulaError::new(start..self.at, message));
+        }
+        Ok(())
+    }
+
+    fn foreign(&self) -> FormulaError {
+        let found = self.source[self.at..].chars().next().unwrap_or_default();
+        let span = self.at..self.at + found.len_utf8();
+        let error =
+            FormulaError::new(span, format!("unexpected character `{}`", found.escape_debug()));
+        if found.is_ascii() {
+            return error;
+        }
+        error.help("formulas are ASCII: spell letters out, as in `omega`, and use `-`, `*`, `/`")
+    }
+}

@@ -1,0 +1,70 @@
+//! The formula language of suites.
+//!
+//! A suite writes its numbers and its exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
+//! `v0/omega*sin(pi*X/(2*L))*sin(omega*t)`. A formula passes three stages:
+//!
+//! 1. [`Expr::parse`] turns text into a syntax tree and knows nothing of declared names.
+//! 2. [`Formula::bind`] resolves every name against a [`Scope`] and a list of variables, puts the
+//!    bodies of user functions in place, folds what is constant and leaves a flat program.
+//! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
+//!    first and second derivatives along.
+//!
+//! # Language
+//!
+//! - Numbers `1`, `1.5`, `.5`, `2e-3`; the constant `pi`. There is no constant `e`, because `E` is
+//!   Young's modulus: write `exp(1)`.
+//! - `+ - * / ^` and parentheses. `^` associates to the right and binds tighter than the unary
+//!   minus: `-2^2` is -4. There is no implicit multiplication.
+//! - The functions of [`Unary`] and [`Binary`], and `sum(n, from, to, body)`, whose bounds are
+//!   whole numbers known when the formula is bound.
+//! - User functions, declared with [`Scope::function`] in any order. They see constants, other
+//!   functions and their own parameters, never the variables of the formula that calls them.
+//!
+//! # Reproducibility
+//!
+//! Everything transcendental comes from `libm`, so that a formula has the same bits on every
+//! platform. The value of a [`Jet`] has the same bits as the evaluation over `f64`.
+//!
+//! # Hostile input
+//!
+//! Length, number of tokens, depth, size after inlining and number of operations are all limited;
+//! beyond a limit stands a [`FormulaError`], never an overflow of the stack or an endless loop.
+//!
+//! ```
+//! use mpm_verify::exact::formula::{Expr, Formula, Jet, Scope};
+//!
+//! let mut scope = Scope::new();
+//! scope.constant("omega", 3.0)?;
+//! let formula = Formula::bind(&Expr::parse("sin(omega*t)")?, &scope, &["t"])?;
+//! let jet = formula.eval(&[Jet::<1>::variable(0.0, 0)]);
+//! assert_eq!((jet.value(), jet.d(0), jet.dd(0, 0)), (0.0, 3.0, 0.0));
+//! # Ok::<(), mpm_verify::exact::formula::FormulaError>(())
+//! ```
+
+mod ast;
+mod binary;
+mod bind;
+mod bound;
+mod builtin;
+mod error;
+mod hint;
+mod jet;
+mod lambert;
+mod lexer;
+mod number;
+mod parser;
+mod program;
+mod scope;
+mod unary;
+
+#[cfg(test)]
+mod tests;
+
+pub use ast::Expr;
+pub use binary::Binary;
+pub use bound::Formula;
+pub use error::FormulaError;
+pub use jet::Jet;
+pub use number::Number;
+pub use scope::Scope;
+pub use unary::Unary;

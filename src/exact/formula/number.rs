@@ -1,0 +1,134 @@
+//! What formulas compute with.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::unary::Unary;
+
+/// Declares the elementary functions as methods.
+macro_rules! elementary {
+    ($($doc:literal $name:ident $variant:ident;)*) => {
+        $(
+            #[doc = $doc]
+            #[must_use]
+            fn $name(self) -> Self {
+                self.unary(Unary::$variant)
+            }
+        )*
+    };
+}
+
+/// A number that a formula can be evaluated over.
+///
+/// `f64` has inherent methods of the same names, which call the platform's mathematical library
+/// and win over those of this trait. Call them in code generic over `Number`, or as
+/// `Number::sin(x)`, if the bits have to be the same everywhere.
+pub trait Number:
+    Copy
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The value, without derivatives.
+    fn value(&self) -> f64;
+
+    /// A function of one argument.
+    #[must_use]
+    fn unary(self, function: Unary) -> Self;
+
+    /// The angle of the point (`x`, `self`).
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+
+    /// A whole power, by repeated multiplication: right for a negative or vanishing base too.
+    #[must_use]
+    fn powi(self, exponent: i32) -> Self;
+
+    /// A power. Where the exponent is a whole number without derivatives, it is [`powi`].
+    ///
+    /// [`powi`]: Number::powi
+    #[must_use]
+    fn pow(self, exponent: Self) -> Self;
+
+    /// The smaller of the two, `self` if they are equal, NaN if one is.
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        if self.value() <= other.value() || self.value().is_nan() { self } else { other }
+    }
+
+    /// The larger of the two, `self` if they are equal, NaN if one is.
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        if self.value() >= other.value() || self.value().is_nan() { self } else { other }
+    }
+
+    elementary! {
+        "Sine." sin Sin;
+        "Cosine." cos Cos;
+        "Tangent." tan Tan;
+        "Inverse sine." asin Asin;
+        "Inverse cosine." acos Acos;
+        "Inverse tangent." atan Atan;
+        "Hyperbolic sine." sinh Sinh;
+        "Hyperbolic cosine." cosh Cosh;
+        "Hyperbolic tangent." tanh Tanh;
+        "Inverse hyperbolic sine." asinh Asinh;
+        "Exponential." exp Exp;
+        "Natural logarithm." ln Ln;
+        "Square root." sqrt Sqrt;
+        "Absolute value." abs Abs;
+        "-1, 0 or 1." sign Sign;
+        "0 for x < 0, 1 for x >= 0." step Step;
+        "Largest whole number not above x." floor Floor;
+        "Principal branch of Lambert's W, for x >= 0." lambert_w LambertW;
+    }
+}
+
+impl Number for f64 {
+    fn value(&self) -> f64 {
+        *self
+    }
+
+    fn unary(self, function: Unary) -> Self {
+        function.value(self)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+
+    fn powi(self, exponent: i32) -> Self {
+        let power = whole_power(self, exponent.unsigned_abs());
+        if exponent < 0 { 1.0 / power } else { power }
+    }
+
+    fn pow(self, exponent: Self) -> Self {
+        match whole(exponent) {
+            Some(exponent) => Number::powi(self, exponent),
+            None => libm::pow(self, exponent),
+        }
+    }
+}
+
+/// `exponent` as an integer, if it is one.
+pub(super) fn whole(exponent: f64) -> Option<i32> {
+    let fits = exponent % 1.0 == 0.0 && libm::fabs(exponent) <= f64::from(i32::MAX);
+    fits.then_some(exponent as i32)
+}
+
+/// `base` to a power by repeated squaring; anything to the power 0 is 1.
+fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
+    let mut power = 1.0;
+    loop {
+        if exponent % 2 == 1 {
+            power *= base;
+        }
+        exponent /= 2;
+        if exponent == 0 {
+            return power;
+        }
+        base *= base;
+    }
+}

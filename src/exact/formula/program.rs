@@ -1,0 +1,91 @@
+//! A bound formula as a list of instructions, and the machine that runs it.
+//!
+//! There is no recursion here: sums jump back, and user functions have been put in place. The
+//! depth of a formula therefore costs no stack.
+
+use super::{binary::Binary, number::Number, unary::Unary};
+
+/// Where an instruction finds an argument.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Operand {
+    Constant(f64),
+    Variable(usize),
+    Register(usize),
+}
+
+/// One step, whose result goes to the register `to`.
+#[derive(Debug, Clone)]
+pub(super) struct Instruction {
+    pub(super) action: Action,
+    pub(super) to: usize,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Action {
+    Copy(Operand),
+    Negate(Operand),
+    Unary(Unary, Operand),
+    Binary(Binary, Operand, Operand),
+    Powi(Operand, i32),
+    Next(Loop),
+}
+
+/// The end of a sum's body: adds the term to the register `to`, and unless the index, in the
+/// register after it, is the last, increments it and goes back to the instruction `body`.
+#[derive(Debug, Clone)]
+pub(super) struct Loop {
+    pub(super) term: Operand,
+    pub(super) last: f64,
+    pub(super) body: usize,
+}
+
+impl Action {
+    /// Whether every argument satisfies `test`.
+    pub(super) fn reads_only(&self, test: impl Fn(Operand) -> bool) -> bool {
+        match self {
+            Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => test(*a),
+            Self::Binary(_, a, b) => test(*a) && test(*b),
+            Self::Next(end) => test(end.term),
+        }
+    }
+}
+
+/// Runs the instructions of `code` from `start` to the end.
+pub(super) fn run<T: Number>(
+    code: &[Instruction],
+    start: usize,
+    variables: &[T],
+    registers: &mut [T],
+) {
+    let mut at = start;
+    while let Some(Instruction { action, to }) = code.get(at) {
+        at += 1;
+        let get = |operand| read(operand, variables, registers);
+        let result = match action {
+            Action::Copy(a) => get(*a),
+            Action::Negate(a) => -get(*a),
+            Action::Unary(function, a) => get(*a).unary(*function),
+            Action::Binary(function, a, b) => function.apply(get(*a), get(*b)),
+            Action::Powi(a, exponent) => get(*a).powi(*exponent),
+            Action::Next(end) => {
+                let sum = registers[*to] + get(end.term);
+                let index = registers[to + 1].value();
+                if index < end.last {
+                    registers[to + 1] = T::from(index + 1.0);
+                    at = end.body;
+                }
+                sum
+            }
+        };
+        registers[*to] = result;
+    }
+}
+
+/// The value of an operand.
+pub(super) fn read<T: Number>(operand: Operand, variables: &[T], registers: &[T]) -> T {
+    match operand {
+        Operand::Constant(value) => T::from(value),
+        Operand::Variable(index) => variables[index],
+        Operand::Register(index) => registers[index],
+    }
+}

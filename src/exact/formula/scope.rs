@@ -1,0 +1,120 @@
+//! The names that a suite declares.
+
+use std::{collections::BTreeMap, ops::Range};
+
+use super::{ast::Expr, builtin::is_reserved, error::FormulaError, lexer::is_name};
+
+/// The constants and the functions that formulas may use.
+#[derive(Debug, Clone, Default)]
+pub struct Scope {
+    constants: BTreeMap<String, f64>,
+    functions: BTreeMap<String, Function>,
+}
+
+/// A user function.
+#[derive(Debug, Clone)]
+pub(super) struct Function {
+    pub(super) parameters: Vec<String>,
+    pub(super) body: Expr,
+}
+
+impl Scope {
+    /// A scope that declares nothing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Declares a constant, that is, a parameter of the suite.
+    ///
+    /// # Errors
+    /// When `name` is not a name or is taken, or when `value` is not finite.
+    pub fn constant(&mut self, name: &str, value: f64) -> Result<(), FormulaError> {
+        self.admit(name)?;
+        if !value.is_finite() {
+            let message = format!("the constant `{name}` is {value}, which is not finite");
+            return Err(FormulaError::new(0..name.len(), message));
+        }
+        self.constants.insert(name.to_owned(), value);
+        Ok(())
+    }
+
+    /// Declares a function. Its body is resolved when a formula that uses it is bound, so that
+    /// functions may be declared in any order.
+    ///
+    /// # Errors
+    /// When `name` or a parameter is not a name or is taken, or when a sum in the body has a
+    /// parameter for its index.
+    pub fn function(
+        &mut self,
+        name: &str,
+        parameters: &[String],
+        body: Expr,
+    ) -> Result<(), FormulaError> {
+        self.admit(name)?;
+        for (position, parameter) in parameters.iter().enumerate() {
+            self.fresh(parameter, 0..parameter.len())?;
+            if parameter == name || parameters[..position].contains(parameter) {
+                let message = format!("the parameter `{parameter}` of `{name}` is taken already");
+                return Err(FormulaError::new(0..parameter.len(), message));
+            }
+        }
+        if let Some(sum) = body.sums().find(|sum| parameters.contains(&sum.index)) {
+            let message = format!("`{}` is already a parameter of `{name}`", sum.index);
+            return Err(FormulaError::new(sum.index_span.clone(), message).within(name));
+        }
+        let function = Function { parameters: parameters.to_vec(), body };
+        self.functions.insert(name.to_owned(), function);
+        Ok(())
+    }
+
+    /// The constants declared, in alphabetical order.
+    pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.constants.iter().map(|(name, value)| (name.as_str(), *value))
+    }
+
+    /// The names of the functions declared, in alphabetical order.
+    pub fn functions(&self) -> impl Iterator<Item = &str> {
+        self.functions.keys().map(String::as_str)
+    }
+
+    pub(super) fn value(&self, name: &str) -> Option<f64> {
+        self.constants.get(name).copied()
+    }
+
+    pub(super) fn called(&self, name: &str) -> Option<(&str, &Function)> {
+        self.functions.get_key_value(name).map(|(name, function)| (name.as_str(), function))
+    }
+
+    /// Refuses a `name`, found at `span`, that is not a name or has a meaning already.
+    pub(super) fn fresh(&self, name: &str, span: Range<usize>) -> Result<(), FormulaError> {
+        let refuse = |role| Err(FormulaError::new(span, format!("`{name}` is already {role}")));
+        if !is_name(name) {
+            return Err(FormulaError::new(0..name.len(), format!("`{name}` is not a name"))
+                .help("a name is made of ASCII letters, digits and `_`, no digit first"));
+        }
+        if is_reserved(name) {
+            return refuse("a builtin name");
+        }
+        if self.constants.contains_key(name) {
+            return refuse("a constant");
+        }
+        if self.functions.contains_key(name) {
+            return refuse("a function");
+        }
+        Ok(())
+    }
+
+    /// Refuses the `name` of a declaration that has a meaning already, or a parameter's name.
+    fn admit(&self, name: &str) -> Result<(), FormulaError> {
+        self.fresh(name, 0..name.len())?;
+        let taken = |function: &Function| function.parameters.iter().any(|known| known == name);
+        match self.functions.iter().find(|(_, function)| taken(function)) {
+            None => Ok(()),
+            Some((function, _)) => {
+                let message =
+                    format!("`{name}` is already a parameter of the function `{function}`");
+                Err(FormulaError::new(0..name.len(), message))
+            }
+        }
+    }
+}

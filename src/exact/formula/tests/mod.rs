@@ -1,0 +1,34 @@
+//! Tests of the formula language as a whole.
+
+// Results are compared bit for bit where they are defined to be the same.
+#![allow(clippy::float_cmp)]
+
+mod derivatives;
+mod errors;
+mod functions;
+mod language;
+mod limits;
+mod random;
+
+use super::{Expr, Formula, FormulaError, Scope};
+
+/// Binds `source` to `variables`, with the constants of a bar in scope.
+fn bind(source: &str, variables: &[&str]) -> Result<Formula, FormulaError> {
+    Formula::bind(&Expr::parse(source)?, &bar(), variables)
+}
+
+/// The constants of a bar, and two functions.
+fn bar() -> Scope {
+    let mut scope = Scope::new();
+    for (name, value) in [("E", 4.0), ("rho", 2.0), ("L", 0.5), ("omega", 3.0), ("g", 10.0)] {
+        scope.constant(name, value).unwrap();
+    }
+    declare(&mut scope, "s", &["tau"], "-g/2*max(tau,0)^2");
+    declare(&mut scope, "wave", &["x", "t"], "s(x)+sin(omega*t)");
+    scope
+}
+
+fn declare(scope: &mut Scope, name: &str, parameters: &[&str], body: &str) {
+    let parameters: Vec<String> = parameters.iter().map(ToString::to_string).collect();
+    scope.function(name, &parameters, Expr::parse(body).unwrap()).unwrap();
+}

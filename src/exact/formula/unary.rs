@@ -1,0 +1,127 @@
+//! Functions of one argument: name, value, first and second derivative, one line each.
+
+use libm::{cos, cosh, exp, hypot, sin, sinh, sqrt};
+
+use super::lambert::lambert_w;
+
+/// Builds [`Unary`] and its tables. In a line, `x` is the argument and `f` the value at `x`.
+macro_rules! functions {
+    ($x:ident, $f:ident; $($doc:literal $name:ident $variant:ident = $value:expr,
+        $first:expr, $second:expr;)*) => {
+        /// A function of one argument.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Unary {
+            $(#[doc = $doc] $variant,)*
+        }
+
+        impl Unary {
+            /// Every function under its name in formulas.
+            pub const ALL: &'static [(&'static str, Self)] =
+                &[$((stringify!($name), Self::$variant),)*];
+
+            /// The value at `x`.
+            pub fn value(self, $x: f64) -> f64 {
+                match self {
+                    $(Self::$variant => $value,)*
+                }
+            }
+
+            /// First and second derivative at `x`, where `f` is the value at `x`.
+            pub fn derivatives(self, $x: f64, $f: f64) -> (f64, f64) {
+                match self {
+                    $(Self::$variant => ($first, $second),)*
+                }
+            }
+        }
+    };
+}
+
+functions! { x, f;
+    "Sine."
+    sin Sin = sin(x), cos(x), -f;
+    "Cosine."
+    cos Cos = cos(x), -sin(x), -f;
+    "Tangent."
+    tan Tan = libm::tan(x), 1.0 + f * f, 2.0 * f * (1.0 + f * f);
+    "Inverse sine."
+    asin Asin = libm::asin(x), 1.0 / root(x), x / cube(root(x));
+    "Inverse cosine."
+    acos Acos = libm::acos(x), -1.0 / root(x), -x / cube(root(x));
+    "Inverse tangent."
+    atan Atan = libm::atan(x), 1.0 / (1.0 + x * x), -2.0 * x / square(1.0 + x * x);
+    "Hyperbolic sine."
+    sinh Sinh = sinh(x), cosh(x), f;
+    "Hyperbolic cosine."
+    cosh Cosh = cosh(x), sinh(x), f;
+    "Hyperbolic tangent."
+    tanh Tanh = libm::tanh(x), 1.0 / square(cosh(x)), -2.0 * f / square(cosh(x));
+    "Inverse hyperbolic sine."
+    asinh Asinh = libm::asinh(x), 1.0 / hypot(1.0, x), -x / cube(hypot(1.0, x));
+    "Exponential."
+    exp Exp = exp(x), f, f;
+    "Natural logarithm."
+    ln Ln = libm::log(x), 1.0 / x, -1.0 / (x * x);
+    "Square root."
+    sqrt Sqrt = sqrt(x), 0.5 / f, -0.25 / (f * x);
+    "Absolute value; its derivative at 0 is that from the right."
+    abs Abs = libm::fabs(x), if x < 0.0 { -1.0 } else { 1.0 }, 0.0;
+    "-1, 0 or 1; its derivative is 0 everywhere."
+    sign Sign = sign(x), 0.0, 0.0;
+    "0 for x < 0, 1 for x >= 0; its derivative is 0 everywhere."
+    step Step = step(x), 0.0, 0.0;
+    "Largest whole number not above x; its derivative is 0 everywhere."
+    floor Floor = libm::floor(x), 0.0, 0.0;
+    "Principal branch of Lambert's W for x >= 0, the solution of w*exp(w) = x."
+    lambert_w LambertW = lambert_w(x), lambert_slope(f), lambert_curvature(f);
+}
+
+impl Unary {
+    /// The function called `name`.
+    pub(super) fn find(name: &str) -> Option<Self> {
+        Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+    }
+}
+
+fn square(x: f64) -> f64 {
+    x * x
+}
+
+fn cube(x: f64) -> f64 {
+    x * x * x
+}
+
+/// sqrt(1 - x^2), accurate near 1 and -1 too.
+fn root(x: f64) -> f64 {
+    sqrt((1.0 - x) * (1.0 + x))
+}
+
+/// The derivative of W where its value is `w`.
+fn lambert_slope(w: f64) -> f64 {
+    exp(-w) / (1.0 + w)
+}
+
+/// The second derivative of W where its value is `w`.
+fn lambert_curvature(w: f64) -> f64 {
+    -square(lambert_slope(w)) * (2.0 + w) / (1.0 + w)
+}
+
+/// NaN, like 0, is its own sign.
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        x
+    }
+}
+
+fn step(x: f64) -> f64 {
+    if x >= 0.0 {
+        1.0
+    } else if x < 0.0 {
+        0.0
+    } else {
+        x
+    }
+}

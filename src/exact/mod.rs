@@ -1,0 +1,21 @@
+//! The truth: exact solutions, and the proof that they are what they claim to be.
+//!
+//! A suite states its solution as formulas ([`formula`]); [`Problem`] says which continuum problem
+//! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
+//! runs. Knows no solver.
+
+mod equation;
+pub mod formula;
+mod motion;
+mod pointwise;
+mod problem;
+mod random;
+mod truth;
+mod violation;
+mod weak;
+
+pub use equation::Equation;
+pub use motion::{Derivatives, Motion};
+pub use problem::{Condition, Face, Problem};
+pub use truth::Truth;
+pub use violation::Violation;

@@ -1,0 +1,86 @@
+//! A motion given by formulas: displacement, velocity and every derivative that a check needs.
+
+use super::{
+    formula::{Formula, Jet},
+    truth::Truth,
+};
+
+/// Place of time among the four variables (X, Y, Z, t) of a jet.
+const T: usize = 3;
+
+/// A displacement field u(X, t) with one formula for each component, each a function of the
+/// reference coordinates (as many as there are components) and of t, in this order.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    components: Vec<Formula>,
+}
+
+/// Derivatives of a motion at one point and time; components and axes beyond the dimension are
+/// zero.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Derivatives {
+    /// u (m).
+    pub u: [f64; 3],
+    /// u_t (m/s).
+    pub velocity: [f64; 3],
+    /// u_tt (m/s2).
+    pub acceleration: [f64; 3],
+    /// `grad[i][j] = du_i/dX_j`.
+    pub grad: [[f64; 3]; 3],
+    /// `second[k][a][b] = d2 u_k/dX_a dX_b` (1/m).
+    pub second: [[[f64; 3]; 3]; 3],
+}
+
+impl Motion {
+    /// A motion from its components.
+    pub fn new(components: Vec<Formula>) -> Self {
+        Self { components }
+    }
+
+    /// Number of space dimensions.
+    pub fn dimension(&self) -> usize {
+        self.components.len()
+    }
+
+    /// Component i of the displacement.
+    pub fn component(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        self.components[i].eval(&variables(label, t)[..=label.len()])
+    }
+
+    /// All derivatives, by automatic differentiation.
+    pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
+        let mut seeds: [Jet<4>; 4] =
+            std::array::from_fn(|a| Jet::variable(label.get(a).copied().unwrap_or(0.0), a));
+        seeds[self.dimension()] = Jet::variable(t, T);
+        let mut all = Derivatives::default();
+        for (i, formula) in self.components.iter().enumerate() {
+            let jet = formula.eval(&seeds[..=self.dimension()]);
+            all.u[i] = jet.value();
+            all.velocity[i] = jet.d(T);
+            all.acceleration[i] = jet.dd(T, T);
+            all.grad[i] = std::array::from_fn(|a| jet.d(a));
+            all.second[i] = std::array::from_fn(|a| std::array::from_fn(|b| jet.dd(a, b)));
+        }
+        all
+    }
+}
+
+/// The coordinates followed by the time, in a fixed array.
+pub(super) fn variables(label: &[f64], t: f64) -> [f64; 4] {
+    let mut all = [0.0; 4];
+    all[..label.len()].copy_from_slice(label);
+    all[label.len()] = t;
+    all
+}
+
+impl Truth for Motion {
+    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        for (i, u) in into.iter_mut().enumerate() {
+            *u = self.component(i, label, t);
+        }
+    }
+
+    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        into.copy_from_slice(&self.derivatives(label, t).velocity[..self.dimension()]);
+    }
+}

@@ -1,0 +1,201 @@
+//! Conditions checked point by point.
+
+use super::{
+    formula::Formula,
+    motion::Derivatives,
+    problem::{Condition, Face, Problem},
+    random::Random,
+    violation::Violation,
+};
+
+/// Points per condition: a formula that is wrong on one part in twenty of the body is found with
+/// a probability above 0.96.
+const POINTS: usize = 64;
+
+/// Relative agreement asked of automatic differentiation and finite differences. Differences of
+/// second order with the steps below reach about 1e-6.
+const DIFFERENCE_TOLERANCE: f64 = 1e-4;
+
+/// Component names for messages.
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// One place and time of a check.
+struct Event {
+    label: Vec<f64>,
+    t: f64,
+}
+
+impl Event {
+    fn judge(&self, allowed: f64, condition: String, values: (f64, f64), unit: &'static str) -> Result<(), Violation> {
+        let (expected, found) = values;
+        if (found - expected).abs() <= allowed {
+            return Ok(());
+        }
+        Err(Violation { condition, label: self.label.clone(), t: self.t, expected, found, unit })
+    }
+}
+
+fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
+    let mut random = Random::new(seed);
+    let mut event = || {
+        let label = random.point(&problem.from, &problem.to);
+        let t = random.between(0.0, problem.until);
+        let all = problem.motion.derivatives(&label, t);
+        (Event { label, t }, all)
+    };
+    (0..POINTS).map(|_| event()).collect()
+}
+
+/// Largest value of a quantity over the interior points; NaN if any is NaN, so that every
+/// comparison with it fails.
+fn scale(problem: &Problem, quantity: impl Fn(&Event, &Derivatives) -> f64) -> f64 {
+    interior(problem, 1).iter().map(|(e, d)| quantity(e, d)).fold(0.0, |a, b| {
+        if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) }
+    })
+}
+
+fn largest(values: &[f64; 3]) -> f64 {
+    values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
+}
+
+/// u(X, 0) = 0 and u_t(X, 0) = v0(X); and the solution is not zero everywhere.
+pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
+    let size = scale(problem, |_, d| largest(&d.u));
+    let speed = scale(problem, |_, d| largest(&d.velocity));
+    for (event, _) in interior(problem, 2) {
+        let event = Event { t: 0.0, ..event };
+        let now = problem.motion.derivatives(&event.label, 0.0);
+        for i in 0..problem.dimension() {
+            let name = format!("initial condition u_{}(X, 0) = 0", AXES[i]);
+            event.judge(problem.tolerance * size, name, (0.0, now.u[i]), "m")?;
+            let start = formula_at(&problem.initial_velocity, i, &event);
+            let name = format!("initial condition on the velocity in {}", AXES[i]);
+            let allowed = problem.tolerance * speed.max(start.abs());
+            event.judge(allowed, name, (start, now.velocity[i]), "m/s")?;
+        }
+    }
+    let (event, _) = interior(problem, 1).swap_remove(0);
+    if size > 0.0 {
+        return Ok(());
+    }
+    let name = "the demand that the displacement is finite and not zero everywhere".to_owned();
+    event.judge(-1.0, name, (1.0, size), "m")
+}
+
+fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
+    let variables = super::motion::variables(&event.label, event.t);
+    formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
+}
+
+/// u = 0 or P n = p0 on every face.
+pub(super) fn boundary(problem: &Problem) -> Result<(), Violation> {
+    let size = scale(problem, |_, d| largest(&d.u));
+    let stress = problem.equation.modulus()
+        * scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max));
+    let mut random = Random::new(3);
+    for face in &problem.faces {
+        for _ in 0..POINTS {
+            let mut label = random.point(&problem.from, &problem.to);
+            label[face.axis] =
+                if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
+            let event = Event { label, t: random.between(0.0, problem.until) };
+            on_face(problem, face, &event, size, stress)?;
+        }
+    }
+    Ok(())
+}
+
+fn on_face(
+    problem: &Problem,
+    face: &Face,
+    event: &Event,
+    size: f64,
+    stress: f64,
+) -> Result<(), Violation> {
+    let all = problem.motion.derivatives(&event.label, event.t);
+    let normal = if face.high { 1.0 } else { -1.0 };
+    for i in 0..problem.dimension() {
+        let pulled = match &face.condition {
+            Condition::Fixed => {
+                let name = format!("boundary condition: {} is fixed, u_{} = 0", face.name, AXES[i]);
+                event.judge(problem.tolerance * size, name, (0.0, all.u[i]), "m")?;
+                continue;
+            }
+            Condition::Traction(value) => value[i].eval(&[event.t]),
+            Condition::Free => 0.0,
+        };
+        let found = normal * problem.equation.piola(&all.grad, i, face.axis);
+        let what = if matches!(face.condition, Condition::Free) { "free" } else { "loaded" };
+        let name =
+            format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
+        let allowed = problem.tolerance * stress.max(pulled.abs());
+        event.judge(allowed, name, (pulled, found), "Pa")?;
+    }
+    Ok(())
+}
+
+/// `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation.
+pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
+    let points = interior(problem, 4);
+    let terms = |event: &Event, d: &Derivatives, i: usize| {
+        let inertia = problem.density * d.acceleration[i];
+        let stress = problem.equation.divergence(&d.second, i);
+        (inertia, stress, problem.density * problem.force(i, &event.label, event.t))
+    };
+    let size = scale(problem, |event, d| {
+        (0..problem.dimension())
+            .map(|i| terms(event, d, i))
+            .map(|(a, b, c)| a.abs() + b.abs() + c.abs())
+            .sum()
+    });
+    for (event, d) in &points {
+        for i in 0..problem.dimension() {
+            let (inertia, stress, force) = terms(event, d, i);
+            let name = format!("equation of motion in {}, rho0 u_tt = Div P + rho0 b,", AXES[i]);
+            let allowed = problem.tolerance * size;
+            event.judge(allowed, name, (stress + force, inertia), "N/m3")?;
+        }
+    }
+    Ok(())
+}
+
+/// Automatic differentiation against central differences. A kink (a wave front) that happens to
+/// lie within the reach of the differences is no fault, so a point is moved twice before it
+/// counts.
+pub(super) fn differentiation(problem: &Problem) -> Result<(), Violation> {
+    let mut random = Random::new(5);
+    let speed = scale(problem, |_, d| largest(&d.velocity));
+    let acceleration = scale(problem, |_, d| largest(&d.acceleration));
+    for _ in 0..POINTS / 4 {
+        let mut last = Ok(());
+        for _ in 0..3 {
+            let label = random.point(&problem.from, &problem.to);
+            let event = Event { label, t: random.between(0.0, problem.until) };
+            last = differences(problem, &event, speed, acceleration);
+            if last.is_ok() {
+                break;
+            }
+        }
+        last?;
+    }
+    Ok(())
+}
+
+fn differences(problem: &Problem, event: &Event, speed: f64, acceleration: f64) -> Result<(), Violation> {
+    let step = 1e-4 * problem.until;
+    let all = problem.motion.derivatives(&event.label, event.t);
+    for i in 0..problem.dimension() {
+        let u = |t: f64| problem.motion.component(i, &event.label, t);
+        let (low, mid, high) = (u(event.t - step), u(event.t), u(event.t + step));
+        let name = format!("agreement of two differentiations of u_{} in time", AXES[i]);
+        let allowed = DIFFERENCE_TOLERANCE * speed;
+        let slope = (high - low) / (2.0 * step);
+        event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
+        // The second difference loses digits: u itself, known to 1e-16, is divided by step^2.
+        let rounding = 1e-13 * (low.abs() + mid.abs() + high.abs()) / (step * step);
+        let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;
+        let curvature = (high - 2.0 * mid + low) / (step * step);
+        event.judge(allowed, name, (curvature, all.acceleration[i]), "m/s2")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,30 @@
+//! Reproducible points: the same suite is checked at the same places on every machine.
+
+/// `SplitMix64` (Steele, Lea & Flood 2014): enough randomness to scatter check points.
+#[derive(Debug, Clone)]
+pub(super) struct Random(u64);
+
+impl Random {
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Uniform in (0, 1), both ends excluded.
+    pub(super) fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (((z ^ (z >> 31)) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
+    }
+
+    /// Uniform in (low, high).
+    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A point inside a box.
+    pub(super) fn point(&mut self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        from.iter().zip(to).map(|(a, b)| self.between(*a, *b)).collect()
+    }
+}

@@ -1,0 +1,10 @@
+//! What the judge asks of a truth.
+
+/// A solution that is known: closed form, manufactured, or a much finer computation.
+pub trait Truth: Send + Sync {
+    /// Displacement (m) of the point with reference position `label` at time `t` (s), D numbers.
+    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]);
+
+    /// Velocity (m/s) of that point, D numbers.
+    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
+}

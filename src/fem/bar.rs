@@ -1,0 +1,225 @@
+//! The bar in motion.
+
+use super::mass::MassMatrix;
+use super::mesh::{Mesh, dot};
+use super::setup::{Field, Setup, SetupError};
+use crate::subject::{Census, Failure, Samples, Site, Start, Subject};
+
+/// A bar, discretised by finite elements, at some instant.
+pub struct Bar {
+    setup: Setup,
+    pub(super) mesh: Mesh,
+    nodes: Vec<f64>,
+    mass: MassMatrix,
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    /// Holds the nodal forces until the mass matrix has been solved with.
+    acceleration: Vec<f64>,
+    /// F at the quadrature points of the present state, element after element.
+    def_grad: Vec<f64>,
+    time: f64,
+    /// How far the velocities are behind the displacements (s).
+    lag: f64,
+    transfers: u64,
+    min_j: f64,
+}
+
+impl Bar {
+    /// Puts the bar into its initial state.
+    ///
+    /// # Errors
+    /// [`SetupError`] names what makes no sense in `setup`.
+    pub fn new(setup: Setup) -> Result<Self, SetupError> {
+        setup.check()?;
+        let mesh = Mesh::new(setup.from, setup.to, setup.cells, setup.element);
+        let mass = MassMatrix::new(setup.mass, &mesh, setup.density, setup.fixed)?;
+        let nodes: Vec<f64> = (0..mesh.node_count()).map(|i| mesh.node(i)).collect();
+        let mut bar = Self {
+            displacement: interpolant(&nodes, setup.fixed, &setup.initial_displacement),
+            velocity: interpolant(&nodes, setup.fixed, &setup.initial_velocity),
+            acceleration: vec![0.0; nodes.len()],
+            def_grad: vec![1.0; mesh.cells() * mesh.points().len()],
+            time: 0.0,
+            lag: 0.0,
+            transfers: 0,
+            min_j: f64::INFINITY,
+            setup,
+            mesh,
+            nodes,
+            mass,
+        };
+        all_finite("initial displacement", &bar.displacement)?;
+        all_finite("initial velocity", &bar.velocity)?;
+        bar.deform()?;
+        Ok(bar)
+    }
+
+    /// Present time (s).
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Reference positions of the nodes (m).
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// Displacements of the nodes (m).
+    pub fn nodal_displacements(&self) -> &[f64] {
+        &self.displacement
+    }
+
+    /// Velocities of the nodes at the present time (m/s), see [`Bar::velocity_at`].
+    pub fn nodal_velocities(&self) -> impl Iterator<Item = f64> {
+        self.velocity.iter().zip(&self.acceleration).map(|(v, a)| v + self.lag * a)
+    }
+
+    /// Displacement (m) at any reference position; beyond an end, that of the end.
+    pub fn displacement_at(&self, x: f64) -> f64 {
+        let (cell, place) = self.mesh.locate(x);
+        self.displacement_in(cell, place)
+    }
+
+    /// Velocity (m/s) at any reference position; beyond an end, that of the end.
+    ///
+    /// [`Start::HalfStepBack`] steps velocities of half a step ago. Here the last acceleration
+    /// brings them to the present time, which is accurate to second order.
+    pub fn velocity_at(&self, x: f64) -> f64 {
+        let (cell, place) = self.mesh.locate(x);
+        self.velocity_in(cell, place)
+    }
+
+    /// Displacement at a place of a cell.
+    pub(super) fn displacement_in(&self, cell: usize, place: f64) -> f64 {
+        self.mesh.interpolate(cell, place, &self.displacement)
+    }
+
+    /// Velocity at a place of a cell, brought to the present time.
+    pub(super) fn velocity_in(&self, cell: usize, place: f64) -> f64 {
+        let velocity = self.mesh.interpolate(cell, place, &self.velocity);
+        velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
+    }
+
+    /// F at every quadrature point. An element that is turned inside out has no physical stress,
+    /// and an infinite or undefined nodal value always shows as an F that is not finite.
+    fn deform(&mut self) -> Result<(), Failure> {
+        let points = self.mesh.points();
+        for (cell, def_grads) in self.def_grad.chunks_exact_mut(points.len()).enumerate() {
+            let local = self.mesh.local(cell, &self.displacement);
+            for (def_grad, point) in def_grads.iter_mut().zip(points) {
+                *def_grad = 1.0 + dot(&point.gradient, local);
+                if !def_grad.is_finite() {
+                    let (quantity, site) = ("deformation gradient", Site::Element(cell));
+                    return Err(Failure::NonFinite { quantity, site });
+                }
+                self.min_j = self.min_j.min(*def_grad);
+                if *def_grad <= 0.0 {
+                    return Err(Failure::Inverted { site: Site::Element(cell), j: *def_grad });
+                }
+            }
+        }
+        self.count_visits();
+        Ok(())
+    }
+
+    /// Nodal forces per unit area, in the order: inside, body force, ends.
+    fn force(&mut self) -> Result<(), Failure> {
+        self.acceleration.fill(0.0);
+        let points = self.mesh.points();
+        for (cell, def_grads) in self.def_grad.chunks_exact(points.len()).enumerate() {
+            let local = self.mesh.local_mut(cell, &mut self.acceleration);
+            for (point, &def_grad) in points.iter().zip(def_grads) {
+                let piola = (self.setup.law)(def_grad) * point.weight;
+                for (force, gradient) in local.iter_mut().zip(point.gradient) {
+                    *force -= piola * gradient;
+                }
+            }
+        }
+        self.count_visits();
+        self.add_body_force();
+        self.add_ends();
+        all_finite("force", &self.acceleration)
+    }
+
+    /// `int rho0 b N_i dX`.
+    fn add_body_force(&mut self) {
+        let Some(body_force) = &self.setup.body_force else { return };
+        for cell in 0..self.mesh.cells() {
+            let local = self.mesh.local_mut(cell, &mut self.acceleration);
+            for point in self.mesh.points() {
+                let x = self.mesh.position(cell, point.place);
+                let load = self.setup.density * body_force(x, self.time) * point.weight;
+                for (force, shape) in local.iter_mut().zip(point.shape) {
+                    *force += load * shape;
+                }
+            }
+        }
+        self.count_visits();
+    }
+
+    /// Tractions, whose sign is that of the outward normal; the support takes what is left.
+    fn add_ends(&mut self) {
+        let last = self.acceleration.len() - 1;
+        for (end, (node, normal)) in [(0, -1.0), (last, 1.0)].into_iter().enumerate() {
+            if let Some(traction) = &self.setup.traction[end] {
+                self.acceleration[node] += normal * traction(self.time);
+            }
+            if self.setup.fixed[end] {
+                self.acceleration[node] = 0.0;
+            }
+        }
+    }
+
+    /// Counts one visit of each node of an element from each of its quadrature points.
+    fn count_visits(&mut self) {
+        self.transfers += (self.def_grad.len() * self.mesh.element().nodes()) as u64;
+    }
+}
+
+impl Subject for Bar {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.force()?;
+        self.mass.solve(&mut self.acceleration);
+        let (kick, lag) = match self.setup.start {
+            Start::AtZero => (dt, 0.0),
+            // From the middle of the step before (from t = 0, if there is none) to that of this.
+            Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
+        };
+        let motion = self.displacement.iter_mut().zip(&mut self.velocity);
+        for ((u, v), a) in motion.zip(&self.acceleration) {
+            *v += kick * a;
+            *u += dt * *v;
+        }
+        self.lag = lag;
+        self.time += dt;
+        self.deform()
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        self.sample_as(self.setup.sampling, samples);
+    }
+
+    fn census(&self) -> Census {
+        Census {
+            particles: None,
+            transfers: self.transfers,
+            crossings: None,
+            left_domain: None,
+            min_j: self.min_j,
+        }
+    }
+}
+
+/// Nodal values of a field, and zero where the bar is held.
+fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &Field) -> Vec<f64> {
+    let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == nodes.len());
+    let value = |(i, &x): (usize, &f64)| if is_fixed(i) { 0.0 } else { field(x) };
+    nodes.iter().enumerate().map(value).collect()
+}
+
+fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
+    match nodal.iter().position(|value| !value.is_finite()) {
+        Some(node) => Err(Failure::NonFinite { quantity, site: Site::Node(node) }),
+        None => Ok(()),
+    }
+}

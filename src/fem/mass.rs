@@ -1,0 +1,107 @@
+//! The mass matrix, and accelerations from forces.
+
+use nalgebra::DMatrixViewMut;
+use nalgebra_sparse::factorization::CscCholesky;
+use nalgebra_sparse::{CooMatrix, CscMatrix};
+
+use super::Mass;
+use super::mesh::Mesh;
+use crate::subject::Failure;
+
+/// A mass matrix that is ready to be solved with, as often as there are steps.
+pub(super) enum MassMatrix {
+    /// The diagonal.
+    Lumped(Vec<f64>),
+    /// The Cholesky factor. It keeps the band of the matrix, so nothing is lost by a library that
+    /// does not reorder.
+    Consistent(Box<CscCholesky<f64>>),
+}
+
+impl MassMatrix {
+    /// Assembles, and factorises if there is something to factorise.
+    pub(super) fn new(
+        mass: Mass,
+        mesh: &Mesh,
+        density: f64,
+        fixed: [bool; 2],
+    ) -> Result<Self, Failure> {
+        match mass {
+            Mass::Lumped => Ok(Self::Lumped(lumped(mesh, density))),
+            Mass::Consistent => {
+                let matrix = CscMatrix::from(&held(&consistent(mesh, density), fixed));
+                let factor = CscCholesky::factor(&matrix)
+                    .map_err(|error| Failure::Solve(format!("mass matrix: {error}")))?;
+                Ok(Self::Consistent(Box::new(factor)))
+            }
+        }
+    }
+
+    /// Turns forces into accelerations, in place: neither branch allocates. The force on a fixed
+    /// node has to be zero, and so its acceleration will be.
+    pub(super) fn solve(&self, force: &mut [f64]) {
+        match self {
+            Self::Lumped(diagonal) => {
+                for (force, mass) in force.iter_mut().zip(diagonal) {
+                    *force /= mass;
+                }
+            }
+            Self::Consistent(factor) => {
+                let rows = force.len();
+                factor.solve_mut(DMatrixViewMut::from_slice(force, rows, 1));
+            }
+        }
+    }
+}
+
+/// Reference length that belongs to each node, `int N_i dX` (m).
+pub(super) fn nodal_lengths(mesh: &Mesh) -> Vec<f64> {
+    let mut lengths = vec![0.0; mesh.node_count()];
+    for cell in 0..mesh.cells() {
+        let shares = mesh.element().shares();
+        for (length, share) in mesh.local_mut(cell, &mut lengths).iter_mut().zip(shares) {
+            *length += share * mesh.cell_length();
+        }
+    }
+    lengths
+}
+
+/// Sums of the rows of the consistent matrix (kg/m2).
+pub(super) fn lumped(mesh: &Mesh, density: f64) -> Vec<f64> {
+    nodal_lengths(mesh).into_iter().map(|length| density * length).collect()
+}
+
+/// `int rho0 N_i N_j dX` (kg/m2), element after element.
+pub(super) fn consistent(mesh: &Mesh, density: f64) -> CooMatrix<f64> {
+    let mut matrix = CooMatrix::new(mesh.node_count(), mesh.node_count());
+    for cell in 0..mesh.cells() {
+        let first = mesh.first_node(cell);
+        for a in 0..mesh.element().nodes() {
+            for b in 0..mesh.element().nodes() {
+                matrix.push(first + a, first + b, density * product(mesh, a, b));
+            }
+        }
+    }
+    matrix
+}
+
+/// `int N_a N_b dX` over one element (m).
+fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
+    mesh.points().iter().map(|point| point.weight * (point.shape[a] * point.shape[b])).sum()
+}
+
+/// The matrix of the nodes that are free to move: the row and the column of a fixed node become
+/// those of the identity, which keeps the numbering and leaves the matrix positive definite.
+fn held(matrix: &CooMatrix<f64>, fixed: [bool; 2]) -> CooMatrix<f64> {
+    let size = matrix.nrows();
+    let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == size);
+    let mut free = CooMatrix::new(size, size);
+    for (i, j, &value) in matrix.triplet_iter() {
+        if !is_fixed(i) && !is_fixed(j) {
+            free.push(i, j, value);
+        }
+    }
+    for i in [0, size - 1].into_iter().filter(|&i| is_fixed(i)) {
+        free.push(i, i, 1.0);
+    }
+    free
+}

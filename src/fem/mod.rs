@@ -1,0 +1,47 @@
+//! The reference 1-D finite element method: the subject that MPM is compared with.
+//!
+//! Total-Lagrangian, explicit, on `[from, to]`:
+//!
+//! ```text
+//! rho0 u_tt = dP(F)/dX + rho0 b(X, t),    F = 1 + u_X
+//! ```
+//!
+//! In the weak form, with shape functions `N_i` (Belytschko, Liu, Moran & Elkhodary, *Nonlinear
+//! Finite Elements for Continua and Structures*, 2nd ed. 2014, sections 2.3 and 2.4):
+//!
+//! ```text
+//! sum_j M_ij a_j = f_i = -int P(F) N_i' dX + int rho0 b N_i dX + [P N_i] at the two ends
+//! ```
+//!
+//! - [`Element`]: linear or quadratic shape functions and their Gauss points.
+//! - [`Mass`]: the lumped or the consistent matrix M, factorised once.
+//! - [`Start`](crate::subject::Start): Euler-Cromer steps from `v(0)`, or from `v(-dt/2)`.
+//! - [`Sampling`]: the state is seen inside the elements, or at the nodes, where it superconverges.
+//!
+//! With element length h and wave speed `c = sqrt(P'/rho0)` a step is stable up to `c dt / h` of
+//!
+//! | element   | lumped      | consistent   |
+//! |-----------|-------------|--------------|
+//! | linear    | 1           | 1 / sqrt(3)  |
+//! | quadratic | 1 / sqrt(6) | 1 / sqrt(15) |
+//!
+//! which is `dt = 2 / omega` of the highest frequency of a single element (Hughes 2000, section
+//! 9.1 for the limit, 7.3.2 for the matrices).
+//!
+//! [`Setup`] says what is computed, [`Bar`] computes it. A step allocates nothing: every array,
+//! the factor of the mass matrix included, is made by [`Bar::new`], and the triangular solves work
+//! in place.
+
+mod bar;
+mod element;
+mod mass;
+mod mesh;
+mod sampling;
+mod setup;
+
+#[cfg(test)]
+mod tests;
+
+pub use bar::Bar;
+pub use element::Element;
+pub use setup::{Field, History, Load, Mass, Sampling, Setup, SetupError};

@@ -1,0 +1,122 @@
+//! What a bar is made of, and what is refused.
+
+use thiserror::Error;
+
+use super::Element;
+use crate::{
+    named::named,
+    subject::{Failure, Start},
+};
+
+/// A function of the reference position X, or of the deformation gradient F.
+pub type Field = Box<dyn Fn(f64) -> f64 + Send>;
+/// A function of time t.
+pub type History = Box<dyn Fn(f64) -> f64 + Send>;
+/// A function of reference position and time, `(X, t)`.
+pub type Load = Box<dyn Fn(f64, f64) -> f64 + Send>;
+
+named! {
+    /// Which mass matrix.
+    pub enum Mass {
+        /// Diagonal: the sums of the rows of the consistent matrix.
+        Lumped = "lumped",
+        /// `int rho0 N_i N_j dX`.
+        Consistent = "consistent",
+    }
+}
+
+named! {
+    /// Where the state is seen.
+    pub enum Sampling {
+        /// At four points inside each element, where an ordinary error shows.
+        Inside = "inside",
+        /// At the nodes, where the error of a smooth solution may be of a higher order.
+        Nodes = "nodes",
+    }
+}
+
+/// A bar on `[from, to]` (m), its law, its loads and its discretisation.
+pub struct Setup {
+    /// Reference position of the left end (m).
+    pub from: f64,
+    /// Reference position of the right end (m).
+    pub to: f64,
+    /// Number of elements, all of one length.
+    pub cells: usize,
+    /// Shape functions.
+    pub element: Element,
+    /// Mass matrix.
+    pub mass: Mass,
+    /// Reference density rho0 (kg/m3).
+    pub density: f64,
+    /// First Piola-Kirchhoff stress `P(F)` (Pa).
+    pub law: Field,
+    /// Whether the left and the right end are held at zero displacement. There the initial fields
+    /// are not asked.
+    pub fixed: [bool; 2],
+    /// Body force `b(X, t)` per unit mass (m/s2); with `None`, no such term is computed.
+    pub body_force: Option<Load>,
+    /// Piola stress `p0(t)` (Pa) that is applied to the left and to the right end: tension is
+    /// positive at both. Only a free end can take it.
+    pub traction: [Option<History>; 2],
+    /// Displacement `u(X)` at t = 0 (m).
+    pub initial_displacement: Field,
+    /// Velocity `v(X)` at t = 0 (m/s). Like the displacement it is interpolated at the nodes: the
+    /// interpolant is accurate to order k + 1, so it keeps the order of the element, it needs no
+    /// second factorisation where the mass is lumped, and it keeps `v` at a fixed end.
+    pub initial_velocity: Field,
+    /// Meaning of the initial velocity in the first step.
+    pub start: Start,
+    /// Where the state is seen.
+    pub sampling: Sampling,
+}
+
+/// More elements than this are taken for a slip of the pen rather than tried.
+pub(super) const MOST_CELLS: usize = 1 << 24;
+
+/// Why there is no bar.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SetupError {
+    /// The number of elements makes no sense.
+    #[error("{0} elements; a bar has 1 to {MOST_CELLS} of them")]
+    Cells(usize),
+    /// The ends are not in order, or their distance is not finite.
+    #[error("the bar from {from} m to {to} m has no finite, positive length")]
+    Interval {
+        /// Left end.
+        from: f64,
+        /// Right end.
+        to: f64,
+    },
+    /// The density is not a finite, positive number.
+    #[error("the density {0} kg/m3 is not finite and positive")]
+    Density(f64),
+    /// A traction acts where the displacement is given.
+    #[error("the {0} end is fixed and cannot take a traction")]
+    TractionAtFixedEnd(&'static str),
+    /// The initial state is not one, or the mass matrix has no factor.
+    #[error("before the first step: {0}")]
+    Initial(#[from] Failure),
+}
+
+impl Setup {
+    /// Refuses whatever has no meaning. Each comparison is such that NaN fails it.
+    pub(super) fn check(&self) -> Result<(), SetupError> {
+        let Self { from, to, cells, density, .. } = *self;
+        if !(1..=MOST_CELLS).contains(&cells) {
+            return Err(SetupError::Cells(cells));
+        }
+        if !(from < to && (to - from).is_finite()) {
+            return Err(SetupError::Interval { from, to });
+        }
+        if !(density > 0.0 && density.is_finite()) {
+            return Err(SetupError::Density(density));
+        }
+        for (end, name) in ["left", "right"].into_iter().enumerate() {
+            if self.fixed[end] && self.traction[end].is_some() {
+                return Err(SetupError::TractionAtFixedEnd(name));
+            }
+        }
+        Ok(())
+    }
+}

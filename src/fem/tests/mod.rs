@@ -1,0 +1,63 @@
+//! What the finite element method promises, held against this one.
+
+mod discretisation;
+mod equilibrium;
+mod refusal;
+mod space;
+mod time;
+
+use std::f64::consts::PI;
+
+use super::{Bar, Element, Mass, Sampling, Setup};
+use crate::subject::Start;
+use crate::subject::{Samples, Subject};
+
+/// A bar at rest: fixed on the left, free on the right, `P = E (F - 1)`.
+fn bar_at_rest(length: f64, young: f64, density: f64) -> Setup {
+    Setup {
+        from: 0.0,
+        to: length,
+        cells: 8,
+        element: Element::Linear,
+        mass: Mass::Lumped,
+        density,
+        law: Box::new(move |def_grad| young * (def_grad - 1.0)),
+        fixed: [true, false],
+        body_force: None,
+        traction: [None, None],
+        initial_displacement: Box::new(|_| 0.0),
+        initial_velocity: Box::new(|_| 0.0),
+        start: Start::HalfStepBack,
+        sampling: Sampling::Inside,
+    }
+}
+
+/// The vibrating bar of Wobbes & Tielen (2015): wave speed 10 m/s, a quarter wave in 25 m.
+fn vibrating_bar(cells: usize, element: Element, mass: Mass) -> Setup {
+    let initial_velocity = Box::new(|x| 0.1 * libm::sin(PI * x / 50.0));
+    Setup { cells, element, mass, initial_velocity, ..bar_at_rest(25.0, 100.0, 1.0) }
+}
+
+/// Steps to `until` in steps of at most `dt`, all alike.
+fn run(setup: Setup, until: f64, dt: f64) -> Bar {
+    let mut bar = Bar::new(setup).unwrap();
+    let steps = libm::ceil(until / dt - 1e-6);
+    for _ in 0..steps as usize {
+        bar.step(until / steps).unwrap();
+    }
+    bar
+}
+
+/// Root of the mean square of `u - exact`.
+fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
+    let mut samples = Samples::default();
+    bar.sample_as(sampling, &mut samples);
+    let errors = samples.label.iter().zip(&samples.displacement).map(|(&x, u)| u - exact(x));
+    let square: f64 = errors.zip(&samples.weight).map(|(e, weight)| weight * e * e).sum();
+    libm::sqrt(square / samples.weight.iter().sum::<f64>())
+}
+
+/// Orders between neighbouring levels, each of which halves h or dt.
+fn orders(errors: &[f64]) -> Vec<f64> {
+    errors.windows(2).map(|pair| libm::log2(pair[0] / pair[1])).collect()
+}

@@ -1,0 +1,113 @@
+//! Order in time, the stable step, and energy in the long run.
+
+use rstest::rstest;
+
+use super::{bar_at_rest, orders, run, vibrating_bar};
+use crate::fem::Element::{self, Linear, Quadratic};
+use crate::fem::Mass::{self, Consistent, Lumped};
+use crate::{
+    fem::{Bar, Setup},
+    subject::Start,
+};
+use crate::subject::Subject;
+
+/// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
+fn column(start: Start) -> Setup {
+    let body_force = Some(Box::new(|_, _| -9.81) as _);
+    Setup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
+}
+
+/// Displacement and velocity somewhere in the column, after 0.1 s in so many steps.
+fn seen(start: Start, steps: u32) -> [f64; 2] {
+    let bar = run(column(start), 0.1, 0.1 / f64::from(steps));
+    [bar.displacement_at(0.77), bar.velocity_at(0.77)]
+}
+
+/// The mesh is fixed, so a run with a much smaller step is exact enough to compare with. Under a
+/// constant load and from rest, [`Start::AtZero`] computes the right motion half a step too early:
+/// its displacement is of first order, its velocity, which is half a step behind, is of second.
+#[rstest]
+#[case(Start::AtZero, [1.0, 2.0])]
+#[case(Start::HalfStepBack, [2.0, 2.0])]
+fn the_start_decides_the_order_in_time(#[case] start: Start, #[case] formal: [f64; 2]) {
+    let reference = seen(Start::HalfStepBack, 51_200);
+    for (quantity, formal) in formal.into_iter().enumerate() {
+        let error = |steps| (seen(start, steps)[quantity] - reference[quantity]).abs();
+        let observed = orders(&[100, 200, 400, 800].map(error));
+        println!("{start:?} {quantity} {observed:.3?}");
+        assert!(observed.iter().all(|order| (order - formal).abs() < 0.1), "{observed:?}");
+    }
+}
+
+#[test]
+fn a_change_of_step_keeps_the_second_order() {
+    let exact = seen(Start::HalfStepBack, 51_200);
+    let error = |pairs: u32| {
+        let mut bar = Bar::new(column(Start::HalfStepBack)).unwrap();
+        let dt = 0.1 / (3.0 * f64::from(pairs));
+        for _ in 0..pairs {
+            bar.step(dt).unwrap();
+            bar.step(2.0 * dt).unwrap();
+        }
+        (bar.displacement_at(0.77) - exact[0]).abs()
+    };
+    let observed = orders(&[50, 100, 200, 400].map(error));
+    assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
+}
+
+/// A free bar follows a load that grows, `b = 6 t`, along `u = t^3`: the load of a step is that of
+/// its beginning, where the displacements are.
+#[test]
+fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
+    let error = |steps| {
+        let body_force = Some(Box::new(|_, t| 6.0 * t) as _);
+        let setup = Setup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
+        run(setup, 1.0, 1.0 / f64::from(steps)).displacement_at(0.5) - 1.0
+    };
+    let observed = orders(&[20, 40, 80].map(error).map(f64::abs));
+    assert!(observed.iter().all(|order| (order - 2.0).abs() < 1e-3), "{observed:?}");
+}
+
+/// The limits `c dt / h` of the module's overview, each met from both sides.
+#[rstest]
+#[case(Linear, Lumped, 1.0)]
+#[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]
+#[case(Quadratic, Lumped, 1.0 / libm::sqrt(6.0))]
+#[case(Quadratic, Consistent, 1.0 / libm::sqrt(15.0))]
+fn the_stable_step_is_known(#[case] element: Element, #[case] mass: Mass, #[case] limit: f64) {
+    let survives = |courant: f64| {
+        let mut bar = Bar::new(vibrating_bar(40, element, mass)).unwrap();
+        let dt = courant * (25.0 / 40.0) / 10.0;
+        (0..2000).all(|_| bar.step(dt).is_ok())
+    };
+    assert!(survives(0.98 * limit));
+    assert!(!survives(1.02 * limit));
+}
+
+/// Kinetic and strain energy of linear elements with a lumped mass, `E = 100 Pa`, `rho = 1 kg/m3`.
+fn energy(bar: &Bar) -> f64 {
+    let h = bar.nodes()[1];
+    let last = bar.nodes().len() - 1;
+    let mass = |i| if i == 0 || i == last { 0.5 * h } else { h };
+    let kinetic: f64 = bar.nodal_velocities().enumerate().map(|(i, v)| mass(i) * v * v).sum();
+    let stretched = bar.nodal_displacements().windows(2).map(|u| (u[1] - u[0]) * (u[1] - u[0]));
+    0.5 * (kinetic + stretched.sum::<f64>() * 100.0 / h)
+}
+
+/// A symplectic step keeps the energy near its start, for 100 periods as for one.
+#[rstest]
+fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Start) {
+    let mut bar = Bar::new(Setup { start, ..vibrating_bar(16, Linear, Lumped) }).unwrap();
+    let initial = energy(&bar);
+    let mut worst_of_period = || {
+        let mut worst = 0.0_f64;
+        for _ in 0..200 {
+            bar.step(0.05).unwrap();
+            worst = worst.max((energy(&bar) / initial - 1.0).abs());
+        }
+        worst
+    };
+    let worst: Vec<f64> = (0..100).map(|_| worst_of_period()).collect();
+    assert!(worst[0] < 0.02, "{worst:?}");
+    assert!(worst.iter().all(|&now| now < 1.02 * worst[0]), "{worst:?}");
+}

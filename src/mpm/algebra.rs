@@ -1,0 +1,42 @@
+//! Vectors and matrices of the dimension at hand.
+//!
+//! `nalgebra` needs bounds for determinants of a generic size; these free functions need none.
+
+/// A vector in D dimensions.
+pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
+
+/// A D x D matrix.
+pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
+
+/// Determinant by expansion; D = 1, 2 or 3.
+///
+/// # Panics
+/// For any other D: no such solver is ever built.
+pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
+    let minor = |i: usize, j: usize| m[(1, i)] * m[(2, j)] - m[(1, j)] * m[(2, i)];
+    match D {
+        1 => m[(0, 0)],
+        2 => m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)],
+        3 => m[(0, 0)] * minor(1, 2) - m[(0, 1)] * minor(0, 2) + m[(0, 2)] * minor(0, 1),
+        _ => unreachable!("1, 2 or 3 dimensions"),
+    }
+}
+
+/// The dyad a b^T.
+pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
+    a * b.transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn determinants_agree_with_the_library() {
+        let m2 = Matrix::<2>::new(1.5, -0.25, 0.5, 2.0);
+        let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);
+        assert_relative_eq!(det(&m2), m2.determinant(), max_relative = 1e-14);
+        assert_relative_eq!(det(&m3), m3.determinant(), max_relative = 1e-14);
+    }
+}

@@ -1,0 +1,26 @@
+//! A uniform acceleration, constant or a function of time.
+//!
+//! `f_ext_i = sum_p m_p b N_i(x_p) = m_i b`: as b does not depend on the particle, the sum is the
+//! nodal mass, and no particle is visited.
+
+use super::contract::Effect;
+use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles};
+
+/// Gravity, b(t) (m/s2).
+pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> Vector<D> + Send>);
+
+impl<const D: usize> Effect<D> for Gravity<D> {
+    fn add_force(
+        &self,
+        t: f64,
+        _: &Particles<D>,
+        _: &dyn Kernel<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        let b = (self.0)(t);
+        for (f, m) in grid.force.iter_mut().zip(&grid.mass) {
+            *f += b * *m;
+        }
+        0
+    }
+}

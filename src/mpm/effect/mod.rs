@@ -1,0 +1,10 @@
+//! Effects: the family. A member is one file and one line below; a scene lists the effects it
+//! wants, and what it does not list costs nothing.
+
+mod contract;
+mod gravity;
+mod traction;
+
+pub use contract::Effect;
+pub use gravity::Gravity;
+pub use traction::Traction;

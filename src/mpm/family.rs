@@ -1,0 +1,37 @@
+//! Registration: one line makes a member known by name.
+
+/// Declares a family of types that suites choose by name.
+///
+/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` makes the enum of
+/// names and a macro `with_basis!(name, B => expr)`, the one `match` that turns a name into a type.
+macro_rules! family {
+    ($(#[$meta:meta])* pub enum $names:ident; $with:ident; $($text:literal => $member:ident,)+) => {
+        $crate::named::named! {
+            $(#[$meta])*
+            pub enum $names {
+                $(
+                    #[doc = concat!("`", $text, "`, see [`", stringify!($member), "`].")]
+                    $member = $text,
+                )+
+            }
+        }
+
+        $crate::mpm::family::family!(@with ($) $names $with $($member)+);
+    };
+    (@with ($dollar:tt) $names:ident $with:ident $($member:ident)+) => {
+        macro_rules! $with {
+            ($dollar name:expr, $dollar kind:ident => $dollar body:expr) => {
+                match $dollar name {
+                    $(
+                        $crate::mpm::$names::$member => {
+                            type $dollar kind = $crate::mpm::$member;
+                            $dollar body
+                        }
+                    )+
+                }
+            };
+        }
+        pub(in $crate::mpm) use $with;
+    };
+}
+pub(in crate::mpm) use family;

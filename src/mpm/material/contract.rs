@@ -1,0 +1,9 @@
+//! What a material is to the rest of the solver.
+
+use crate::mpm::particles::Particles;
+
+/// A constitutive law. It meets the solver between stages: one virtual call per step.
+pub trait Material<const D: usize>: Send {
+    /// New stresses and volumes of all particles from their velocity gradients over `dt` (s).
+    fn update(&self, dt: f64, particles: &mut Particles<D>);
+}

@@ -1,0 +1,115 @@
+//! Particles: one column per quantity.
+
+use super::algebra::{Matrix, Vector};
+
+/// The material points, structure of arrays. `n` particles; a column exists only if some member
+/// of the solver reads it.
+#[derive(Debug, Clone)]
+pub struct Particles<const D: usize> {
+    /// Reference positions X (m): the labels at which errors are taken.
+    pub x0: Vec<Vector<D>>,
+    /// Current positions x (m).
+    pub x: Vec<Vector<D>>,
+    /// Velocities (m/s).
+    pub v: Vec<Vector<D>>,
+    /// Masses (kg), constant.
+    pub mass: Vec<f64>,
+    /// Reference volumes (m^D).
+    pub vol0: Vec<f64>,
+    /// Current volumes (m^D), vol = J vol0.
+    pub vol: Vec<f64>,
+    /// Cauchy stresses (Pa).
+    pub sigma: Vec<Matrix<D>>,
+    /// Velocity gradients of the present step (1/s), where the material meets the kernel.
+    pub grad_v: Vec<Matrix<D>>,
+    /// Reference spacing of the particles on each axis (m).
+    pub spacing: Vector<D>,
+}
+
+/// A box-shaped body to be filled with particles.
+#[derive(Debug, Clone, Copy)]
+pub struct Block<const D: usize> {
+    /// Lowest corner (m).
+    pub from: Vector<D>,
+    /// Highest corner (m).
+    pub to: Vector<D>,
+    /// Density in the reference configuration (kg/m^D).
+    pub density: f64,
+}
+
+impl<const D: usize> Particles<D> {
+    /// Fills `block` with equally spaced particles, each at the centre of its share, as near to
+    /// `per_axis` particles per cell of size `h` on each axis as the length of the body allows
+    /// (exactly so where the body is a whole number of cells long). At rest and free of stress.
+    pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
+        let length = block.to - block.from;
+        let count: [usize; D] = std::array::from_fn(|axis| {
+            libm::round(length[axis] * per_axis as f64 / h).max(1.0) as usize
+        });
+        let spacing = Vector::<D>::from_fn(|axis, _| length[axis] / count[axis] as f64);
+        let volume = spacing.iter().product::<f64>();
+        let total = count.iter().product();
+        let x0: Vec<Vector<D>> = (0..total).map(|p| centre(p, block, &length, &count)).collect();
+        Self {
+            x: x0.clone(),
+            v: vec![Vector::zeros(); total],
+            mass: vec![block.density * volume; total],
+            vol0: vec![volume; total],
+            vol: vec![volume; total],
+            sigma: vec![Matrix::zeros(); total],
+            grad_v: vec![Matrix::zeros(); total],
+            x0,
+            spacing,
+        }
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is no particle.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+}
+
+/// Centre of share `p`, computed from its own index so that no rounding accumulates.
+fn centre<const D: usize>(
+    mut p: usize,
+    block: &Block<D>,
+    length: &Vector<D>,
+    count: &[usize; D],
+) -> Vector<D> {
+    let mut x = Vector::zeros();
+    for axis in 0..D {
+        let i = p % count[axis];
+        p /= count[axis];
+        x[axis] = block.from[axis] + length[axis] * (i as f64 + 0.5) / count[axis] as f64;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_body_is_filled_with_its_own_mass() {
+        let (from, to) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::new(1.0, 3.0));
+        let block = Block { from, to, density: 3.0 };
+        let particles = Particles::fill(&block, 0.25, 2);
+        assert_eq!(particles.len(), 8 * 16);
+        assert_relative_eq!(particles.mass.iter().sum::<f64>(), 6.0, max_relative = 1e-14);
+        assert_relative_eq!(particles.x[0], Vector::<2>::new(0.0625, 1.0625));
+    }
+
+    #[test]
+    fn a_body_that_does_not_end_on_a_node_keeps_its_length() {
+        let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(1.0));
+        let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.15 / 20.0, 10);
+        assert_eq!(particles.len(), 174);
+        assert_relative_eq!(particles.vol0.iter().sum::<f64>(), 1.0, max_relative = 1e-14);
+    }
+}

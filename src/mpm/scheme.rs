@@ -1,0 +1,54 @@
+//! Time schemes: the order in which the stages of one step run.
+//!
+//! All three are Euler-Cromer (semi-implicit Euler); they differ in which velocity updates the
+//! stress, and when (Bardenhagen 2002, J. Comput. Phys. 180).
+
+use super::stage::Stage::{
+    self, Acceleration, Force, GridVelocity, Mass, Momentum, ParticleVelocity, Position, Stress,
+};
+use crate::named::named;
+
+named! {
+    /// Names of the schemes that suites may choose.
+    pub enum SchemeName {
+        /// Update stress first, from the velocities at the start of the step.
+        Usf = "usf",
+        /// Update stress last, from the updated grid velocities.
+        Usl = "usl",
+        /// Modified update stress last: the updated particle velocities are mapped to the grid
+        /// once more, and that velocity updates stress and position (the "modified Lagrangian"
+        /// algorithm of the talk; Sulsky, Zhou & Schreyer 1995).
+        Musl = "musl",
+    }
+}
+
+impl SchemeName {
+    /// The stages of one step.
+    pub fn stages(self) -> &'static [Stage] {
+        match self {
+            Self::Usf => &[
+                Mass,
+                Momentum,
+                Stress,
+                Force,
+                Acceleration,
+                GridVelocity,
+                ParticleVelocity,
+                Position,
+            ],
+            Self::Usl => &[
+                Mass,
+                Momentum,
+                Force,
+                Acceleration,
+                GridVelocity,
+                ParticleVelocity,
+                Stress,
+                Position,
+            ],
+            Self::Musl => {
+                &[Mass, Force, Acceleration, ParticleVelocity, Momentum, Stress, Position]
+            }
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Choices that a suite makes by name.
+
+/// Declares an enum whose members have one spelling in YAML, reports and messages.
+///
+/// `named! { /// docs  pub enum Mass { /// docs  Lumped = "lumped", } }` derives what a choice
+/// needs and adds `ALL` (in the order of declaration) and `name()`.
+macro_rules! named {
+    ($(#[$meta:meta])* pub enum $names:ident {
+        $($(#[$member_meta:meta])* $member:ident = $text:literal,)+
+    }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Deserialize)]
+        pub enum $names {
+            $($(#[$member_meta])* #[serde(rename = $text)] $member,)+
+        }
+
+        impl $names {
+            /// Every member, in the order of declaration.
+            pub const ALL: &[Self] = &[$(Self::$member),+];
+
+            /// The name as suites and reports spell it.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$member => $text,)+
+                }
+            }
+        }
+    };
+}
+pub(crate) use named;

@@ -1,0 +1,157 @@
+//! The convergence plot: error against cell size, both axes logarithmic.
+
+use super::legend::{Legend, Placed};
+use super::plot::{Plot, Titles};
+use super::scale::{Pad, Scale};
+use super::series::{self, Failure, Line};
+use super::space::{Rect, Space};
+use super::svg::{Element, Pt};
+use super::triangle::{self, Triangle};
+
+/// A log-log plot of errors against the cell size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convergence {
+    /// Title above the frame.
+    pub title: String,
+    /// Label of the horizontal axis with its unit.
+    pub x_label: String,
+    /// Label of the vertical axis with its unit.
+    pub y_label: String,
+    /// One line each.
+    pub series: Vec<Series>,
+    /// Orders shown as slope triangles; an order which is not positive is left out.
+    pub reference_orders: Vec<f64>,
+}
+
+/// The errors of one quantity over all levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in the legend.
+    pub name: String,
+    /// The levels in any order.
+    pub points: Vec<Point>,
+}
+
+/// The error at one level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Cell size.
+    pub h: f64,
+    /// Error; one which is not finite is drawn as failed, zero is noted below the figure.
+    pub error: f64,
+    /// What the level counts for.
+    pub mark: Mark,
+}
+
+/// What a level counts for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// In the asymptotic window: filled, joined by a solid line.
+    Window,
+    /// Outside the window: hollow, joined by a thin dashed line.
+    Shown,
+    /// Particles changed cell: hollow with a cross.
+    Crossing,
+    /// No finite error: an arrow at the upper edge of the frame.
+    Failed,
+}
+
+/// Where legend and slope triangles have found their places.
+struct Arrangement {
+    legend: Option<Placed>,
+    triangles: Vec<Option<Triangle>>,
+}
+
+impl Convergence {
+    /// The figure as a standalone SVG document.
+    pub fn to_svg(&self) -> String {
+        let lines: Vec<Line> = self.series.iter().enumerate().map(Line::new).collect();
+        let failures = series::failures(&lines);
+        let plot = self.plot(&lines, &failures);
+        let paths = paths(&plot, &lines, &failures);
+        let legend = Legend::new(series::entries(&lines));
+        let orders = self.orders();
+        let arrangement = arrange(&plot, &paths, legend.as_ref(), &orders);
+
+        let triangles = &arrangement.triangles;
+        let mut layers: Vec<Element> = triangles.iter().flatten().map(Triangle::draw).collect();
+        layers.extend(lines.iter().map(|line| line.draw(&plot)));
+        layers.extend(failures.iter().map(|failure| failure.draw(&plot)));
+        if paths.is_empty() {
+            layers.push(plot.placeholder("no data"));
+        }
+        if let (Some(legend), Some(placed)) = (&legend, &arrangement.legend) {
+            layers.push(legend.draw(placed));
+        }
+
+        let mut notes = Vec::new();
+        let drawn: usize = lines.iter().map(Line::count).sum();
+        let given: usize = self.series.iter().map(|series| series.points.len()).sum();
+        if drawn < given {
+            notes.push(omission(given - drawn));
+        }
+        for (&order, _) in orders.iter().zip(triangles).filter(|(_, found)| found.is_none()) {
+            let slope = triangle::name(order);
+            notes.push(format!("No place for the slope triangle of order {slope}."));
+        }
+        plot.document(&layers, arrangement.legend.map(|placed| placed.area), &notes)
+    }
+
+    fn orders(&self) -> Vec<f64> {
+        let positive = |order: &f64| order.is_finite() && *order > 0.0;
+        self.reference_orders.iter().copied().filter(positive).collect()
+    }
+
+    fn plot(&self, lines: &[Line], failures: &[Failure]) -> Plot<'_> {
+        let sizes = lines.iter().flat_map(Line::sizes);
+        let errors = lines.iter().flat_map(Line::errors);
+        let x = Scale::log(sizes, Pad { lo: 0.06, hi: 0.06 });
+        let y = Scale::log(errors, Pad { lo: 0.06, hi: 0.06 + series::headroom(failures) });
+        let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
+        Plot::new(titles, x, y)
+    }
+}
+
+fn omission(count: usize) -> String {
+    let points = if count == 1 { "point" } else { "points" };
+    format!(
+        "Without a place on logarithmic axes: {count} {points} (error zero or negative, or h not \
+         positive)."
+    )
+}
+
+/// Everything which legend and triangles must keep clear of.
+fn paths(plot: &Plot, lines: &[Line], failures: &[Failure]) -> Vec<Vec<Pt>> {
+    let lines = lines.iter().map(|line| line.path(plot).iter().map(|p| p.0).collect());
+    let failures = failures.iter().map(|failure| {
+        let at = failure.place(plot);
+        vec![(at.0, plot.frame.y), at]
+    });
+    lines.chain(failures).filter(|path: &Vec<Pt>| !path.is_empty()).collect()
+}
+
+/// The first place of the legend beside which as many triangles fit as would without it; a place
+/// outside the frame always does.
+fn arrange(plot: &Plot, paths: &[Vec<Pt>], legend: Option<&Legend>, orders: &[f64]) -> Arrangement {
+    // Beside no data a slope has nothing to be compared with.
+    let orders = if paths.is_empty() { &[] } else { orders };
+    let space = Space::new(plot.frame, paths);
+    let beside = |legend: Option<Placed>| {
+        let mut taken: Vec<Rect> = legend.iter().map(|placed| placed.area).collect();
+        let place = |&order: &f64| {
+            let triangle = triangle::place(order, plot, &space, &taken);
+            taken.extend(triangle.iter().map(|t| t.area));
+            triangle
+        };
+        let triangles = orders.iter().map(place).collect();
+        Arrangement { legend, triangles }
+    };
+    let found = |arrangement: &Arrangement| arrangement.triangles.iter().flatten().count();
+    let alone = beside(None);
+    let arranged = legend
+        .into_iter()
+        .flat_map(|legend| legend.places(&plot.frame, &space))
+        .map(|placed| beside(Some(placed)))
+        .find(|arrangement| found(arrangement) >= found(&alone));
+    arranged.unwrap_or(alone)
+}

@@ -1,0 +1,168 @@
+//! The history plot: curves over linear axes, such as a velocity over time.
+
+use super::legend::{Entry, KEY, Legend};
+use super::marker::{self, Fill, RADIUS};
+use super::plot::{Plot, Titles};
+use super::scale::{Pad, Scale};
+use super::space::Space;
+use super::style::{EXACT, Look, look};
+use super::svg::{Element, Pt};
+use super::thinning;
+
+/// Curves over linear axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    /// Title above the frame.
+    pub title: String,
+    /// Label of the horizontal axis with its unit.
+    pub x_label: String,
+    /// Label of the vertical axis with its unit.
+    pub y_label: String,
+    /// The curves, later ones over earlier ones.
+    pub curves: Vec<Curve>,
+}
+
+/// One curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Name in the legend; a curve without a name has no entry.
+    pub name: String,
+    /// The points in drawing order; one which is not finite interrupts the curve.
+    pub points: Vec<(f64, f64)>,
+    /// Whether this is the exact solution, drawn as a thick light line.
+    pub exact: bool,
+    /// Whether points are marked, as far as the markers do not overlap.
+    pub markers: bool,
+}
+
+/// A curve in pixels, with its appearance.
+struct Line<'a> {
+    curve: &'a Curve,
+    look: Look,
+    runs: Vec<Vec<Pt>>,
+}
+
+/// Distance between the centres of markers on a curve.
+const MARKER_DISTANCE: f64 = 2.4 * RADIUS;
+
+impl History {
+    /// The figure as a standalone SVG document.
+    pub fn to_svg(&self) -> String {
+        let plot = self.plot();
+        // The exact solution has an appearance of its own: it takes none from the others.
+        let mut numerical = 0..;
+        let lines: Vec<Line> = self
+            .curves
+            .iter()
+            .map(|curve| Line {
+                curve,
+                look: if curve.exact {
+                    Look { colour: EXACT, ..look(0) }
+                } else {
+                    look(numerical.next().unwrap_or(0))
+                },
+                runs: runs(&curve.points, &plot),
+            })
+            .collect();
+        let paths: Vec<Vec<Pt>> = lines.iter().flat_map(|l| l.runs.iter().cloned()).collect();
+        let mut layers: Vec<Element> = lines.iter().map(Line::draw).collect();
+        if paths.is_empty() {
+            layers.push(plot.placeholder("no data"));
+        }
+        let entries = lines.iter().filter(|l| !l.curve.name.is_empty()).map(Line::entry);
+        let mut legend_area = None;
+        if let Some(legend) = Legend::new(entries.collect()) {
+            let space = Space::new(plot.frame, &paths);
+            if let Some(placed) = legend.places(&plot.frame, &space).next() {
+                layers.push(legend.draw(&placed));
+                legend_area = Some(placed.area);
+            }
+        }
+        plot.document(&layers, legend_area, &[])
+    }
+
+    fn plot(&self) -> Plot<'_> {
+        let drawn = || self.curves.iter().flat_map(|c| &c.points).filter(|&&p| is_finite(p));
+        let x = Scale::linear(drawn().map(|p| p.0), Pad { lo: 0.02, hi: 0.02 });
+        let y = Scale::linear(drawn().map(|p| p.1), Pad { lo: 0.06, hi: 0.06 });
+        let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
+        Plot::new(titles, x, y)
+    }
+}
+
+fn is_finite(point: Pt) -> bool {
+    point.0.is_finite() && point.1.is_finite()
+}
+
+/// The uninterrupted parts of a curve in pixels.
+fn runs(points: &[Pt], plot: &Plot) -> Vec<Vec<Pt>> {
+    points
+        .split(|&p| !is_finite(p))
+        .filter(|run| !run.is_empty())
+        .map(|run| run.iter().map(|&p| plot.place(p)).collect())
+        .map(|run: Vec<Pt>| if thinning::needed(points.len()) { thinning::thin(&run) } else { run })
+        .collect()
+}
+
+impl Line<'_> {
+    fn draw(&self) -> Element {
+        let mut group = Element::new("g");
+        group.add(&Element::new("title").content(&self.curve.name));
+        for run in &self.runs {
+            if let [only] = run.as_slice() {
+                group.add(&self.dot(*only));
+            } else {
+                group.add(&self.stroke(Element::through("polyline", run)));
+            }
+        }
+        if self.curve.markers {
+            let mut last: Option<Pt> = None;
+            for &at in self.runs.iter().flatten() {
+                let apart = |l: Pt| (at.0 - l.0).abs().max((at.1 - l.1).abs()) >= MARKER_DISTANCE;
+                if last.is_none_or(apart) {
+                    group.add(&self.marker(at));
+                    last = Some(at);
+                }
+            }
+        }
+        group
+    }
+
+    fn stroke(&self, line: Element) -> Element {
+        let line = line
+            .set("fill", "none")
+            .set("stroke", self.look.colour)
+            .set("stroke-linejoin", "round");
+        if self.curve.exact {
+            line.at("stroke-width", 4.0)
+        } else {
+            line.at("stroke-width", 1.5).set("stroke-dasharray", self.look.dash)
+        }
+    }
+
+    /// A point between two interruptions, which no line would show.
+    fn dot(&self, at: Pt) -> Element {
+        Element::new("circle")
+            .at("cx", at.0)
+            .at("cy", at.1)
+            .at("r", if self.curve.exact { 2.0 } else { 1.2 })
+            .set("fill", self.look.colour)
+    }
+
+    fn marker(&self, at: Pt) -> Element {
+        marker::draw(self.look.shape, Fill::Hollow, self.look.colour, at)
+    }
+
+    fn entry(&self) -> Entry {
+        let mut key = Element::new("g");
+        key.add(&self.stroke(Element::line((0.0, 0.0), (KEY, 0.0))));
+        if self.curve.markers {
+            key.add(&self.marker((KEY / 2.0, 0.0)));
+        }
+        if self.runs.is_empty() {
+            Entry::new(key, &format!("{} (no data)", self.curve.name))
+        } else {
+            Entry::new(key, &self.curve.name)
+        }
+    }
+}

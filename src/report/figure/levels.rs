@@ -1,0 +1,62 @@
+//! Which points of a series have a place on logarithmic axes.
+
+use super::convergence::{Mark, Point};
+
+/// A point as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Level {
+    pub(super) h: f64,
+    /// The error, unless the level failed.
+    pub(super) error: Option<f64>,
+    /// The mark; [`Mark::Failed`] exactly where there is no error.
+    pub(super) mark: Mark,
+}
+
+/// The points which can be drawn, from fine to coarse.
+pub(super) fn levels(points: &[Point]) -> Vec<Level> {
+    let mut levels: Vec<Level> = points.iter().filter_map(level).collect();
+    levels.sort_by(|a, b| a.h.total_cmp(&b.h));
+    levels
+}
+
+fn level(&Point { h, error, mark }: &Point) -> Option<Level> {
+    let failed = mark == Mark::Failed || !error.is_finite();
+    let drawable = h.is_finite() && h > 0.0 && (failed || error > 0.0);
+    drawable.then_some(if failed {
+        Level { h, error: None, mark: Mark::Failed }
+    } else {
+        Level { h, error: Some(error), mark }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(0.1, 0.5, Mark::Window, Some((Some(0.5), Mark::Window)))]
+    #[case(0.1, f64::NAN, Mark::Window, Some((None, Mark::Failed)))]
+    #[case(0.1, f64::INFINITY, Mark::Shown, Some((None, Mark::Failed)))]
+    #[case(0.1, 0.5, Mark::Failed, Some((None, Mark::Failed)))]
+    #[case(0.1, 0.0, Mark::Window, None)]
+    #[case(0.1, -0.5, Mark::Window, None)]
+    #[case(0.0, 0.5, Mark::Window, None)]
+    #[case(f64::NAN, 0.5, Mark::Failed, None)]
+    fn places(
+        #[case] h: f64,
+        #[case] error: f64,
+        #[case] mark: Mark,
+        #[case] drawn: Option<(Option<f64>, Mark)>,
+    ) {
+        let levels = levels(&[Point { h, error, mark }]);
+        assert_eq!(levels.first().map(|l| (l.error, l.mark)), drawn);
+    }
+
+    #[test]
+    fn levels_are_ordered_by_cell_size() {
+        let points = [0.1, 0.4, 0.2].map(|h| Point { h, error: h, mark: Mark::Window });
+        let sorted: Vec<f64> = levels(&points).iter().map(|l| l.h).collect();
+        assert_eq!(sorted, [0.1, 0.2, 0.4]);
+    }
+}

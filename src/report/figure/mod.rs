@@ -1,0 +1,50 @@
+//! Figures as standalone SVG documents.
+//!
+//! Two kinds are drawn: the [`Convergence`] plot (error against cell size, both axes
+//! logarithmic) and the [`History`] plot (curves over linear axes). Both are pure functions of
+//! their input, so that a figure can be compared byte by byte: every coordinate is printed with
+//! two decimals and every transcendental comes from `libm`.
+//!
+//! No input can make a figure fail. A value which has no place on its axis is marked as failed,
+//! interrupts its curve, or is counted in a note under the figure.
+//!
+//! ```
+//! use mpm_verify::report::figure::{Curve, History};
+//!
+//! let svg = History {
+//!     title: "Vibrating bar".into(),
+//!     x_label: "time (s)".into(),
+//!     y_label: "velocity (m/s)".into(),
+//!     curves: vec![Curve {
+//!         name: "exact".into(),
+//!         points: vec![(0.0, 1.0), (0.5, -1.0), (1.0, 1.0)],
+//!         exact: true,
+//!         markers: false,
+//!     }],
+//! }
+//! .to_svg();
+//! assert!(svg.starts_with("<svg xmlns="));
+//! ```
+
+mod convergence;
+mod history;
+mod label;
+mod legend;
+mod levels;
+mod marker;
+mod plot;
+mod scale;
+mod series;
+mod space;
+mod style;
+mod svg;
+mod text;
+mod thinning;
+mod ticks;
+mod triangle;
+
+#[cfg(test)]
+mod tests;
+
+pub use convergence::{Convergence, Mark, Point, Series};
+pub use history::{Curve, History};

@@ -1,0 +1,174 @@
+//! A series of the convergence plot: its line, its failed levels, and what the legend says.
+
+use super::convergence::{Mark, Series};
+use super::legend::{Entry, KEY};
+use super::levels::{Level, levels};
+use super::marker::{self, Fill};
+use super::plot::Plot;
+use super::style::{HEIGHT, Look, NEUTRAL, Shape, look};
+use super::svg::{Element, Pt};
+
+/// Every mark with its key in the legend, in the order of the legend.
+const MARKS: [(Mark, &str); 4] = [
+    (Mark::Window, "in the asymptotic window"),
+    (Mark::Shown, "outside the window"),
+    (Mark::Crossing, "particles changed cell"),
+    (Mark::Failed, "failed or not finite"),
+];
+
+/// A series with its appearance.
+pub(super) struct Line<'a> {
+    name: &'a str,
+    look: Look,
+    levels: Vec<Level>,
+}
+
+/// A failed level with its place below the upper edge.
+pub(super) struct Failure {
+    h: f64,
+    look: Look,
+    /// Number of failures of other series above it at the same cell size.
+    rank: usize,
+}
+
+/// Height of the arrow and of each failed marker below it.
+const ARROW: f64 = 13.0;
+const FAILED_ROW: f64 = 13.0;
+
+/// Largest part of the frame which failed levels take from the others.
+const LARGEST_HEAD: f64 = 0.4;
+
+/// The failed levels; those of different series at the same cell size stand in a column.
+pub(super) fn failures(lines: &[Line]) -> Vec<Failure> {
+    let mut failures: Vec<Failure> = Vec::new();
+    for line in lines {
+        for level in line.levels.iter().filter(|l| l.mark == Mark::Failed) {
+            let same = |f: &&Failure| (f.h / level.h - 1.0).abs() < 0.02;
+            let rank = failures.iter().filter(same).count();
+            failures.push(Failure { h: level.h, look: line.look, rank });
+        }
+    }
+    failures
+}
+
+/// The part of the frame to be kept free above the errors for failed levels.
+pub(super) fn headroom(failures: &[Failure]) -> f64 {
+    let rows = failures.iter().map(|failure| failure.rank + 1).max();
+    rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / HEIGHT).min(LARGEST_HEAD)
+}
+
+/// The legend: every series, then every mark which occurs.
+pub(super) fn entries(lines: &[Line]) -> Vec<Entry> {
+    let series = lines.iter().map(Line::entry);
+    let occurs = |mark| lines.iter().any(|l| l.levels.iter().any(|level| level.mark == mark));
+    let marks = MARKS.iter().filter(|(mark, _)| occurs(*mark));
+    series.chain(marks.map(|&(mark, text)| Entry::new(key(mark), text))).collect()
+}
+
+fn key(mark: Mark) -> Element {
+    let at = (KEY / 2.0, 0.0);
+    match mark {
+        Mark::Failed => {
+            let mut failed = Element::new("g");
+            failed.add(&marker::arrow_up((at.0 + 7.0, 5.0), (at.0 + 7.0, -6.0), NEUTRAL));
+            failed.add(&marker::draw(Shape::Circle, Fill::Hollow, NEUTRAL, (at.0 - 5.0, 0.0)));
+            failed
+        }
+        _ => marker::draw(Shape::Circle, fill(mark), NEUTRAL, at),
+    }
+}
+
+fn fill(mark: Mark) -> Fill {
+    match mark {
+        Mark::Window => Fill::Solid,
+        Mark::Shown | Mark::Failed => Fill::Hollow,
+        Mark::Crossing => Fill::Crossed,
+    }
+}
+
+impl<'a> Line<'a> {
+    /// The series at `index` in the order of the figure.
+    pub(super) fn new((index, series): (usize, &'a Series)) -> Self {
+        Self { name: &series.name, look: look(index), levels: levels(&series.points) }
+    }
+
+    /// Number of levels which are drawn.
+    pub(super) fn count(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// All cell sizes.
+    pub(super) fn sizes(&self) -> impl Iterator<Item = f64> {
+        self.levels.iter().map(|level| level.h)
+    }
+
+    /// All errors of levels which have one.
+    pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
+        self.levels.iter().filter_map(|level| level.error)
+    }
+
+    /// The pixels of the errors.
+    pub(super) fn path(&self, plot: &Plot) -> Vec<(Pt, Mark)> {
+        self.levels
+            .iter()
+            .filter_map(|l| l.error.map(|error| (plot.place((l.h, error)), l.mark)))
+            .collect()
+    }
+
+    /// Line and markers; failed levels are drawn apart.
+    pub(super) fn draw(&self, plot: &Plot) -> Element {
+        let path = self.path(plot);
+        let mut group = Element::new("g");
+        group.add(&Element::new("title").content(self.name));
+        for ends in path.windows(2) {
+            let line = Element::line(ends[0].0, ends[1].0).set("stroke", self.look.colour);
+            let solid = ends[0].1 == Mark::Window && ends[1].1 == Mark::Window;
+            group.add(&if solid {
+                line.at("stroke-width", 1.6)
+            } else {
+                line.at("stroke-width", 0.9).set("stroke-dasharray", self.look.dash)
+            });
+        }
+        for &(at, mark) in &path {
+            group.add(&marker::draw(self.look.shape, fill(mark), self.look.colour, at));
+        }
+        group
+    }
+
+    fn entry(&self) -> Entry {
+        let mut key = Element::new("g");
+        key.add(
+            &Element::line((0.0, 0.0), (KEY, 0.0))
+                .set("stroke", self.look.colour)
+                .at("stroke-width", 1.6),
+        );
+        let at = (KEY / 2.0, 0.0);
+        key.add(&marker::draw(self.look.shape, Fill::Solid, self.look.colour, at));
+        if self.levels.is_empty() {
+            Entry::new(key, &format!("{} (no data)", self.name))
+        } else {
+            Entry::new(key, self.name)
+        }
+    }
+}
+
+impl Failure {
+    /// The pixel of the marker.
+    pub(super) fn place(&self, plot: &Plot) -> Pt {
+        let below = ARROW + 7.0 + FAILED_ROW * self.rank as f64;
+        (plot.place_x(self.h), plot.frame.y + below.min(plot.frame.h))
+    }
+
+    /// The marker, below an arrow in the first row.
+    pub(super) fn draw(&self, plot: &Plot) -> Element {
+        let at = self.place(plot);
+        let Look { colour, shape, .. } = self.look;
+        let mut group = Element::new("g");
+        if self.rank == 0 {
+            let top = plot.frame.y;
+            group.add(&marker::arrow_up((at.0, top + ARROW), (at.0, top + 1.5), NEUTRAL));
+        }
+        group.add(&marker::draw(shape, Fill::Hollow, colour, at));
+        group
+    }
+}

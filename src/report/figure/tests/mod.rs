@@ -1,0 +1,159 @@
+//! What holds for every figure.
+
+use super::*;
+use proptest::prelude::*;
+use rstest::rstest;
+use xml::{well_formed, without_bad_numbers};
+
+mod overlap;
+mod samples;
+mod xml;
+
+#[rstest]
+#[case(samples::three_series().to_svg())]
+#[case(samples::eight_long_names().to_svg())]
+#[case(samples::less_than_a_decade().to_svg())]
+#[case(samples::ten_decades().to_svg())]
+#[case(samples::damped_sine(1.0).to_svg())]
+#[case(samples::damped_sine(3e-5).to_svg())]
+#[case(samples::square_wave().to_svg())]
+#[case(samples::staircase().to_svg())]
+fn samples_are_well_formed(#[case] svg: String) {
+    assert_eq!(well_formed(&svg), Ok(()));
+    assert!(without_bad_numbers(&svg));
+    assert!(svg.contains("role=\"img\"") && svg.contains("<title>"));
+}
+
+#[test]
+fn the_same_figure_has_the_same_bytes() {
+    assert_eq!(samples::three_series().to_svg(), samples::three_series().to_svg());
+    assert_eq!(samples::square_wave().to_svg(), samples::square_wave().to_svg());
+}
+
+#[test]
+fn texts_are_escaped() {
+    let mut figure = samples::three_series();
+    figure.title = "a < b & \"c\"".to_owned();
+    figure.series[0].name = "</svg>".to_owned();
+    let svg = figure.to_svg();
+    assert_eq!(well_formed(&svg), Ok(()));
+    assert!(svg.contains("a &lt; b &amp; &quot;c&quot;"));
+}
+
+const KEYS: [(Mark, &str); 4] = [
+    (Mark::Window, "in the asymptotic window"),
+    (Mark::Shown, "outside the window"),
+    (Mark::Crossing, "particles changed cell"),
+    (Mark::Failed, "failed or not finite"),
+];
+
+#[rstest]
+#[case(&[Mark::Window])]
+#[case(&[Mark::Shown, Mark::Crossing])]
+#[case(&[Mark::Failed])]
+#[case(&[Mark::Window, Mark::Shown, Mark::Crossing, Mark::Failed])]
+fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
+    let points = marks.iter().zip(1_u8..).map(|(&mark, i)| Point {
+        h: 0.5 / f64::from(i),
+        error: 0.1 / f64::from(i),
+        mark,
+    });
+    let one = Series { name: "one".to_owned(), points: points.collect() };
+    let svg = samples::convergence(vec![one], &[2.0]).to_svg();
+    for (mark, key) in KEYS {
+        assert_eq!(svg.contains(key), marks.contains(&mark), "{key}");
+    }
+}
+
+#[rstest]
+#[case(&[])]
+#[case(&[(0.1, 1e-3)])]
+#[case(&[(0.1, 1e-3), (0.2, 1e-3), (0.4, 1e-3)])]
+#[case(&[(0.1, 0.0), (f64::NAN, 1.0)])]
+#[case(&[(0.1, f64::NAN), (0.2, f64::INFINITY)])]
+#[case(&[(5e-324, f64::MAX), (f64::MAX, 5e-324)])]
+fn degenerate_series(#[case] points: &[(f64, f64)]) {
+    let points = points.iter().map(|&(h, error)| Point { h, error, mark: Mark::Window });
+    let one = Series { name: "one".to_owned(), points: points.collect() };
+    let svg = samples::convergence(vec![one], &[2.0]).to_svg();
+    assert_eq!(well_formed(&svg), Ok(()));
+    assert!(without_bad_numbers(&svg));
+}
+
+#[test]
+fn what_has_no_place_is_noted() {
+    let mut figure = samples::less_than_a_decade();
+    figure.series[0].points[0].error = 0.0;
+    assert!(figure.to_svg().contains("axes: 1 point (error zero"));
+}
+
+#[test]
+fn a_failure_at_the_same_size_stands_below_the_other() {
+    let failed = |name: &str| Series {
+        name: name.to_owned(),
+        points: vec![Point { h: 0.1, error: f64::NAN, mark: Mark::Failed }],
+    };
+    let svg = samples::convergence(vec![failed("one"), failed("two")], &[]).to_svg();
+    // The first failure and the key in the legend.
+    assert_eq!(svg.matches("stroke-width=\"1.30\"").count(), 2);
+}
+
+#[test]
+fn missing_values_interrupt_a_curve() {
+    let mut figure = samples::square_wave();
+    let lines = |figure: &History| figure.to_svg().matches("<polyline").count();
+    let before = lines(&figure);
+    figure.curves[1].points[500].1 = f64::NAN;
+    assert_eq!(lines(&figure), before + 1);
+}
+
+#[test]
+fn long_curves_are_thinned() {
+    assert!(samples::damped_sine(1.0).to_svg().len() < 120_000);
+}
+
+fn marks() -> impl Strategy<Value = Mark> {
+    prop::sample::select(KEYS.map(|(mark, _)| mark).to_vec())
+}
+
+fn any_value() -> impl Strategy<Value = f64> {
+    // Any bit pattern, and the range in which figures are usually drawn.
+    prop_oneof![any::<f64>(), prop::num::f64::ANY, -2.0..2.0]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn no_convergence_breaks_the_figure(
+        points in prop::collection::vec(
+            prop::collection::vec((any_value(), any_value(), marks()), 0..8), 0..9),
+        orders in prop::collection::vec(any_value(), 0..3),
+        text in any::<String>(),
+    ) {
+        let series = points.into_iter().map(|points| Series {
+            name: text.clone(),
+            points: points.into_iter().map(|(h, error, mark)| Point { h, error, mark }).collect(),
+        });
+        let svg = samples::convergence(series.collect(), &orders).to_svg();
+        prop_assert_eq!(well_formed(&svg), Ok(()));
+        prop_assert!(without_bad_numbers(&svg));
+    }
+
+    #[test]
+    fn no_history_breaks_the_figure(
+        points in prop::collection::vec(
+            (prop::collection::vec((any_value(), any_value()), 0..20), any::<(bool, bool)>()), 0..5),
+        text in any::<String>(),
+    ) {
+        let curves = points.into_iter().map(|(points, (exact, markers))| Curve {
+            name: text.clone(),
+            points,
+            exact,
+            markers,
+        });
+        let svg = samples::history(&text, curves.collect()).to_svg();
+        prop_assert_eq!(well_formed(&svg), Ok(()));
+        prop_assert!(without_bad_numbers(&svg));
+    }
+}

@@ -1,0 +1,128 @@
+//! Figures which the tests share.
+
+use super::super::{Convergence, Curve, History, Mark, Point, Series};
+
+/// Halved cell sizes from 1/4 m.
+fn sizes(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(|i| 0.25 / f64::from(1 << i))
+}
+
+fn series(name: &str, count: usize, error: impl Fn(usize, f64) -> (f64, Mark)) -> Series {
+    let point = |(i, h)| {
+        let (error, mark) = error(i, h);
+        Point { h, error, mark }
+    };
+    Series { name: name.to_owned(), points: sizes(count).enumerate().map(point).collect() }
+}
+
+pub(super) fn convergence(series: Vec<Series>, orders: &[f64]) -> Convergence {
+    Convergence {
+        title: "Vibrating bar, one element per cell".to_owned(),
+        x_label: "cell size h (m)".to_owned(),
+        y_label: "relative error in displacement (-)".to_owned(),
+        series,
+        reference_orders: orders.to_vec(),
+    }
+}
+
+/// A clean order with a plateau, one which turns where particles cross, one which fails.
+pub(super) fn three_series() -> Convergence {
+    let plateau = series("displacement", 7, |i, h| {
+        let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::Shown };
+        (0.3 * h * h + 4e-5, mark)
+    });
+    let crossing = series("velocity", 7, |i, h| match i {
+        0..4 => (2.0 * h * h, Mark::Window),
+        _ => (2e-3 * f64::from(1 << (i - 3)), Mark::Crossing),
+    });
+    let failing = series("stress", 7, |i, h| match i {
+        6 => (f64::NAN, Mark::Window),
+        0 => (6.0 * h, Mark::Shown),
+        _ => (9.0 * libm::pow(h, 5.0 / 3.0), Mark::Window),
+    });
+    convergence(vec![plateau, crossing, failing], &[2.0, 5.0 / 3.0])
+}
+
+pub(super) fn eight_long_names() -> Convergence {
+    let all = (0..8).map(|k| {
+        let name = format!("basis {k}: cubic B-spline, APIC, dt = {k}/8 CFL");
+        series(&name, 5, |i, h| {
+            let factor = libm::pow(2.3, f64::from(k));
+            let mark = if i == 0 { Mark::Shown } else { Mark::Window };
+            (1e-2 * factor * libm::pow(h, 1.0 + 0.15 * f64::from(k)), mark)
+        })
+    });
+    convergence(all.collect(), &[1.0, 2.0])
+}
+
+pub(super) fn less_than_a_decade() -> Convergence {
+    let one = series("total energy", 3, |_, h| (0.05 + 0.4 * h, Mark::Window));
+    let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::Shown));
+    convergence(vec![one, two], &[1.0])
+}
+
+pub(super) fn ten_decades() -> Convergence {
+    let one = series("spectral", 6, |_, h| (libm::pow(h, 5.0), Mark::Window));
+    let two = series("linear", 6, |_, h| (30.0 * h, Mark::Window));
+    convergence(vec![one, two], &[1.0, 5.0])
+}
+
+fn curve(name: &str, count: i32, exact: bool, f: impl Fn(f64) -> f64) -> Curve {
+    let at = |i: i32| {
+        let t = 2.0 * f64::from(i) / f64::from(count);
+        (t, f(t))
+    };
+    Curve { name: name.to_owned(), points: (0..=count).map(at).collect(), exact, markers: false }
+}
+
+pub(super) fn history(y_label: &str, curves: Vec<Curve>) -> History {
+    History {
+        title: "Free end of the bar".to_owned(),
+        x_label: "time t (s)".to_owned(),
+        y_label: y_label.to_owned(),
+        curves,
+    }
+}
+
+pub(super) fn damped_sine(amplitude: f64) -> History {
+    let wave = |damping: f64, pace: f64| {
+        move |t: f64| amplitude * libm::exp(-damping * t) * libm::sin(pace * t)
+    };
+    history(
+        "velocity v (m/s)",
+        vec![
+            curve("exact", 4000, true, wave(0.8, 14.0)),
+            curve("cubic B-spline", 4000, false, wave(1.0, 14.1)),
+            curve("linear", 4000, false, wave(1.5, 13.6)),
+        ],
+    )
+}
+
+pub(super) fn square_wave() -> History {
+    let square = |t: f64| if libm::sin(8.0 * t) >= 0.0 { 1.0 } else { -1.0 };
+    let ringing = move |t: f64, lag: f64| {
+        let since = libm::fmod(8.0 * t - lag + std::f64::consts::PI, std::f64::consts::PI);
+        square(t - lag / 8.0) * (1.0 - 0.6 * libm::exp(-2.5 * since) * libm::cos(16.0 * since))
+    };
+    history(
+        "stress (Pa)",
+        vec![
+            curve("exact", 2000, true, square),
+            curve("GIMP", 1000, false, move |t| ringing(t, 0.0)),
+            curve("linear", 1000, false, move |t| ringing(t, 0.2)),
+        ],
+    )
+}
+
+pub(super) fn staircase() -> History {
+    let step = |t: f64| 0.1 * libm::floor(t * 4.0);
+    let mut steps = curve("linear shape functions", 40, false, step);
+    steps.markers = true;
+    let mut smooth = curve("quadratic B-spline", 20, false, |t| 0.4 * t);
+    smooth.markers = true;
+    History {
+        title: "Internal force on a node".to_owned(),
+        x_label: "particle position (m)".to_owned(),
+        ..history("internal force (N)", vec![steps, smooth])
+    }
+}

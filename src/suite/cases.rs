@@ -1,0 +1,192 @@
+//! Lists become cases: the product of everything that a suite gives as a list.
+
+use super::{
+    binder::{Binder, Path},
+    dispatch::cell_size,
+    expect,
+    model::{Against, Case, ConvergencePlan, Method},
+    words::{ConvergenceWords, EquationName, MethodWords},
+    yaml::{Complaint, NumberText, OneOrMany},
+};
+use crate::{fem::Sampling, subject::Start, verify::Clock};
+
+/// Most cases that a suite may unfold into.
+const MOST_CASES: usize = 1000;
+
+/// The ends of the runs: text and value (s).
+pub(super) fn until(
+    binder: &Binder<'_>,
+    words: &OneOrMany<NumberText>,
+) -> Result<Vec<(String, f64)>, Complaint> {
+    let path = Path::top("run").then("until");
+    let texts = words.as_slice().iter().enumerate();
+    texts
+        .map(|(i, text)| {
+            let path = if words.as_slice().len() > 1 { path.then(i) } else { path.clone() };
+            Ok((text.to_string(), binder.positive(&path, text, "the end of the run")?))
+        })
+        .collect()
+}
+
+/// Whether every level has a usable time step.
+pub(super) fn check_steps(
+    binder: &Binder<'_>,
+    plan: &ConvergencePlan,
+    until: &[(String, f64)],
+) -> Result<(), Complaint> {
+    let path = Path::top("run").then("dt");
+    let fine = plan.reference.iter().map(|fine| (fine.cells, &fine.dt));
+    let levels = plan.cells.iter().map(|cells| (*cells, &plan.dt)).chain(fine);
+    for (cells, dt) in levels {
+        let dt = dt.eval(&[cell_size(&plan.scene, cells)]);
+        for (_, until) in until {
+            if Clock::new(*until, dt, plan.instants).is_none() {
+                let message = format!("with {cells} cells the time step is {dt}");
+                let label = "expected a positive step, and at most 1e9 of them";
+                return Err(binder.complain(&path, &message).with_label(label));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All cases of a suite with what is expected of each.
+pub(super) fn cases(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    plan: &ConvergencePlan,
+    until: &[(String, f64)],
+) -> Result<Vec<Case>, Complaint> {
+    let mut drafts = Vec::new();
+    for (i, method) in words.methods.iter().enumerate() {
+        let path = Path::top("methods").then(i);
+        possible(binder, &path, method, plan)?;
+        for (name, method) in methods(method) {
+            drafts.extend(runs(&name, method, plan, until));
+        }
+    }
+    let path = Path::top("methods");
+    if drafts.is_empty() {
+        return Err(binder.complain(&path, "a suite without methods has no case"));
+    }
+    if drafts.len() > MOST_CASES {
+        let message = format!("{} cases, more than {MOST_CASES}", drafts.len());
+        return Err(binder.complain(&path, &message));
+    }
+    let names: Vec<&str> = drafts.iter().map(|draft| draft.name.as_str()).collect();
+    if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        return Err(binder.complain(&path, &format!("the case `{}` appears twice", twice.1)));
+    }
+    let expectations = expect::expectations(binder, &words.expect, &names)?;
+    let with = |(draft, expectation): (Draft, _)| Case {
+        name: draft.name,
+        method: draft.method,
+        until: draft.until,
+        against: draft.against,
+        expectation,
+    };
+    Ok(drafts.into_iter().zip(expectations).map(with).collect())
+}
+
+/// A case before anything is expected of it.
+struct Draft {
+    name: String,
+    method: Method,
+    until: f64,
+    against: Against,
+}
+
+/// One method, for every end of the run and every truth. A part enters the name only where there
+/// is a choice.
+fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f64)]) -> Vec<Draft> {
+    let truths = [
+        plan.exact.as_ref().map(|_| (Against::Exact, "-vs-exact")),
+        plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
+    ];
+    let truths: Vec<_> = truths.into_iter().flatten().collect();
+    let mut drafts = Vec::new();
+    for (text, until_value) in until {
+        for (against, suffix) in &truths {
+            let mut name = name.to_owned();
+            if until.len() > 1 {
+                name += &format!("-until-{text}");
+            }
+            if truths.len() > 1 {
+                name += suffix;
+            }
+            drafts.push(Draft { name, method, until: *until_value, against: *against });
+        }
+    }
+    drafts
+}
+
+/// Refuses combinations that mean nothing before anything runs.
+fn possible(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &MethodWords,
+    plan: &ConvergencePlan,
+) -> Result<(), Complaint> {
+    match words {
+        MethodWords::Fem { .. } if plan.scene.dimension() != 1 => {
+            let d = plan.scene.dimension();
+            Err(binder.complain(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
+        }
+        MethodWords::Mpm { .. } if plan.ppc.is_none() => Err(binder
+            .complain(path, "MPM needs particles, and `refine` says no `ppc`")
+            .with_help("add `ppc: 4` to `refine`")),
+        _ => Ok(()),
+    }
+}
+
+/// The product of one entry of `methods`, with names.
+fn methods(words: &MethodWords) -> Vec<(String, Method)> {
+    match words {
+        MethodWords::Mpm { basis, transfer, scheme, start } => {
+            let mut all = Vec::new();
+            for &basis in basis.as_slice() {
+                for &transfer in transfer.as_slice() {
+                    for &scheme in scheme.as_slice() {
+                        for (suffix, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
+                            let parts = [basis.name(), transfer.name(), scheme.name()].join("-");
+                            let method = Method::Mpm { basis, transfer, scheme, start };
+                            all.push((format!("mpm-{parts}{suffix}"), method));
+                        }
+                    }
+                }
+            }
+            all
+        }
+        MethodWords::Fem { element, mass, law, start, sampling } => {
+            let mut all = Vec::new();
+            for &element in element.as_slice() {
+                for &mass in mass.as_slice() {
+                    for (a, law) in choices(law.as_ref(), EquationName::SmallStrain, EquationName::name) {
+                        for (b, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
+                            for (c, sampling) in choices(sampling.as_ref(), Sampling::Inside, Sampling::name) {
+                                let parts = [element.name(), mass.name()].join("-");
+                                let method = Method::Fem { element, mass, law, start, sampling };
+                                all.push((format!("fem-{parts}{a}{b}{c}"), method));
+                            }
+                        }
+                    }
+                }
+            }
+            all
+        }
+    }
+}
+
+/// The members of an optional list with the suffix that each gives to a name: none where there is
+/// no choice.
+fn choices<T: Copy>(
+    list: Option<&OneOrMany<T>>,
+    default: T,
+    name: fn(T) -> &'static str,
+) -> Vec<(String, T)> {
+    match list.map_or(&[][..], OneOrMany::as_slice) {
+        [] => vec![(String::new(), default)],
+        [only] => vec![(String::new(), *only)],
+        many => many.iter().map(|m| (format!("-{}", name(*m).replace('_', "-")), *m)).collect(),
+    }
+}

@@ -1,0 +1,203 @@
+//! Names become types: the only place that knows every family, and the only one that spells out
+//! 1, 2 and 3 dimensions.
+
+use super::{
+    model::{ConvergencePlan, Method, Scene, SceneFace},
+    words::EquationName,
+};
+use crate::{
+    exact::formula::Formula,
+    fem::{self, Bar, Sampling},
+    mpm::{
+        Block, Effect, Fixed, Gravity, Grid, LinearElastic, Particles, Side, Solver, Traction,
+        Vector, kernel,
+    },
+    subject::{Start, Subject},
+};
+
+/// Cells that a grid extends beyond a free face of the body, besides a tenth of the body: room for
+/// a body that grows.
+const SPARE_CELLS: f64 = 2.0;
+
+/// Builds the subject of `method` with `cells` cells along the first axis.
+///
+/// # Errors
+/// One line that says why there is no such subject.
+pub(super) fn subject(
+    plan: &ConvergencePlan,
+    method: &Method,
+    cells: u64,
+) -> Result<Box<dyn Subject>, String> {
+    match (method, plan.scene.dimension()) {
+        (Method::Fem { .. }, 1) => fem(&plan.scene, method, cells),
+        (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
+        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, cells),
+        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, cells),
+        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, cells),
+        (Method::Mpm { .. }, d) => Err(format!("there is no MPM in {d} dimensions")),
+    }
+}
+
+/// Cell size (m) for `cells` cells along the first axis of the grid, or of the body where the
+/// suite asks for no grid.
+pub(super) fn cell_size(scene: &Scene, cells: u64) -> f64 {
+    let (from, to) = scene.grid.as_ref().map_or((&scene.from, &scene.to), |(from, to)| (from, to));
+    (to[0] - from[0]) / cells as f64
+}
+
+/// Particles along each axis of a cell, if `ppc` is a whole power.
+pub(super) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
+    let root = libm::round(libm::pow(ppc as f64, 1.0 / dimension as f64)) as u64;
+    (root > 0 && root.checked_pow(dimension as u32) == Some(ppc)).then_some(root as usize)
+}
+
+fn mpm<const D: usize>(
+    plan: &ConvergencePlan,
+    method: &Method,
+    cells: u64,
+) -> Result<Box<dyn Subject>, String> {
+    let Method::Mpm { basis, transfer, scheme, start } = *method else {
+        return Err("not an MPM method".to_owned());
+    };
+    let scene = &plan.scene;
+    let h = cell_size(scene, cells);
+    let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
+    let grid = grid::<D>(scene, h);
+    let (from, to) = (vector(&scene.from), vector(&scene.to));
+    let mut particles = Particles::fill(&Block { from, to, density: scene.density }, h, per_axis);
+    for (v, x0) in particles.v.iter_mut().zip(&particles.x0) {
+        *v = at(&scene.initial_velocity, x0);
+    }
+    let setup = crate::mpm::Setup {
+        kernel: kernel::<D>(basis, transfer),
+        material: Box::new(LinearElastic::new(scene.young, scene.poisson)),
+        effects: effects(scene, &particles),
+        fixed: held(scene).map(|face| Fixed::face(&grid, face.axis, side(face))).collect(),
+        grid,
+        particles,
+        scheme,
+        start,
+    };
+    let solver = Solver::new(setup).map_err(|failure| failure.to_string())?;
+    Ok(Box::new(solver))
+}
+
+fn vector<const D: usize>(components: &[f64]) -> Vector<D> {
+    Vector::from_fn(|axis, _| components[axis])
+}
+
+fn at<const D: usize>(formulas: &[Formula], x0: &Vector<D>) -> Vector<D> {
+    let mut variables = [0.0; 4];
+    variables[..D].copy_from_slice(x0.as_slice());
+    Vector::from_fn(|i, _| formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=D])))
+}
+
+fn held(scene: &Scene) -> impl Iterator<Item = &SceneFace> {
+    scene.faces.iter().filter(|face| face.fixed)
+}
+
+fn side(face: &SceneFace) -> Side {
+    if face.high { Side::High } else { Side::Low }
+}
+
+/// The grid that the suite asks for, or the body's box with room beyond its free faces.
+fn grid<const D: usize>(scene: &Scene, h: f64) -> Grid<D> {
+    let (mut origin, mut cells) = (Vector::zeros(), [0; D]);
+    for axis in 0..D {
+        let (low, high) = match &scene.grid {
+            Some((from, to)) => (from[axis], to[axis]),
+            None => roomy(scene, axis, h),
+        };
+        origin[axis] = low;
+        // A whole number of cells but for rounding is that number.
+        cells[axis] = libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0) as usize;
+    }
+    Grid::new(origin, h, cells)
+}
+
+fn roomy(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
+    let (from, to) = (scene.from[axis], scene.to[axis]);
+    let spare = (SPARE_CELLS + libm::ceil(0.1 * (to - from) / h)) * h;
+    let free = |face: &SceneFace| if face.fixed { 0.0 } else { spare };
+    (from - free(&scene.faces[2 * axis]), to + free(&scene.faces[2 * axis + 1]))
+}
+
+fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<dyn Effect<D>>> {
+    let mut effects: Vec<Box<dyn Effect<D>>> = Vec::new();
+    if let Some(formulas) = &scene.gravity {
+        effects.push(Box::new(Gravity(of_time(formulas))));
+    }
+    for face in &scene.faces {
+        if let Some(formulas) = &face.traction {
+            let pull = Traction::on(particles, face.axis, side(face), of_time(formulas));
+            effects.push(Box::new(pull));
+        }
+    }
+    effects
+}
+
+fn of_time<const D: usize>(formulas: &[Formula]) -> Box<dyn Fn(f64) -> Vector<D> + Send> {
+    let formulas = formulas.to_vec();
+    Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
+}
+
+fn fem(scene: &Scene, method: &Method, cells: u64) -> Result<Box<dyn Subject>, String> {
+    Ok(Box::new(bar(scene, method, cells)?))
+}
+
+/// The FEM bar of `method`; also what references are made of.
+pub(super) fn bar(scene: &Scene, method: &Method, cells: u64) -> Result<Bar, String> {
+    let Method::Fem { element, mass, law, start, sampling } = *method else {
+        return Err("not an FEM method".to_owned());
+    };
+    let (from, to) = (scene.from[0], scene.to[0]);
+    let elements = libm::round((to - from) / cell_size(scene, cells)).max(1.0);
+    let velocity = scene.initial_velocity.clone();
+    let setup = fem::Setup {
+        from,
+        to,
+        cells: elements as usize,
+        element,
+        mass,
+        density: scene.density,
+        law: piola(law, scene.young, scene.poisson),
+        fixed: [scene.faces[0].fixed, scene.faces[1].fixed],
+        body_force: scene.gravity.clone().map(|b| -> fem::Load {
+            Box::new(move |_, t| b[0].eval(&[t]))
+        }),
+        traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
+        initial_displacement: Box::new(|_| 0.0),
+        initial_velocity: Box::new(move |x| at(&velocity, &Vector::<1>::new(x))[0]),
+        start,
+        sampling,
+    };
+    Bar::new(setup).map_err(|error| error.to_string())
+}
+
+/// A suite gives forces along +X; the FEM wants tension, which points outwards.
+fn end_traction(face: &SceneFace) -> Option<fem::History> {
+    let outwards = if face.high { 1.0 } else { -1.0 };
+    let formula = face.traction.as_ref()?.first()?.clone();
+    Some(Box::new(move |t| outwards * formula.eval(&[t])))
+}
+
+/// P(F) (Pa) of a bar in uniaxial strain.
+fn piola(law: EquationName, young: f64, poisson: f64) -> fem::Field {
+    let material = LinearElastic::new(young, poisson);
+    let modulus = material.lambda + 2.0 * material.mu;
+    match law {
+        EquationName::SmallStrain => Box::new(move |f| modulus * (f - 1.0)),
+        EquationName::LogStrain => Box::new(move |f| modulus * libm::log(f)),
+    }
+}
+
+/// The method that a reference is computed with.
+pub(super) fn reference_method(plan: &super::model::ReferencePlan) -> Method {
+    Method::Fem {
+        element: plan.element,
+        mass: plan.mass,
+        law: plan.equation,
+        start: Start::HalfStepBack,
+        sampling: Sampling::Inside,
+    }
+}

@@ -1,0 +1,148 @@
+//! Which expectation holds for which case: exactly one for each.
+
+use super::{
+    binder::{Binder, Path},
+    words::{CrossingsName, ExpectWords},
+    yaml::{Complaint, NumberText, OneOrMany},
+};
+use crate::verify::{Expectation, Verdict};
+use std::str::FromStr;
+
+/// One expectation for each of the cases `names`, in their order.
+pub(super) fn expectations(
+    binder: &Binder<'_>,
+    words: &[ExpectWords],
+    names: &[&str],
+) -> Result<Vec<Expectation>, Complaint> {
+    let selectors: Vec<_> = words.iter().map(|words| words.case.as_ref()).collect();
+    let owners = assign(binder, &selectors, names)?;
+    let parsed: Result<Vec<Expectation>, Complaint> = words
+        .iter()
+        .enumerate()
+        .map(|(i, words)| expectation(binder, &Path::top("expect").then(i), words))
+        .collect();
+    let parsed = parsed?;
+    Ok(owners.into_iter().map(|owner| parsed[owner].clone()).collect())
+}
+
+/// For each case the one entry of `expect` that speaks of it.
+pub(super) fn assign(
+    binder: &Binder<'_>,
+    selectors: &[Option<&OneOrMany<String>>],
+    names: &[&str],
+) -> Result<Vec<usize>, Complaint> {
+    let path = Path::top("expect");
+    let speaks = |i: usize, name: &str| {
+        selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
+    };
+    for i in 0..selectors.len() {
+        if !names.iter().any(|name| speaks(i, name)) {
+            let complaint = binder.complain(&path.then(i), "this expectation fits no case");
+            return Err(complaint.with_help(&format!("cases: {}", names.join(", "))));
+        }
+    }
+    let owner = |name: &&str| {
+        let owners: Vec<usize> = (0..selectors.len()).filter(|i| speaks(*i, name)).collect();
+        match owners[..] {
+            [only] => Ok(only),
+            [] => {
+                let message = format!("nothing is expected of the case `{name}`");
+                Err(binder.complain_key(&path, &message))
+            }
+            [_, second, ..] => {
+                let message = format!("a second expectation for the case `{name}`");
+                Err(binder.complain(&path.then(second), &message))
+            }
+        }
+    };
+    names.iter().map(owner).collect()
+}
+
+/// Whether `glob`, in which `*` stands for any text, fits `name`.
+fn matches(glob: &str, name: &str) -> bool {
+    let mut parts = glob.split('*');
+    let Some(rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };
+    let parts: Vec<&str> = parts.collect();
+    let Some((last, middle)) = parts.split_last() else { return rest.is_empty() };
+    let mut rest = rest;
+    for part in middle {
+        let Some(at) = rest.find(part) else { return false };
+        rest = &rest[at + part.len()..];
+    }
+    rest.ends_with(last)
+}
+
+fn expectation(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExpectWords,
+) -> Result<Expectation, Complaint> {
+    let verdict = match &words.verdict {
+        Some(word) => verdict(binder, &path.then("verdict"), word)?,
+        None if words.order.is_some() => Verdict::Converging,
+        None => {
+            let complaint = binder.complain(path, "this expects neither an order nor a verdict");
+            return Err(complaint.with_help("add `order: [1.9, 2.1]` or `verdict: divergent`"));
+        }
+    };
+    let because = words.because.trim().to_owned();
+    if because.is_empty() {
+        return Err(binder.complain(&path.then("because"), "an expectation needs its reason"));
+    }
+    let bounds = |key: &str, words: &Option<Vec<NumberText>>| {
+        words.as_ref().map(|pair| bounds(binder, &path.then(key), pair)).transpose()
+    };
+    Ok(Expectation {
+        verdict,
+        order: bounds("order", &words.order)?,
+        finest_pair: bounds("finest_pair", &words.finest_pair)?,
+        crossings: words.crossings.map(|name| name == CrossingsName::Some),
+        because,
+    })
+}
+
+fn verdict(binder: &Binder<'_>, path: &Path, word: &str) -> Result<Verdict, Complaint> {
+    Verdict::from_str(word).map_err(|_| {
+        let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_")).join(", ");
+        let complaint = binder.complain(path, &format!("`{word}` is not a verdict"));
+        complaint.with_help(&format!("known verdicts: {known}"))
+    })
+}
+
+fn bounds(
+    binder: &Binder<'_>,
+    path: &Path,
+    pair: &[NumberText],
+) -> Result<(f64, f64), Complaint> {
+    let [low, high] = pair else {
+        let complaint = binder.complain(path, "an interval has two ends");
+        return Err(complaint.with_label("expected [low, high]"));
+    };
+    let low = binder.number(&path.then(0), low)?;
+    let high = binder.number(&path.then(1), high)?;
+    if low <= high {
+        return Ok((low, high));
+    }
+    Err(binder.complain(path, &format!("the interval ends at {high} and starts at {low}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("fem-linear-lumped", "fem-linear-lumped", true)]
+    #[case("fem-linear-lumped", "fem-linear-lumped-x", false)]
+    #[case("*", "anything", true)]
+    #[case("fem-*", "fem-linear-lumped", true)]
+    #[case("fem-*", "mpm-linear", false)]
+    #[case("*-lumped", "fem-linear-lumped", true)]
+    #[case("fem-*-nodes", "fem-linear-lumped-nodes", true)]
+    #[case("fem-*-*-nodes", "fem-linear-nodes", false)]
+    #[case("*usl*usl", "a-usl", false)]
+    #[case("", "x", false)]
+    fn globs(#[case] glob: &str, #[case] name: &str, #[case] fits: bool) {
+        assert_eq!(matches(glob, name), fits);
+    }
+}

@@ -1,0 +1,103 @@
+//! The internal-force study: the mechanism of grid crossing, without a run.
+//!
+//! Two cells meet at a node; both hold equal particles under one uniform stress. One particle of
+//! the left cell is moved through the node, and the internal force on the node is read from the
+//! solver's own P2G.
+
+use super::{
+    binder::{Binder, Path},
+    expect,
+    model::{ForceCase, ForcePlan},
+    words::{ForceMethodWords, InternalForceWords},
+    yaml::Complaint,
+};
+use crate::{
+    mpm::{BasisName, Block, Grid, Matrix, Particles, TransferName, Vector, kernel},
+    verify::ForceRow,
+};
+
+/// Cells on either side of the two that matter, so that wide bases see no wall.
+const SPARE: usize = 3;
+
+/// Variables of the predicted force.
+const VARIABLES: [&str; 2] = ["n_left", "n_right"];
+
+/// Checks an internal-force study.
+pub(super) fn plan(
+    binder: &Binder<'_>,
+    words: &InternalForceWords,
+) -> Result<ForcePlan, Complaint> {
+    let path = Path::top("internal_force");
+    let force = &words.internal_force;
+    let plan = ForcePlan {
+        cell: binder.positive(&path.then("cell"), &force.cell, "the cell size")?,
+        ppc: binder.count(&path.then("ppc"), &force.ppc, "the number of particles per cell")?,
+        volume: binder.positive(&path.then("volume"), &force.volume, "a particle's volume")?,
+        stress: binder.number(&path.then("stress"), &force.stress)?,
+        positions: binder.count(
+            &path.then("positions"),
+            &force.positions,
+            "the number of positions",
+        )?,
+        prediction: binder.formula(&path.then("prediction"), &force.prediction, &VARIABLES)?,
+        cases: Vec::new(),
+    };
+    Ok(ForcePlan { cases: cases(binder, words)?, ..plan })
+}
+
+fn cases(
+    binder: &Binder<'_>,
+    words: &InternalForceWords,
+) -> Result<Vec<ForceCase>, Complaint> {
+    let bases = |ForceMethodWords::Mpm { basis }: &ForceMethodWords| basis.as_slice().to_vec();
+    let bases: Vec<BasisName> = words.methods.iter().flat_map(bases).collect();
+    let names: Vec<String> = bases.iter().map(|basis| format!("mpm-{}", basis.name())).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let selectors: Vec<_> = words.expect.iter().map(|words| words.case.as_ref()).collect();
+    let owners = expect::assign(binder, &selectors, &names)?;
+    let case = |((basis, name), owner): ((BasisName, &str), usize)| {
+        let path = Path::top("expect").then(owner).then("agrees_within");
+        let expected = &words.expect[owner];
+        Ok(ForceCase {
+            name: name.to_owned(),
+            basis,
+            agrees_within: binder.positive(&path, &expected.agrees_within, "the agreement")?,
+            because: expected.because.trim().to_owned(),
+        })
+    };
+    bases.into_iter().zip(names).zip(owners).map(case).collect()
+}
+
+/// The force on the node for every position of the moving particle.
+pub(super) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
+    (0..plan.positions).map(|k| row(plan, case, k)).collect()
+}
+
+fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
+    // Positions from -1/2 to 1/2 cells, symmetric, at the middles of equal parts.
+    let position = (k as f64 + 0.5) / plan.positions as f64 - 0.5;
+    let right = plan.ppc + u64::from(position >= 0.0);
+    let left = 2 * plan.ppc - right;
+    ForceRow {
+        position,
+        left,
+        right,
+        force: force(plan, case.basis, position),
+        predicted: plan.prediction.eval(&[left as f64, right as f64]),
+    }
+}
+
+fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
+    let h = plan.cell;
+    let cells = 2 * (SPARE + 1);
+    let mut grid = Grid::<1>::new(Vector::<1>::new(-h * (SPARE + 1) as f64), h, [cells]);
+    let (from, to) = (Vector::<1>::new(-h), Vector::<1>::new(h));
+    let block = Block { from, to, density: 1.0 };
+    let mut particles = Particles::fill(&block, h, plan.ppc as usize);
+    particles.vol.fill(plan.volume);
+    particles.sigma.fill(Matrix::<1>::new(plan.stress));
+    // The last particle of the left cell is the one that moves.
+    particles.x[plan.ppc as usize - 1][0] = position * h;
+    kernel::<1>(basis, TransferName::Flip).p2g_internal_force(&particles, &mut grid);
+    grid.force[SPARE + 1][0]
+}

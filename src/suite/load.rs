@@ -1,0 +1,146 @@
+//! From words to a suite: every number computed, every name resolved, the truth checked.
+
+use super::{
+    binder::{Binder, Path},
+    cases, force,
+    model::{ConvergencePlan, ReferencePlan, StudyPlan, Suite},
+    scene, truth,
+    words::{ConvergenceWords, Head, InternalForceWords, RefineWords, ReferenceWords, StudyName},
+    yaml::{Complaint, Source, read},
+};
+
+/// Instants at which the error is taken unless a suite says otherwise.
+const INSTANTS: u64 = 50;
+
+impl Suite {
+    /// Reads and checks a suite. No solver runs.
+    ///
+    /// # Errors
+    /// A [`Complaint`] with the place of the first thing that is wrong.
+    pub fn load(source: &Source) -> Result<Self, Complaint> {
+        match study_of(source)? {
+            StudyName::Convergence => convergence(source),
+            StudyName::InternalForce => internal_force(source),
+        }
+    }
+}
+
+/// The kind of study decides which keys are known. A file whose head cannot be read is read as a
+/// convergence study, which then tells what is wrong with it.
+fn study_of(source: &Source) -> Result<StudyName, Complaint> {
+    read::<Head>(source).map(|head| head.study)
+}
+
+fn convergence(source: &Source) -> Result<Suite, Complaint> {
+    let words: ConvergenceWords = read(source)?;
+    let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
+    name(&binder, &words.suite)?;
+    let scene = scene::scene(&binder, &words.scene)?;
+    let (cells, ppc) = refine(&binder, &words.refine, scene.dimension())?;
+    let dt = binder.formula(&Path::top("run").then("dt"), &words.run.dt, &["h"])?;
+    let instants = words.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
+        binder.count(&Path::top("run").then("instants"), text, "the number of instants")
+    })?;
+    let until = cases::until(&binder, &words.run.until)?;
+    let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
+    let exact = truth::exact(&binder, &words, &scene, latest)?;
+    let reference = words.reference.as_ref().map(|words| reference(&binder, words)).transpose()?;
+    if exact.is_none() && reference.is_none() {
+        let message = "no truth: a convergence study needs `exact`, `reference` or both";
+        return Err(binder.complain_key(&Path::top("suite"), message));
+    }
+    let observe = words.observe.as_ref().map(|observe| {
+        binder.point(&Path::top("observe").then("at"), &observe.at, scene.dimension())
+    });
+    let mut plan = ConvergencePlan {
+        observe: observe.transpose()?,
+        scene,
+        exact,
+        reference,
+        cells,
+        ppc,
+        dt,
+        instants,
+        norm: words.judge.norm,
+        crossing_levels: words.judge.crossing_levels,
+        cases: Vec::new(),
+    };
+    cases::check_steps(&binder, &plan, &until)?;
+    plan.cases = cases::cases(&binder, &words, &plan, &until)?;
+    binder.refuse_unused(&words.parameters, &words.functions)?;
+    Ok(Suite {
+        name: words.suite,
+        title: words.title,
+        source: words.source,
+        about: words.about,
+        parameters,
+        functions: words.functions.as_slice().to_vec(),
+        study: StudyPlan::Convergence(Box::new(plan)),
+    })
+}
+
+fn internal_force(source: &Source) -> Result<Suite, Complaint> {
+    let words: InternalForceWords = read(source)?;
+    let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
+    name(&binder, &words.suite)?;
+    let plan = force::plan(&binder, &words)?;
+    binder.refuse_unused(&words.parameters, &words.functions)?;
+    Ok(Suite {
+        name: words.suite,
+        title: words.title,
+        source: words.source,
+        about: words.about,
+        parameters,
+        functions: words.functions.as_slice().to_vec(),
+        study: StudyPlan::InternalForce(Box::new(plan)),
+    })
+}
+
+/// A name becomes part of test and file names.
+fn name(binder: &Binder<'_>, name: &str) -> Result<(), Complaint> {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
+        return Ok(());
+    }
+    let complaint = binder.complain(&Path::top("suite"), "this is not a name for a suite");
+    Err(complaint.with_label("expected lower-case letters, digits and hyphens, at most 64"))
+}
+
+fn refine(
+    binder: &Binder<'_>,
+    words: &RefineWords,
+    dimension: usize,
+) -> Result<(Vec<u64>, Option<u64>), Complaint> {
+    let path = Path::top("refine");
+    let at = |i: usize| path.then("cells").then(i);
+    let texts = words.cells.as_slice().iter().enumerate();
+    let cells: Result<Vec<u64>, _> =
+        texts.map(|(i, text)| binder.count(&at(i), text, "the number of cells")).collect();
+    let mut cells = cells?;
+    cells.sort_unstable();
+    if cells.windows(2).any(|pair| pair[0] == pair[1]) {
+        return Err(binder.complain(&path.then("cells"), "a number of cells appears twice"));
+    }
+    let ppc_path = path.then("ppc");
+    let ppc = words.ppc.as_ref().map(|text| {
+        let ppc = binder.count(&ppc_path, text, "the number of particles per cell")?;
+        super::dispatch::per_axis(ppc, dimension).ok_or_else(|| {
+            let message = format!("{ppc} particles per cell cannot be equally spaced");
+            let label = format!("expected n^{dimension} in {dimension}-D");
+            binder.complain(&ppc_path, &message).with_label(&label)
+        })?;
+        Ok(ppc)
+    });
+    Ok((cells, ppc.transpose()?))
+}
+
+fn reference(binder: &Binder<'_>, words: &ReferenceWords) -> Result<ReferencePlan, Complaint> {
+    let path = Path::top("reference").then("fem");
+    Ok(ReferencePlan {
+        equation: words.equation,
+        element: words.fem.element,
+        mass: words.fem.mass,
+        cells: binder.count(&path.then("cells"), &words.fem.cells, "the number of elements")?,
+        dt: binder.formula(&path.then("dt"), &words.fem.dt, &["h"])?,
+    })
+}

@@ -1,0 +1,33 @@
+//! The words: what a YAML file says, checked, and turned into cases that can run.
+//!
+//! ```text
+//! yaml      the front door: text -> words, every complaint with file:line:column
+//! words     the grammar of a suite
+//! load      words -> Suite: numbers computed, names resolved, the truth checked
+//! cases     the product of the lists, with what is expected of each case
+//! dispatch  names become types: the only place that mentions every family
+//! execute   every level of every case, judged -> SuiteOutcome
+//! ```
+
+mod binder;
+mod cases;
+mod dispatch;
+pub mod embedded;
+mod execute;
+mod expect;
+mod force;
+mod load;
+mod model;
+mod reference;
+mod scene;
+pub mod statement;
+mod truth;
+mod words;
+pub mod yaml;
+
+pub use execute::{Progress, Runner};
+pub use model::{
+    Against, Case, ConvergencePlan, ForceCase, ForcePlan, Method, ReferencePlan, Scene, SceneFace,
+    StudyPlan, Suite,
+};
+pub use words::{CrossingLevels, EquationName, NormName};

@@ -1,0 +1,263 @@
+//! A suite whose every word has been checked and every number computed.
+
+use super::words::{CrossingLevels, EquationName, NormName};
+use crate::{
+    exact::{Problem, formula::Formula},
+    fem::{Element, Mass, Sampling},
+    mpm::{BasisName, SchemeName, TransferName},
+    subject::Start,
+    verify::Expectation,
+};
+
+/// A suite, ready to run.
+#[derive(Debug, Clone)]
+pub struct Suite {
+    /// Its name, unique among suites.
+    pub name: String,
+    /// Headline.
+    pub title: String,
+    /// Where the problem comes from.
+    pub source: String,
+    /// What a reader should know, as the author put it.
+    pub about: String,
+    /// Every parameter: name, what the file says, value.
+    pub parameters: Vec<(String, String, f64)>,
+    /// User functions: head and body.
+    pub functions: Vec<(String, String)>,
+    /// What is studied.
+    pub study: StudyPlan,
+}
+
+/// A study, by kind.
+#[derive(Debug, Clone)]
+pub enum StudyPlan {
+    /// Errors over a refinement plan.
+    Convergence(Box<ConvergencePlan>),
+    /// Internal force on a node while a particle moves through it.
+    InternalForce(Box<ForcePlan>),
+}
+
+/// Everything about a convergence study but the methods.
+#[derive(Debug, Clone)]
+pub struct ConvergencePlan {
+    /// The body and what acts on it.
+    pub scene: Scene,
+    /// The problem that the formulas solve, already checked; absent if only a reference is given.
+    pub exact: Option<Problem>,
+    /// A fine computation to compare with.
+    pub reference: Option<ReferencePlan>,
+    /// Cells along the first axis, level by level.
+    pub cells: Vec<u64>,
+    /// Particles per cell.
+    pub ppc: Option<u64>,
+    /// Wanted time step (s), a formula of h.
+    pub dt: Formula,
+    /// Instants at which the error is taken.
+    pub instants: u64,
+    /// The error that is judged.
+    pub norm: NormName,
+    /// Whether levels with crossings may count.
+    pub crossing_levels: CrossingLevels,
+    /// Place to be observed (m).
+    pub observe: Option<Vec<f64>>,
+    /// The cases, in the order of the product.
+    pub cases: Vec<Case>,
+}
+
+/// One case of a convergence study.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Its name, unique in the suite.
+    pub name: String,
+    /// The method.
+    pub method: Method,
+    /// End of the run (s).
+    pub until: f64,
+    /// What the errors are taken against.
+    pub against: Against,
+    /// What is expected.
+    pub expectation: Expectation,
+}
+
+/// Which truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Against {
+    /// The formulas.
+    Exact,
+    /// The fine computation.
+    Reference,
+}
+
+/// A subject, by the names of its parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The reference MPM.
+    Mpm {
+        /// Basis functions.
+        basis: BasisName,
+        /// Velocity transfer.
+        transfer: TransferName,
+        /// Time scheme.
+        scheme: SchemeName,
+        /// Treatment of the initial velocity.
+        start: Start,
+    },
+    /// The reference FEM.
+    Fem {
+        /// Shape functions.
+        element: Element,
+        /// Mass matrix.
+        mass: Mass,
+        /// Law between stress and strain.
+        law: EquationName,
+        /// Treatment of the initial velocity.
+        start: Start,
+        /// Where the error is taken.
+        sampling: Sampling,
+    },
+}
+
+/// The body and what acts on it.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Lowest corner of the body (m); its length is the number of dimensions.
+    pub from: Vec<f64>,
+    /// Highest corner (m).
+    pub to: Vec<f64>,
+    /// Grid that the suite asks for, lowest and highest corner (m).
+    pub grid: Option<(Vec<f64>, Vec<f64>)>,
+    /// Young's modulus (Pa).
+    pub young: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Reference density (kg/m^D).
+    pub density: f64,
+    /// The 2 D faces: low and high, axis by axis.
+    pub faces: Vec<SceneFace>,
+    /// Uniform acceleration (m/s2), formulas of t.
+    pub gravity: Option<Vec<Formula>>,
+    /// Initial velocity (m/s), formulas of the coordinates and t; empty: at rest.
+    pub initial_velocity: Vec<Formula>,
+}
+
+/// One face of the body.
+#[derive(Debug, Clone)]
+pub struct SceneFace {
+    /// What suites call it.
+    pub name: &'static str,
+    /// Axis of its normal.
+    pub axis: usize,
+    /// Whether it is the face with the larger coordinate.
+    pub high: bool,
+    /// Whether it is held.
+    pub fixed: bool,
+    /// Traction (Pa), formulas of t.
+    pub traction: Option<Vec<Formula>>,
+}
+
+/// A fine FEM computation that serves as truth where no formula is known.
+#[derive(Debug, Clone)]
+pub struct ReferencePlan {
+    /// Law between stress and strain.
+    pub equation: EquationName,
+    /// Shape functions.
+    pub element: Element,
+    /// Mass matrix.
+    pub mass: Mass,
+    /// Elements.
+    pub cells: u64,
+    /// Wanted time step (s), a formula of h.
+    pub dt: Formula,
+}
+
+/// An internal-force study.
+#[derive(Debug, Clone)]
+pub struct ForcePlan {
+    /// Cell size (m).
+    pub cell: f64,
+    /// Particles per cell before the moving one leaves.
+    pub ppc: u64,
+    /// Volume of each particle (m).
+    pub volume: f64,
+    /// Uniform stress (Pa).
+    pub stress: f64,
+    /// Number of positions of the moving particle.
+    pub positions: u64,
+    /// Predicted force (N), a formula of n_left and n_right.
+    pub prediction: Formula,
+    /// The cases.
+    pub cases: Vec<ForceCase>,
+}
+
+/// One case of an internal-force study.
+#[derive(Debug, Clone)]
+pub struct ForceCase {
+    /// Its name.
+    pub name: String,
+    /// Basis functions.
+    pub basis: BasisName,
+    /// Largest relative deviation from the prediction.
+    pub agrees_within: f64,
+    /// The reason for expecting it.
+    pub because: String,
+}
+
+impl Suite {
+    /// Names of the cases, in order.
+    pub fn case_names(&self) -> Vec<&str> {
+        match &self.study {
+            StudyPlan::Convergence(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
+            StudyPlan::InternalForce(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
+        }
+    }
+}
+
+impl Scene {
+    /// Number of space dimensions.
+    pub fn dimension(&self) -> usize {
+        self.from.len()
+    }
+}
+
+impl Method {
+    /// `mpm` or `fem`.
+    pub fn subject(&self) -> &'static str {
+        match self {
+            Self::Mpm { .. } => "mpm",
+            Self::Fem { .. } => "fem",
+        }
+    }
+
+    /// The order of the displacement error that theory gives the method on a smooth solution:
+    /// p + 1 for a basis of degree p, 2p for the nodal values of elements that superconverge
+    /// (Strang & Fix 1973, section 1.6).
+    pub fn formal_order(&self) -> f64 {
+        match self {
+            Self::Mpm { basis, .. } => basis.formal_order(),
+            Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
+            Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
+        }
+    }
+
+    /// What makes the method, as rows of name and value.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let rows = match self {
+            Self::Mpm { basis, transfer, scheme, start } => vec![
+                ("basis", basis.name()),
+                ("transfer", transfer.name()),
+                ("scheme", scheme.name()),
+                ("mass matrix", "lumped (row sum)"),
+                ("walls", "nodes on a fixed face are held"),
+                ("start", start.name()),
+            ],
+            Self::Fem { element, mass, law, start, sampling } => vec![
+                ("element", element.name()),
+                ("mass matrix", mass.name()),
+                ("law", law.name()),
+                ("start", start.name()),
+                ("error taken", sampling.name()),
+            ],
+        };
+        rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+    }
+}

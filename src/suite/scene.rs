@@ -1,0 +1,198 @@
+//! The body and what acts on it, from words.
+
+use super::{
+    binder::{Binder, Path},
+    model::{Scene, SceneFace},
+    words::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords},
+    yaml::{Complaint, NumberText},
+};
+use crate::exact::formula::Formula;
+
+/// Names of the faces: low and high, axis by axis.
+const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+
+/// Names of the coordinates in formulas.
+pub(super) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
+
+/// The coordinates of `dimension` dimensions, followed by t.
+pub(super) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
+    COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
+}
+
+/// Checks the scene of a suite.
+pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Complaint> {
+    let path = Path::top("scene");
+    let dimension = dimension(binder, &path, &words.dimension)?;
+    let BodyWords::Box(body) = &words.body;
+    let (from, to) = corners(binder, &path.then("body").then("box"), body, dimension)?;
+    let grid = words
+        .grid
+        .as_ref()
+        .map(|grid| corners(binder, &path.then("grid"), grid, dimension))
+        .transpose()?;
+    let MaterialWords::LinearElastic { young, poisson, density } = &words.material;
+    let at = path.then("material").then("linear_elastic");
+    let mut scene = Scene {
+        from,
+        to,
+        grid,
+        young: binder.positive(&at.then("young"), young, "Young's modulus")?,
+        poisson: poissons_ratio(binder, &at.then("poisson"), poisson)?,
+        density: binder.positive(&at.then("density"), density, "the density")?,
+        faces: faces(binder, &path, words, dimension)?,
+        gravity: None,
+        initial_velocity: initial_velocity(binder, &path, words, dimension)?,
+    };
+    for (i, load) in words.loads.iter().enumerate() {
+        add_load(binder, &path.then("loads").then(i), load, &mut scene)?;
+    }
+    grid_holds_body(binder, &path, &scene)?;
+    Ok(scene)
+}
+
+fn dimension(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<usize, Complaint> {
+    let path = path.then("dimension");
+    let dimension = binder.number(&path, text)?;
+    match [1.0, 2.0, 3.0].iter().position(|d| *d == dimension) {
+        Some(index) => Ok(index + 1),
+        None => Err(binder
+            .complain(&path, &format!("a scene of dimension {dimension}"))
+            .with_label("expected 1, 2 or 3")),
+    }
+}
+
+fn corners(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &BoxWords,
+    dimension: usize,
+) -> Result<(Vec<f64>, Vec<f64>), Complaint> {
+    let from = binder.point(&path.then("from"), &words.from, dimension)?;
+    let to = binder.point(&path.then("to"), &words.to, dimension)?;
+    for axis in 0..dimension {
+        if !(from[axis] < to[axis]) {
+            let message = format!("the box ends at {} and starts at {}", to[axis], from[axis]);
+            let complaint = binder.complain(&path.then("to").then(axis), &message);
+            return Err(complaint.with_label("expected a number above that of `from`"));
+        }
+    }
+    Ok((from, to))
+}
+
+fn poissons_ratio(
+    binder: &Binder<'_>,
+    path: &Path,
+    text: &NumberText,
+) -> Result<f64, Complaint> {
+    let poisson = binder.number(path, text)?;
+    if poisson > -1.0 && poisson < 0.5 {
+        return Ok(poisson);
+    }
+    let message = format!("Poisson's ratio is {poisson}");
+    Err(binder.complain(path, &message).with_label("expected a number above -1 and below 0.5"))
+}
+
+fn faces(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+    dimension: usize,
+) -> Result<Vec<SceneFace>, Complaint> {
+    for (name, _) in words.boundary.as_slice() {
+        face(binder, &path.then("boundary").then(name.as_str()), name, dimension, true)?;
+    }
+    let fixed = |name: &str| words.boundary.get(name).is_some();
+    let build = |(i, name): (usize, &&'static str)| SceneFace {
+        name,
+        axis: i / 2,
+        high: i % 2 == 1,
+        fixed: fixed(name),
+        traction: None,
+    };
+    Ok(FACES[..2 * dimension].iter().enumerate().map(build).collect())
+}
+
+/// Number of the face that a suite calls `name`; the name is a key or a value of the file.
+fn face(
+    binder: &Binder<'_>,
+    path: &Path,
+    name: &str,
+    dimension: usize,
+    is_key: bool,
+) -> Result<usize, Complaint> {
+    let known = &FACES[..2 * dimension];
+    known.iter().position(|face| *face == name).ok_or_else(|| {
+        let message = format!("a body of dimension {dimension} has no face `{name}`");
+        let complaint =
+            if is_key { binder.complain_key(path, &message) } else { binder.complain(path, &message) };
+        complaint.with_help(&format!("known faces: {}", known.join(", ")))
+    })
+}
+
+fn initial_velocity(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+    dimension: usize,
+) -> Result<Vec<Formula>, Complaint> {
+    let path = path.then("initial_velocity");
+    let variables = coordinates_and_time(dimension);
+    words.initial_velocity.as_ref().map_or(Ok(Vec::new()), |texts| {
+        binder.vector(&path, texts, dimension, &variables)
+    })
+}
+
+fn add_load(
+    binder: &Binder<'_>,
+    path: &Path,
+    load: &LoadWords,
+    scene: &mut Scene,
+) -> Result<(), Complaint> {
+    let d = scene.dimension();
+    match load {
+        LoadWords::Gravity(texts) => {
+            let path = path.then("gravity");
+            if scene.gravity.is_some() {
+                return Err(binder.complain(&path, "gravity appears twice"));
+            }
+            scene.gravity = Some(binder.vector(&path, texts, d, &["t"])?);
+        }
+        LoadWords::Traction { on, value } => {
+            let path = path.then("traction");
+            let face = face(binder, &path.then("on"), on, d, false)?;
+            let face = &mut scene.faces[face];
+            if face.fixed || face.traction.is_some() {
+                let has = if face.fixed { "is fixed" } else { "has a traction already" };
+                let message = format!("the face `{on}` {has}");
+                return Err(binder.complain(&path.then("on"), &message));
+            }
+            face.traction = Some(binder.vector(&path.then("value"), value, d, &["t"])?);
+        }
+    }
+    Ok(())
+}
+
+/// The grid must reach over the body, and a fixed face must lie on the grid's own face: its nodes
+/// are what is held.
+fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<(), Complaint> {
+    let Some((from, to)) = &scene.grid else { return Ok(()) };
+    for face in &scene.faces {
+        let (body, grid, key) = if face.high {
+            (scene.to[face.axis], to[face.axis], "to")
+        } else {
+            (scene.from[face.axis], from[face.axis], "from")
+        };
+        let outside = if face.high { grid < body } else { grid > body };
+        let apart = face.fixed && grid != body;
+        if outside || apart {
+            let name = face.name;
+            let message = if outside {
+                format!("the body's {name} face at {body} is outside the grid, which ends at {grid}")
+            } else {
+                format!("the {name} face at {body} is fixed, but the grid ends at {grid}")
+            };
+            return Err(binder.complain(&path.then("grid").then(key).then(face.axis), &message));
+        }
+    }
+    Ok(())
+}

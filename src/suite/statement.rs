@@ -1,0 +1,121 @@
+//! What a suite computes, in rows of name and value, for reports and `explain`.
+
+use super::model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite};
+use crate::exact::{Problem, formula::Formula};
+
+/// Rows for the whole suite.
+pub fn rows(suite: &Suite) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    let parameter = |(name, text, value): &(String, String, f64)| {
+        let same = text.parse() == Ok(*value);
+        if same { format!("{name} = {text}") } else { format!("{name} = {text} = {value:.6}") }
+    };
+    let parameters: Vec<String> = suite.parameters.iter().map(parameter).collect();
+    push(&mut rows, "parameters", &parameters.join(", "));
+    for (head, body) in &suite.functions {
+        push(&mut rows, "function", &format!("{head} = {body}"));
+    }
+    match &suite.study {
+        StudyPlan::Convergence(plan) => convergence(plan, &mut rows),
+        StudyPlan::InternalForce(plan) => internal_force(plan, &mut rows),
+    }
+    rows
+}
+
+/// Rows for one case of a convergence study.
+pub fn settings(case: &Case) -> Vec<(String, String)> {
+    let mut rows = case.method.settings();
+    let truth = match case.against {
+        Against::Exact => "the exact solution",
+        Against::Reference => "the reference",
+    };
+    push(&mut rows, "until", &format!("t = {} s", case.until));
+    push(&mut rows, "against", truth);
+    rows
+}
+
+type Rows = Vec<(String, String)>;
+
+fn push(rows: &mut Rows, key: &str, value: &str) {
+    if !value.is_empty() {
+        rows.push((key.to_owned(), value.to_owned()));
+    }
+}
+
+fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
+    scene(&plan.scene, rows);
+    if let Some(problem) = &plan.exact {
+        push(rows, "equation", "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)");
+        push(rows, "amplitude", &amplitude(problem));
+    }
+    if let Some(fine) = &plan.reference {
+        let (element, mass, law) = (fine.element.name(), fine.mass.name(), fine.equation.name());
+        let (cells, dt) = (fine.cells, fine.dt.source());
+        let text = format!("{element} {mass} FEM, {law}, {cells} elements, dt = {dt}");
+        push(rows, "reference", &text);
+    }
+    let dt = plan.dt.source();
+    push(rows, "dt", &format!("{dt} s, shortened to divide the time between instants"));
+    push(rows, "instants", &format!("{}", plan.instants));
+    let ppc = plan.ppc.map_or(String::new(), |ppc| format!("{ppc} per cell, equally spaced"));
+    push(rows, "particles", &ppc);
+    push(rows, "judged", &format!("{} error of the displacement", plan.norm.name()));
+    push(rows, "crossing levels", plan.crossing_levels.name());
+}
+
+fn scene(scene: &Scene, rows: &mut Rows) {
+    let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let (from, to) = (corner(&scene.from), corner(&scene.to));
+    push(rows, "body", &format!("({from}) to ({to}) m, density {}", scene.density));
+    if let Some((from, to)) = &scene.grid {
+        push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
+    }
+    let (young, poisson) = (scene.young, scene.poisson);
+    push(rows, "material", &format!("linear elastic, E = {young} Pa, nu = {poisson}"));
+    for face in &scene.faces {
+        let state = match (&face.traction, face.fixed) {
+            (Some(value), _) => format!("traction {} Pa", sources(value)),
+            (None, true) => "fixed".to_owned(),
+            (None, false) => "free".to_owned(),
+        };
+        push(rows, face.name, &state);
+    }
+    if let Some(gravity) = &scene.gravity {
+        push(rows, "gravity", &format!("{} m/s2", sources(gravity)));
+    }
+    push(rows, "initial velocity", &sources(&scene.initial_velocity));
+}
+
+fn sources(formulas: &[Formula]) -> String {
+    formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
+}
+
+/// Largest displacement and displacement gradient of the exact solution, on a raster of the body
+/// and the run.
+fn amplitude(problem: &Problem) -> String {
+    const PER_AXIS: usize = 20;
+    let d = problem.dimension();
+    let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
+    for k in 0..(PER_AXIS + 1).pow(d as u32 + 1) {
+        let mut rest = k;
+        let mut share = || {
+            let index = rest % (PER_AXIS + 1);
+            rest /= PER_AXIS + 1;
+            index as f64 / PER_AXIS as f64
+        };
+        let t = problem.until * share();
+        let corners = problem.from.iter().zip(&problem.to);
+        let label: Vec<f64> = corners.map(|(a, b)| a + (b - a) * share()).collect();
+        let now = problem.motion.derivatives(&label, t);
+        displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));
+        gradient = now.grad.iter().flatten().fold(gradient, |a, b| a.max(b.abs()));
+    }
+    format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
+}
+
+fn internal_force(plan: &ForcePlan, rows: &mut Rows) {
+    push(rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));
+    push(rows, "particle volume", &format!("{} m", plan.volume));
+    push(rows, "stress", &format!("{} Pa, uniform", plan.stress));
+    push(rows, "prediction", &format!("{} N", plan.prediction.source()));
+}

@@ -1,0 +1,102 @@
+//! The exact solution of a suite, checked before it is used.
+
+use super::{
+    binder::{Binder, Path},
+    model::{Scene, SceneFace},
+    scene::coordinates_and_time,
+    words::{ConvergenceWords, EquationName, ExactWords, LoadWords},
+    yaml::{Complaint, NumberText},
+};
+use crate::exact::{Condition, Equation, Face, Motion, Problem, formula::Formula};
+
+/// Largest relative residual of a closed form: what rounding leaves of second derivatives.
+const TOLERANCE: f64 = 1e-8;
+
+/// The problem that a suite's formulas solve, if it has formulas.
+///
+/// # Errors
+/// A complaint at the formula that says which condition it violates, where and by how much.
+pub(super) fn exact(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Problem>, Complaint> {
+    let Some(exact) = &words.exact else { return Ok(None) };
+    let path = Path::top("exact");
+    if exact.equation != EquationName::SmallStrain {
+        let message = "a formula is checked against `small_strain` only";
+        let complaint = binder.complain(&path.then("equation"), message);
+        return Err(complaint.with_help("give other equations a `reference`"));
+    }
+    let problem = Problem {
+        from: scene.from.clone(),
+        to: scene.to.clone(),
+        density: scene.density,
+        equation: Equation::small_strain(scene.young, scene.poisson),
+        body_force: body_force(binder, words, scene)?,
+        faces: scene.faces.iter().map(face).collect(),
+        initial_velocity: scene.initial_velocity.clone(),
+        until,
+        motion: motion(binder, &path, exact, scene.dimension())?,
+        tolerance: tolerance(binder, &path, exact.tolerance.as_ref())?,
+    };
+    problem.check().map_err(|violation| {
+        let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
+        complaint
+            .with_label("this is not a solution of the problem that the scene states")
+            .with_help("correct the formula, or the scene: loads, boundary, initial velocity")
+    })?;
+    Ok(Some(problem))
+}
+
+fn motion(
+    binder: &Binder<'_>,
+    path: &Path,
+    exact: &ExactWords,
+    dimension: usize,
+) -> Result<Motion, Complaint> {
+    let variables = coordinates_and_time(dimension);
+    let path = path.then("displacement");
+    Ok(Motion::new(binder.vector(&path, &exact.displacement, dimension, &variables)?))
+}
+
+fn tolerance(
+    binder: &Binder<'_>,
+    path: &Path,
+    text: Option<&NumberText>,
+) -> Result<f64, Complaint> {
+    let Some(text) = text else { return Ok(TOLERANCE) };
+    let path = path.then("tolerance");
+    let tolerance = binder.positive(&path, text, "the tolerance")?;
+    if tolerance <= 1e-2 {
+        return Ok(tolerance);
+    }
+    let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
+    Err(binder.complain(&path, &message).with_label("expected at most 1e-2"))
+}
+
+/// Gravity once more, as formulas of the coordinates and t.
+fn body_force(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+) -> Result<Vec<Formula>, Complaint> {
+    let variables = coordinates_and_time(scene.dimension());
+    for (i, load) in words.scene.loads.iter().enumerate() {
+        if let LoadWords::Gravity(texts) = load {
+            let path = Path::top("scene").then("loads").then(i).then("gravity");
+            return binder.vector(&path, texts, scene.dimension(), &variables);
+        }
+    }
+    Ok(Vec::new())
+}
+
+fn face(face: &SceneFace) -> Face {
+    let condition = match &face.traction {
+        _ if face.fixed => Condition::Fixed,
+        Some(value) => Condition::Traction(value.clone()),
+        None => Condition::Free,
+    };
+    Face { name: face.name, axis: face.axis, high: face.high, condition }
+}

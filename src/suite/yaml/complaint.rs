@@ -1,0 +1,159 @@
+//! What is wrong with a file, and where.
+
+use super::place::{Place, line_around};
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use std::fmt;
+use std::ops::Range;
+
+/// Longer texts in a complaint are cut: a file may hold a key of 60 000 characters.
+const MAX_WORDS: usize = 240;
+
+/// One mistake in a file: what it is, where it is, and what would be right.
+///
+/// `Display` shows it as `rustc` would, with the line and a caret; [`Complaint::one_line`] is
+/// for editors and logs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint(Box<Parts>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Parts {
+    file: String,
+    message: String,
+    label: Option<String>,
+    help: Option<String>,
+    excerpt: Option<Excerpt>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Excerpt {
+    place: Place,
+    line: String,
+    /// What is underlined, in bytes of `line`.
+    underlined: Range<usize>,
+}
+
+impl Complaint {
+    /// A complaint about a file as a whole.
+    pub fn about(file: &str, message: &str) -> Self {
+        Self(Box::new(Parts {
+            file: printable(file),
+            message: printable(message),
+            label: None,
+            help: None,
+            excerpt: None,
+        }))
+    }
+
+    /// A complaint about a stretch of bytes of `text`, which is what `file` holds.
+    pub fn at(file: &str, text: &str, range: Range<usize>, message: &str) -> Self {
+        let place = Place::of(text, range);
+        let bytes = place.bytes();
+        let line = line_around(text, bytes.start);
+        let mut complaint = Self::about(file, message);
+        complaint.0.excerpt = Some(Excerpt {
+            place,
+            line: text[line.clone()].to_owned(),
+            underlined: bytes.start - line.start..bytes.end - line.start,
+        });
+        complaint
+    }
+
+    /// Adds the words under the caret: what was expected there.
+    #[must_use]
+    pub fn with_label(mut self, label: &str) -> Self {
+        self.0.label = Some(printable(label)).filter(|label| !label.is_empty());
+        self
+    }
+
+    /// Adds what the author could do about it.
+    #[must_use]
+    pub fn with_help(mut self, help: &str) -> Self {
+        self.0.help = Some(printable(help)).filter(|help| !help.is_empty());
+        self
+    }
+
+    /// The file, as the user named it.
+    pub fn file(&self) -> &str {
+        &self.0.file
+    }
+
+    /// Where it is, unless it concerns the file as a whole.
+    pub fn place(&self) -> Option<Place> {
+        self.0.excerpt.as_ref().map(|excerpt| excerpt.place)
+    }
+
+    /// What is wrong.
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// What was expected at the place.
+    pub fn label(&self) -> Option<&str> {
+        self.0.label.as_deref()
+    }
+
+    /// What the author could do.
+    pub fn help(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+
+    /// `file:line:column: message`.
+    pub fn one_line(&self) -> String {
+        let Parts { file, message, .. } = &*self.0;
+        match self.place() {
+            Some(place) => format!("{file}:{}:{}: {message}", place.line(), place.column()),
+            None => format!("{file}: {message}"),
+        }
+    }
+
+    fn group(&self) -> Group<'_> {
+        let title = Level::ERROR.primary_title(self.message());
+        let group = match &self.0.excerpt {
+            None => title.element(Origin::path(self.file())),
+            Some(excerpt) => title.element(
+                Snippet::source(excerpt.line.as_str())
+                    .line_start(excerpt.place.line())
+                    .path(self.file())
+                    .annotation(
+                        AnnotationKind::Primary
+                            .span(excerpt.underlined.clone())
+                            .label(self.label()),
+                    ),
+            ),
+        };
+        match self.help() {
+            Some(help) => group.element(Level::HELP.message(help)),
+            None => group,
+        }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&Renderer::plain().render(&[self.group()]))
+    }
+}
+
+impl std::error::Error for Complaint {}
+
+/// Words that are safe on a terminal: one line, nothing invisible, not too long.
+fn printable(words: &str) -> String {
+    let mut safe = String::new();
+    for (count, c) in words.chars().enumerate() {
+        if count == MAX_WORDS {
+            safe.push('…');
+            break;
+        }
+        if c.is_control() || reorders(c) {
+            safe.extend(c.escape_unicode());
+        } else {
+            safe.push(c);
+        }
+    }
+    safe
+}
+
+/// Characters that make a terminal show the rest of a line in another order.
+fn reorders(c: char) -> bool {
+    matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}

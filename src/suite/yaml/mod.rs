@@ -1,0 +1,60 @@
+//! The front door: YAML written by hand, read safely, with the place of every mistake.
+//!
+//! ```text
+//! path -> Source          size, encoding, characters, nesting: refused before the parser runs
+//!      -> read::<Suite>   typed; every error becomes a Complaint with file:line:column
+//!      -> Source::value_at, within   the place of a value that proves wrong later on
+//! ```
+//!
+//! This is the only module that names the YAML library. What a suite does not need is refused:
+//! anchors, aliases, tags, merge keys and a second document. A suite names a value once under
+//! `parameters`, and without aliases no file can unfold into more than it holds.
+//!
+//! ```
+//! use mpm_verify::suite::yaml::{Source, read};
+//!
+//! #[derive(serde::Deserialize)]
+//! #[serde(deny_unknown_fields)]
+//! struct Refine {
+//!     cells: Vec<usize>,
+//! }
+//!
+//! let source = Source::from_text("bar.yaml", "cels: [5, 10]\n").unwrap();
+//! let complaint = read::<Refine>(&source).err().unwrap();
+//! assert_eq!(complaint.one_line(), "bar.yaml:1:1: unknown key `cels`");
+//! assert_eq!(complaint.help(), Some("did you mean `cells`?"));
+//! ```
+
+mod complaint;
+mod locate;
+mod number_text;
+mod one_or_many;
+mod ordered;
+mod place;
+mod read;
+mod refusal;
+mod scalars;
+mod scan;
+mod shape;
+mod source;
+mod translate;
+mod words;
+
+#[cfg(test)]
+mod tests;
+
+pub use complaint::Complaint;
+pub use locate::Step;
+pub use number_text::NumberText;
+pub use one_or_many::OneOrMany;
+pub use ordered::Ordered;
+pub use place::Place;
+pub use read::read;
+pub use refusal::refuse;
+pub use source::{MAX_BYTES, Source};
+
+/// The most entries that one list or one map may have.
+pub const MAX_ENTRIES: usize = 1000;
+
+/// The deepest nesting of lists and maps; the YAML parser's cost is quadratic in it.
+pub const MAX_NESTING: usize = 64;

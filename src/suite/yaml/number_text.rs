@@ -1,0 +1,85 @@
+//! A number, or the text of a formula.
+
+use super::shape::finite;
+use serde::de::{self, Deserialize, Deserializer, Visitor};
+use std::fmt;
+
+/// What a suite may write where a number is due: `25`, `1e-3` or `"pi/(2*L)"`.
+///
+/// Formulas are not parsed here; `Display` gives the text to parse, for a number the shortest
+/// that reads back as the same number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NumberText {
+    /// A finite number.
+    Number(f64),
+    /// The text of a formula, as YAML understands it: without quotes, escapes resolved.
+    Formula(String),
+}
+
+impl fmt::Display for NumberText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Formula(text) => f.write_str(text),
+            // Without an exponent, 1e300 would be a one and 300 zeros.
+            Self::Number(value) if *value != 0.0 && !(1e-5..1e16).contains(&value.abs()) => {
+                write!(f, "{value:e}")
+            }
+            Self::Number(value) => write!(f, "{value}"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for NumberText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberOrFormula)
+    }
+}
+
+struct NumberOrFormula;
+
+impl Visitor<'_> for NumberOrFormula {
+    type Value = NumberText;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a finite number or a formula")
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_u128<E: de::Error>(self, value: u128) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_i128<E: de::Error>(self, value: i128) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<NumberText, E> {
+        finite(value, "a finite number or a formula").map(NumberText::Number)
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<NumberText, E> {
+        Ok(NumberText::Formula(text.to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_text_of_a_number_reads_back(value in any::<f64>().prop_filter("finite", |v| v.is_finite())) {
+            let text = NumberText::Number(value).to_string();
+            prop_assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
+            prop_assert!(text.len() < 30);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! A value, or a list of alternatives.
+
+use super::refuse;
+use super::shape::within_cap;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// What a suite may vary: `scheme: usl`, or `scheme: [musl, usl]` for a case of each.
+///
+/// Never empty. `T` may be a number, text, a struct or an enum, but not itself a list: the
+/// first bracket is always that of the alternatives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OneOrMany<T>(Vec<T>);
+
+impl<T> OneOrMany<T> {
+    /// The alternatives in the order of the file; at least one.
+    pub fn as_slice(&self) -> &[T] {
+        &self.0
+    }
+
+    /// The alternatives themselves; at least one.
+    pub fn into_vec(self) -> Vec<T> {
+        self.0
+    }
+}
+
+impl<T> From<T> for OneOrMany<T> {
+    fn from(one: T) -> Self {
+        Self(vec![one])
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Alternatives(PhantomData)).map(Self)
+    }
+}
+
+struct Alternatives<T>(PhantomData<T>);
+
+fn one<'de, T: Deserialize<'de>, E: de::Error>(
+    value: impl IntoDeserializer<'de, E>,
+) -> Result<Vec<T>, E> {
+    T::deserialize(value.into_deserializer()).map(|value| vec![value])
+}
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Alternatives<T> {
+    type Value = Vec<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value or a list of values")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<T>, A::Error> {
+        let mut values = Vec::new();
+        while let Some(value) = list.next_element()? {
+            values.push(value);
+            within_cap(values.len(), "list")?;
+        }
+        if values.is_empty() {
+            return Err(refuse(
+                "an empty list selects nothing",
+                "at least one value is expected here",
+                "",
+            ));
+        }
+        Ok(values)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(|value| vec![value])
+    }
+
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Vec<T>, E> {
+        one(value)
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Vec<T>, E> {
+        one(value)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Vec<T>, E> {
+        one(value)
+    }
+
+    fn visit_i128<E: de::Error>(self, value: i128) -> Result<Vec<T>, E> {
+        one(value)
+    }
+
+    fn visit_u128<E: de::Error>(self, value: u128) -> Result<Vec<T>, E> {
+        one(value)
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Vec<T>, E> {
+        one(value)
+    }
+
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Vec<T>, E> {
+        one(value)
+    }
+}

@@ -1,0 +1,89 @@
+//! A stretch of one line of a file.
+
+use std::ops::Range;
+
+/// Where something stands in a file: line, column and length, in characters and from one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    line: usize,
+    column: usize,
+    length: usize,
+    start: usize,
+    end: usize,
+}
+
+impl Place {
+    /// The place of a byte range of `text`, cut at the end of its first line.
+    ///
+    /// Any range is good: it is moved onto character boundaries and into the text. One that
+    /// starts at the end of the text is moved back to where the text visibly ends.
+    pub fn of(text: &str, range: Range<usize>) -> Self {
+        let start = if range.start >= text.len() {
+            text.trim_end().len()
+        } else {
+            text.floor_char_boundary(range.start)
+        };
+        let line_end = line_around(text, start).end;
+        let end = text.ceil_char_boundary(range.end.clamp(start, line_end));
+        let line_start = line_around(text, start).start;
+        Self {
+            line: 1 + text[..line_start].matches('\n').count(),
+            column: 1 + text[line_start..start].chars().count(),
+            length: text[start..end].chars().count(),
+            start,
+            end,
+        }
+    }
+
+    /// The line, from one.
+    pub fn line(self) -> usize {
+        self.line
+    }
+
+    /// The column in characters, from one.
+    pub fn column(self) -> usize {
+        self.column
+    }
+
+    /// How many characters are meant; zero for a point between two of them.
+    pub fn length(self) -> usize {
+        self.length
+    }
+
+    /// The bytes of the text that are meant.
+    pub fn bytes(self) -> Range<usize> {
+        self.start..self.end
+    }
+}
+
+/// The bytes of the line around `offset`, a character boundary, without its line break.
+pub(super) fn line_around(text: &str, offset: usize) -> Range<usize> {
+    let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
+    let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);
+    let visible = text[start..end].strip_suffix('\r').map_or(end, |line| start + line.len());
+    start..visible.max(offset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::first("ab: c", 0..2, (1, 1, 2))]
+    #[case::counts_characters("é: ü\nñ: x", 10..11, (2, 4, 1))]
+    #[case::cut_at_the_line("ab\ncd", 1..5, (1, 2, 1))]
+    #[case::carriage_return("ab\r\ncd", 0..6, (1, 1, 2))]
+    #[case::end_of_text("ab\n\n", 4..4, (1, 3, 0))]
+    #[case::inside_a_character("é", 1..1, (1, 1, 0))]
+    #[case::far_outside("ab", 90..95, (1, 3, 0))]
+    #[case::nothing("", 0..3, (1, 1, 0))]
+    fn counts(
+        #[case] text: &str,
+        #[case] range: Range<usize>,
+        #[case] want: (usize, usize, usize),
+    ) {
+        let place = Place::of(text, range);
+        assert_eq!((place.line(), place.column(), place.length()), want);
+    }
+}

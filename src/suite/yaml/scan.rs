@@ -1,0 +1,298 @@
+//! What must be known of a file before the parser may see it: how deep it nests, and whether
+//! it uses what suites do not need.
+//!
+//! The YAML parser's cost is quadratic in the nesting, and its own limit acts too late. This
+//! pass follows the parser's rules for where a token starts, and nothing else: it builds no
+//! values. Where a file is not YAML it stops, and the parser says why. On its way it keeps the
+//! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
+//! quotes that are never closed, of which the parser would only notice the end of the file.
+
+use super::scalars::Scalar;
+use super::{Complaint, MAX_NESTING};
+use std::ops::Range;
+
+/// The scalars of a text in their order, or the reason why it is refused.
+pub(super) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Complaint> {
+    let mut scanner = Scanner {
+        name,
+        text,
+        at: 0,
+        line_start: 0,
+        indents: Vec::new(),
+        open: Vec::new(),
+        key_allowed: true,
+        possible_key: None,
+        document: Document::Before,
+        scalars: Vec::new(),
+    };
+    while scanner.step()? == Next::More {}
+    Ok(scanner.scalars)
+}
+
+/// The state of the walk, named after the rules of YAML that it decides.
+pub(super) struct Scanner<'t> {
+    name: &'t str,
+    pub(super) text: &'t str,
+    pub(super) at: usize,
+    line_start: usize,
+    /// The columns of the block lists and maps around this point.
+    pub(super) indents: Vec<usize>,
+    /// The offsets of the brackets not yet closed.
+    pub(super) open: Vec<usize>,
+    /// Whether a key may start here.
+    pub(super) key_allowed: bool,
+    /// Where the token starts that a `:` later on the same line makes a key.
+    pub(super) possible_key: Option<usize>,
+    document: Document,
+    pub(super) scalars: Vec<Scalar>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Document {
+    Before,
+    Inside,
+    Ended,
+}
+
+#[derive(PartialEq)]
+enum Next {
+    More,
+    Stop,
+}
+
+impl Scanner<'_> {
+    fn step(&mut self) -> Result<Next, Complaint> {
+        self.skip_blanks()?;
+        let Some(byte) = self.byte(0) else {
+            self.all_closed()?;
+            return Ok(Next::Stop);
+        };
+        if self.column() == 0 && byte == b'%' && self.document == Document::Before {
+            self.skip_line();
+            return Ok(Next::More);
+        }
+        if self.open.is_empty() {
+            let column = self.column();
+            self.indents.retain(|indent| *indent <= column);
+        }
+        if self.at_document_mark() {
+            return self.document_mark(byte);
+        }
+        if self.document == Document::Ended {
+            return Err(self.second_document());
+        }
+        self.document = Document::Inside;
+        self.token(byte)
+    }
+
+    fn token(&mut self, byte: u8) -> Result<Next, Complaint> {
+        let indicator = self.blank(1);
+        match byte {
+            b'[' | b'{' => self.bracket()?,
+            b']' | b'}' => self.closing_bracket(byte)?,
+            b',' => self.pass(true),
+            b'-' if indicator => return self.block_indicator(),
+            b'?' if indicator || self.in_flow() => return self.block_indicator(),
+            b':' if indicator || self.in_flow() => return self.value_indicator(),
+            b'*' | b'&' => return Err(self.unneeded("anchors and aliases", byte)),
+            b'!' => return Err(self.unneeded("tags", byte)),
+            b'|' | b'>' if !self.in_flow() => self.block_scalar(),
+            b'\'' | b'"' => self.quoted_scalar(byte)?,
+            b'|' | b'>' | b'#' | b'%' | b'@' | b'`' | b'\t' => return Ok(Next::Stop),
+            _ => self.plain_scalar()?,
+        }
+        Ok(Next::More)
+    }
+
+    fn skip_blanks(&mut self) -> Result<(), Complaint> {
+        while let Some(byte) = self.byte(0) {
+            match byte {
+                b' ' | b'\r' => self.at += 1,
+                b'\t' if self.in_flow() || !self.key_allowed => self.at += 1,
+                b'\t' => return Err(self.tab()),
+                b'#' => self.skip_line(),
+                b'\n' => {
+                    self.line_break();
+                    self.key_allowed |= !self.in_flow();
+                }
+                _ => break,
+            }
+        }
+        Ok(())
+    }
+
+    fn bracket(&mut self) -> Result<(), Complaint> {
+        self.may_be_key();
+        self.open.push(self.at);
+        self.pass(true);
+        self.nesting()
+    }
+
+    fn closing_bracket(&mut self, byte: u8) -> Result<(), Complaint> {
+        let opening = if byte == b']' { '[' } else { '{' };
+        let Some(start) = self.open.pop() else {
+            let message = format!("`{}` without a `{opening}` before it", byte as char);
+            return Err(self.complain(self.here(), &message));
+        };
+        if !self.text[start..].starts_with(opening) {
+            let message = format!("`{}` where another bracket must close first", byte as char);
+            let line = Complaint::at(self.name, self.text, start..start, "")
+                .place()
+                .map_or(0, super::Place::line);
+            let help = format!("`{}` was opened on line {line}", &self.text[start..=start]);
+            return Err(self.complain(self.here(), &message).with_help(&help));
+        }
+        self.pass(false);
+        Ok(())
+    }
+
+    /// `- ` and `? `, which open a block list or map at their own column.
+    fn block_indicator(&mut self) -> Result<Next, Complaint> {
+        if self.in_flow() {
+            self.pass(false);
+            return Ok(Next::More);
+        }
+        if !self.key_allowed {
+            return Ok(Next::Stop);
+        }
+        self.indent(self.column())?;
+        self.possible_key = None;
+        self.pass(true);
+        Ok(Next::More)
+    }
+
+    /// `:`, which shows that what came before it on the line is a key of a block map.
+    fn value_indicator(&mut self) -> Result<Next, Complaint> {
+        let key = self.possible_key.take().filter(|key| *key >= self.line_start);
+        match key {
+            _ if self.in_flow() => {
+                self.possible_key = key;
+                self.pass(false);
+            }
+            Some(key) => {
+                self.indent(key - self.line_start)?;
+                self.pass(false);
+            }
+            None if self.key_allowed => {
+                self.indent(self.column())?;
+                self.pass(true);
+            }
+            None => return Ok(Next::Stop),
+        }
+        Ok(Next::More)
+    }
+
+    fn document_mark(&mut self, byte: u8) -> Result<Next, Complaint> {
+        self.all_closed()?;
+        self.document = match (byte, self.document) {
+            (b'-', Document::Before) => Document::Inside,
+            (b'-', _) => return Err(self.second_document()),
+            (_, Document::Before) => Document::Before,
+            _ => Document::Ended,
+        };
+        self.indents.clear();
+        self.possible_key = None;
+        self.at += 3;
+        self.key_allowed = false;
+        Ok(Next::More)
+    }
+
+    fn indent(&mut self, column: usize) -> Result<(), Complaint> {
+        if self.indents.last().is_none_or(|indent| *indent < column) {
+            self.indents.push(column);
+        }
+        self.nesting()
+    }
+
+    fn nesting(&self) -> Result<(), Complaint> {
+        if self.open.len() + self.indents.len() <= MAX_NESTING {
+            return Ok(());
+        }
+        let message = format!("lists and maps nest more than {MAX_NESTING} deep");
+        Err(self.complain(self.here(), &message))
+    }
+
+    fn all_closed(&self) -> Result<(), Complaint> {
+        let Some(&start) = self.open.last() else { return Ok(()) };
+        let bracket = &self.text[start..=start];
+        let closing = if bracket == "[" { "]" } else { "}" };
+        Err(self
+            .complain(start..start + 1, &format!("this `{bracket}` is never closed"))
+            .with_label(&format!("no matching `{closing}`")))
+    }
+
+    fn second_document(&self) -> Complaint {
+        self.complain(self.here(), "a second document starts here")
+            .with_label("a suite is one document")
+            .with_help("put each suite in a file of its own")
+    }
+
+    fn unneeded(&self, what: &str, byte: u8) -> Complaint {
+        self.complain(self.here(), &format!("{what} are not supported"))
+            .with_label(&format!("a value cannot start with `{}`", byte as char))
+            .with_help("put text in quotes; give a value a name under `parameters`")
+    }
+
+    pub(super) fn tab(&self) -> Complaint {
+        self.complain(self.here(), "tab used for indentation; YAML needs spaces")
+            .with_label("a tab")
+    }
+
+    pub(super) fn complain(&self, range: Range<usize>, message: &str) -> Complaint {
+        Complaint::at(self.name, self.text, range, message)
+    }
+}
+
+/// The reading head.
+impl Scanner<'_> {
+    pub(super) fn byte(&self, ahead: usize) -> Option<u8> {
+        self.text.as_bytes().get(self.at + ahead).copied()
+    }
+
+    /// Whether a blank, a line break or the end of the text is there.
+    pub(super) fn blank(&self, ahead: usize) -> bool {
+        matches!(self.byte(ahead), None | Some(b' ' | b'\t' | b'\n' | b'\r'))
+    }
+
+    pub(super) fn in_flow(&self) -> bool {
+        !self.open.is_empty()
+    }
+
+    /// In bytes: what stands before a block key or dash on its line is ASCII.
+    pub(super) fn column(&self) -> usize {
+        self.at - self.line_start
+    }
+
+    pub(super) fn at_document_mark(&self) -> bool {
+        let rest = &self.text.as_bytes()[self.at..];
+        self.column() == 0
+            && (rest.starts_with(b"---") || rest.starts_with(b"..."))
+            && self.blank(3)
+    }
+
+    pub(super) fn line_break(&mut self) {
+        self.at += 1;
+        self.line_start = self.at;
+    }
+
+    pub(super) fn skip_line(&mut self) {
+        let rest = &self.text.as_bytes()[self.at..];
+        self.at += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+    }
+
+    /// Remembers that the token starting here is a key if a `:` follows it.
+    pub(super) fn may_be_key(&mut self) {
+        if self.key_allowed && !self.in_flow() {
+            self.possible_key = Some(self.at);
+        }
+    }
+
+    fn pass(&mut self, key_allowed: bool) {
+        self.at += 1;
+        self.key_allowed = key_allowed;
+    }
+
+    fn here(&self) -> Range<usize> {
+        self.at..self.at + 1
+    }
+}

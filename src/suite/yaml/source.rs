@@ -1,0 +1,148 @@
+//! A suite file in memory, checked before anything interprets it.
+
+use super::scalars::Scalar;
+use super::scan::scan;
+use super::{Complaint, Place};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::Path;
+
+/// The largest file that is read; a long suite is a tenth of it.
+pub const MAX_BYTES: usize = 64 * 1024;
+
+/// A text that is safe to parse, and the name under which its user knows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    name: String,
+    text: String,
+    scalars: Vec<Scalar>,
+}
+
+impl Source {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If there is no such file, if it is a folder, too large or not UTF-8, and for all that
+    /// [`Source::from_text`] refuses.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Complaint> {
+        let name = path.as_ref().display().to_string();
+        let bytes = bytes_of(path.as_ref(), &name)?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Self::from_text(name, text),
+            Err(error) => Err(not_utf8(&name, error.as_bytes(), error.utf8_error().valid_up_to())),
+        }
+    }
+
+    /// Takes a text that is already in memory, such as a suite built into the program.
+    ///
+    /// # Errors
+    /// If the text is too large, nests too deeply, is indented with tabs, holds control
+    /// characters, brackets or quotes that are never closed, anchors, aliases, tags, or more
+    /// than one document.
+    pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Complaint> {
+        let (name, mut text) = (name.into(), text.into());
+        if text.len() > MAX_BYTES {
+            return Err(too_large(&name, Some(text.len() as u64)));
+        }
+        // A byte order mark says nothing in UTF-8, and would shift the columns of line one.
+        if text.starts_with('\u{feff}') {
+            text.remove(0);
+        }
+        characters(&name, &text)?;
+        let scalars = scan(&name, &text)?;
+        Ok(Self { name, text, scalars })
+    }
+
+    /// The file as the user named it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What the file says, without a byte order mark.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// A complaint about a place in this file.
+    pub fn complain(&self, place: Place, message: &str) -> Complaint {
+        Complaint::at(&self.name, &self.text, place.bytes(), message)
+    }
+
+    /// The first scalar that starts at or after a byte.
+    pub(super) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
+        self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
+    }
+
+    /// The scalar that starts at a byte.
+    pub(super) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
+        self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
+    }
+
+    /// The bytes of what starts there: a scalar, or one character of anything else.
+    pub(super) fn token_at(&self, offset: usize) -> Range<usize> {
+        self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
+    }
+}
+
+fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Complaint> {
+    let unreadable = |error: &io::Error| Complaint::about(name, &unreadable(error));
+    let metadata = fs::metadata(path).map_err(|error| unreadable(&error))?;
+    if metadata.is_dir() {
+        let complaint = Complaint::about(name, "this is a folder, not a suite file");
+        return Err(complaint.with_help("name a file in it"));
+    }
+    if metadata.len() > MAX_BYTES as u64 {
+        return Err(too_large(name, Some(metadata.len())));
+    }
+    // A device or a pipe does not tell its length, and a file may grow meanwhile.
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(&error))?;
+    if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
+}
+
+fn unreadable(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "no permission to read this file".to_owned(),
+        _ => format!("cannot read this file: {error}"),
+    }
+}
+
+fn too_large(name: &str, bytes: Option<u64>) -> Complaint {
+    let limit = MAX_BYTES / 1024;
+    let message = match bytes {
+        Some(bytes) => {
+            format!("the file is too large: {} KiB, at most {limit} KiB", bytes.div_ceil(1024))
+        }
+        None => format!("the file is too large: at most {limit} KiB"),
+    };
+    Complaint::about(name, &message)
+}
+
+fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Complaint {
+    let text = String::from_utf8_lossy(bytes);
+    let end = offset + char::REPLACEMENT_CHARACTER.len_utf8();
+    let message = format!("the file is not UTF-8 text: byte {offset} does not fit");
+    let complaint = Complaint::at(name, &text, offset..end, &message);
+    let utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    let was = if utf16 { " (it looks like UTF-16)" } else { "" };
+    complaint.with_help(&format!("save the file as UTF-8{was}"))
+}
+
+/// Refuses what no editor shows: control characters, and line breaks known to YAML alone.
+fn characters(name: &str, text: &str) -> Result<(), Complaint> {
+    let bad = text.char_indices().find(|(at, c)| match c {
+        '\t' | '\n' => false,
+        '\r' => !text[at + 1..].starts_with('\n'),
+        '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => true,
+        c => c.is_control(),
+    });
+    let Some((at, c)) = bad else { return Ok(()) };
+    let message = format!("character U+{:04X} is not allowed", u32::from(c));
+    Err(Complaint::at(name, text, at..at + c.len_utf8(), &message)
+        .with_label("an invisible character")
+        .with_help("delete it"))
+}

@@ -1,0 +1,143 @@
+//! Plain words for what serde and the parser say.
+
+/// Names farther from what was written than this part of their length are no suggestion.
+const NEAR: usize = 3;
+
+/// What was expected, without the names of Rust types.
+pub(super) fn expected(serde: &str) -> String {
+    let words = match serde {
+        "f64" | "f32" => "a number",
+        "usize" | "u64" | "u128" => "a whole number, zero or more",
+        "u32" => "a whole number from 0 to 4294967295",
+        "u16" => "a whole number from 0 to 65535",
+        "u8" => "a whole number from 0 to 255",
+        "isize" | "i128" | "i64" | "i32" | "i16" | "i8" => "a whole number",
+        "a boolean" => "`true` or `false`",
+        "a sequence" => "a list",
+        "a map" | "struct variant" => "a map (`key: value`)",
+        "unit" | "null" => "nothing",
+        _ => return expected_of(serde),
+    };
+    words.to_owned()
+}
+
+/// The forms that hold a type's name or a count.
+fn expected_of(serde: &str) -> String {
+    let count = serde.split(' ').find_map(|word| word.parse::<usize>().ok());
+    match (serde, count) {
+        _ if serde.starts_with("enum ") => "a name, or a name with its settings".to_owned(),
+        (_, Some(1)) if is_list(serde) => "a list of 1 value".to_owned(),
+        (_, Some(count)) if is_list(serde) => format!("a list of {count} values"),
+        _ if serde.starts_with("struct ") => "a map (`key: value`)".to_owned(),
+        _ if serde.starts_with("tuple ") => "a list".to_owned(),
+        _ if serde.ends_with(" identifier") => "a name".to_owned(),
+        _ => serde.to_owned(),
+    }
+}
+
+fn is_list(serde: &str) -> bool {
+    ["an array", "a tuple", "tuple", "sequence", "struct"]
+        .iter()
+        .any(|list| serde.starts_with(list))
+}
+
+/// What was found instead.
+pub(super) fn found(serde: &str) -> String {
+    match serde {
+        "sequence" => return "a list".to_owned(),
+        "map" => return "a map (`key: value`)".to_owned(),
+        "unit value" | "Option value" => return "nothing".to_owned(),
+        _ => {}
+    }
+    let number = serde.strip_prefix("integer ").or_else(|| serde.strip_prefix("floating point "));
+    if let Some(number) = number {
+        return format!("the number {}", number.trim_matches('`'));
+    }
+    serde.strip_prefix("boolean ").map_or_else(
+        || {
+            serde
+                .strip_prefix("string ")
+                .map_or_else(|| serde.to_owned(), |text| format!("the string {text}"))
+        },
+        ToOwned::to_owned,
+    )
+}
+
+/// The valid name that a misspelt one was most likely meant to be.
+pub(super) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a str> {
+    // The distance costs the product of the lengths, and a long name is no slip of the finger.
+    if name.len() > 64 {
+        return None;
+    }
+    let plain = name.to_lowercase().replace(['-', ' '], "_");
+    valid
+        .iter()
+        .map(|valid| (strsim::damerau_levenshtein(&plain, valid), *valid))
+        .filter(|(distance, valid)| *distance <= valid.chars().count().div_ceil(NEAR))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, valid)| valid)
+}
+
+/// Names in a row, each in backticks.
+pub(super) fn listed(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+/// Message and help for text that is not YAML.
+pub(super) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
+    const TABLE: [(&str, &str, &str); 14] = [
+        (
+            "did not find expected ',' or ']'",
+            "expected `,` or `]` here",
+            "entries of a list are separated by `,`",
+        ),
+        (
+            "did not find expected ',' or '}'",
+            "expected `,` or `}` here",
+            "keys of a map are separated by `,`",
+        ),
+        (
+            "did not find expected key",
+            "expected a key here",
+            "check the indentation, and quotes around text that holds `:`, `#` or quotes",
+        ),
+        (
+            "did not find expected '-' indicator",
+            "expected `- ` here, as in the entries above",
+            "check the indentation",
+        ),
+        (
+            "mapping values are not allowed in this context",
+            "`:` is not possible here",
+            "check the indentation; put text that holds `: ` in quotes",
+        ),
+        (
+            "block sequence entries are not allowed",
+            "`- ` is not possible here",
+            "start the list on a line of its own",
+        ),
+        ("mapping keys are not allowed", "a key is not possible here", "check the indentation"),
+        ("could not find expected ':'", "expected `:` after the key", "write `key: value`"),
+        (
+            "found character that cannot start any token",
+            "a value cannot start with this character",
+            "put the value in quotes",
+        ),
+        (
+            "found unknown escape character",
+            "unknown escape in double quotes",
+            "use single quotes to keep `\\` as it is",
+        ),
+        ("found a tab character", "tab used for indentation; YAML needs spaces", ""),
+        (
+            "did not find expected <document start>",
+            "expected the end of the file here",
+            "check the indentation",
+        ),
+        ("recursion limit exceeded", "lists and maps nest too deeply", ""),
+        ("repetition limit exceeded", "aliases are not supported", ""),
+    ];
+    let (_, message, help) = TABLE.iter().find(|(problem, ..)| error.starts_with(problem))?;
+    Some((message, help))
+}

@@ -1,0 +1,55 @@
+//! The judge: does an error fall with the order that theory gives, and how sure is that?
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`norm`](Norms) | the error of one level as a number |
+//! | [`level`](Level), [`claim`](Claim) | what is judged, and against what |
+//! | [`pairwise`](observed_order) | the order between two levels |
+//! | [`fit`](Interval), [`student`](two_sided_95) | the order by regression, with its confidence interval |
+//! | `window` | which levels are asymptotic |
+//! | `shape` | floor, divergence, oscillation |
+//! | [`judge`](judge()) | the questions, and the verdict |
+//! | [`richardson`](Richardson) | order and limit from three values |
+//!
+//! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
+//! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by absolute numbers, so that no
+//! unit of error or spacing changes a verdict.
+
+mod beta;
+mod claim;
+mod clock;
+mod expectation;
+mod figures;
+mod fit;
+mod judge;
+mod level;
+mod norm;
+mod observer;
+mod outcome;
+mod pairwise;
+mod reason;
+mod richardson;
+mod run;
+mod shape;
+mod student;
+#[cfg(test)]
+mod tests;
+mod verdict;
+mod window;
+
+pub use claim::Claim;
+pub use clock::{Clock, MOST_STEPS};
+pub use expectation::{Bounds, Expectation, Seen};
+pub use fit::Interval;
+pub use judge::{Judgement, judge};
+pub use level::Level;
+pub use norm::Norms;
+pub use observer::{History, displacement_at};
+pub use outcome::{
+    CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome,
+};
+pub use pairwise::observed_order;
+pub use richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
+pub use run::{Run, errors, run};
+pub use student::two_sided_95;
+pub use verdict::{UnknownVerdict, Verdict};

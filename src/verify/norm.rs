@@ -1,0 +1,122 @@
+//! Norms of the error of one level.
+//!
+//! With `|e_p|` the Euclidean length of the error at label `p` (a particle, followed by its
+//! reference position), `w_p` its weight (reference volume) and `n` the number of labels:
+//!
+//! ```text
+//! rms  = sqrt(1/n sum |e_p|^2)             unweighted, as in Wobbes & Tielen (2015)
+//! l1   = sum w_p |e_p| / sum w_p
+//! l2   = sqrt(sum w_p |e_p|^2 / sum w_p)
+//! linf = max |e_p|
+//! ```
+//!
+//! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
+
+/// Norms of one field of errors. All are NaN where there is nothing to measure: an empty field
+/// has no error of zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Norms {
+    /// Root of the unweighted mean square.
+    pub rms: f64,
+    /// Weighted mean.
+    pub l1: f64,
+    /// Root of the weighted mean square.
+    pub l2: f64,
+    /// Largest length.
+    pub linf: f64,
+}
+
+impl Norms {
+    /// Nothing was measured: all NaN.
+    pub const NONE: Self = Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN };
+
+    /// The norms of `errors`, which holds `dimension` components for each label, one label after
+    /// the other, with one weight for each label.
+    ///
+    /// Not finite if any error or weight is not. NaN if there are no labels, if the lengths of
+    /// the slices do not belong together, if a weight is negative or if all are zero.
+    pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
+        let total: f64 = weights.iter().sum();
+        let fits = dimension > 0 && errors.len() == dimension * weights.len();
+        if !(fits && total > 0.0 && weights.iter().all(|&w| w >= 0.0)) {
+            return Self::NONE;
+        }
+        let lengths: Vec<f64> = errors.chunks_exact(dimension).map(length).collect();
+        Self::of_lengths(&lengths, weights, total)
+    }
+
+    fn of_lengths(lengths: &[f64], weights: &[f64], total: f64) -> Self {
+        let linf = lengths.iter().copied().fold(0.0, larger);
+        if linf == 0.0 {
+            return Self { rms: 0.0, l1: 0.0, l2: 0.0, linf };
+        }
+        let scaled = || lengths.iter().map(|e| e / linf);
+        let weighted = || scaled().zip(weights);
+        let squares: f64 = scaled().map(|e| e * e).sum();
+        let moment: f64 = weighted().map(|(e, w)| w * e).sum();
+        let weighted_squares: f64 = weighted().map(|(e, w)| w * (e * e)).sum();
+        Self {
+            rms: linf * (squares / lengths.len() as f64).sqrt(),
+            l1: linf * (moment / total),
+            l2: linf * (weighted_squares / total).sqrt(),
+            linf,
+        }
+    }
+}
+
+fn length(error: &[f64]) -> f64 {
+    error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
+}
+
+/// The larger of two lengths; NaN if either is (`f64::max` would drop it).
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    #[test]
+    fn figures_of_a_small_field() {
+        let norms = Norms::of(&[3.0, 4.0, 0.0, -1.0], 2, &[1.0, 3.0]);
+        assert_relative_eq!(norms.rms, 13.0_f64.sqrt(), max_relative = 1e-15);
+        assert_relative_eq!(norms.l1, 2.0, max_relative = 1e-15);
+        assert_relative_eq!(norms.l2, 7.0_f64.sqrt(), max_relative = 1e-15);
+        assert_relative_eq!(norms.linf, 5.0);
+    }
+
+    #[rstest]
+    #[case::nothing(&[], 1, &[])]
+    #[case::no_dimension(&[], 0, &[])]
+    #[case::no_weight(&[1.0, 2.0], 1, &[0.0, 0.0])]
+    #[case::negative_weight(&[1.0, 2.0], 1, &[2.0, -1.0])]
+    #[case::missing_weight(&[1.0, 2.0], 1, &[1.0])]
+    #[case::missing_component(&[1.0, 2.0, 3.0], 2, &[1.0, 1.0])]
+    #[case::nan_weight(&[1.0], 1, &[f64::NAN])]
+    #[case::nan_first(&[f64::NAN, 1.0], 1, &[1.0, 1.0])]
+    #[case::nan_last(&[1.0, f64::NAN], 1, &[1.0, 1.0])]
+    fn nothing_to_measure_is_nan(
+        #[case] errors: &[f64],
+        #[case] dimension: usize,
+        #[case] weights: &[f64],
+    ) {
+        let Norms { rms, l1, l2, linf } = Norms::of(errors, dimension, weights);
+        assert!([rms, l1, l2, linf].iter().all(|norm| norm.is_nan()));
+    }
+
+    #[test]
+    fn an_infinite_error_leaves_no_finite_norm() {
+        let Norms { rms, l1, l2, linf } = Norms::of(&[1.0, f64::INFINITY], 1, &[1.0, 1.0]);
+        assert!([rms, l1, l2, linf].iter().all(|norm| !norm.is_finite()));
+    }
+
+    #[test]
+    fn no_error_is_zero_only_when_every_error_is() {
+        assert_eq!(Norms::of(&[0.0, 0.0], 2, &[1.0]).rms.to_bits(), 0);
+        let tiny = Norms::of(&[1e-200, 0.0], 2, &[1.0]);
+        assert_relative_eq!(tiny.l2, 1e-200, max_relative = 1e-15);
+    }
+}

@@ -1,0 +1,141 @@
+//! The results of a suite: all that reports are made of.
+
+use super::{
+    judge::Judgement, observer::History, richardson::Richardson, run::Run, verdict::Verdict,
+};
+
+/// One suite, run.
+#[derive(Debug, Clone)]
+pub struct SuiteOutcome {
+    /// Name of the suite.
+    pub suite: String,
+    /// Headline.
+    pub title: String,
+    /// Where the problem comes from.
+    pub source: String,
+    /// What a reader should know, as the author put it.
+    pub about: String,
+    /// What was computed, as rows of name and value: parameters, scene, exact solution, dt rule.
+    pub statement: Vec<(String, String)>,
+    /// One outcome for each case, in the order of the suite.
+    pub cases: Vec<CaseOutcome>,
+}
+
+/// One case, run and judged.
+#[derive(Debug, Clone)]
+pub struct CaseOutcome {
+    /// Name of the case, unique in its suite.
+    pub case: String,
+    /// Which subject: `mpm` or `fem`.
+    pub subject: &'static str,
+    /// What makes this case: basis, transfer, mass matrix, start, truth.
+    pub settings: Vec<(String, String)>,
+    /// What was expected, in one line.
+    pub expected: String,
+    /// The suite's reason for expecting it.
+    pub because: String,
+    /// The verdict, in words.
+    pub verdict: String,
+    /// The figures that led to the verdict.
+    pub reason: String,
+    /// What did not come as expected; empty if the case passed.
+    pub unmet: Vec<String>,
+    /// The study's own results.
+    pub study: Study,
+}
+
+/// What kind of study a case is, with its results.
+#[derive(Debug, Clone)]
+pub enum Study {
+    /// Errors over a refinement plan.
+    Convergence(Box<Convergence>),
+    /// Internal force on a node while a particle moves through it.
+    InternalForce(Vec<ForceRow>),
+    /// The case could not be set up; the reason is in [`CaseOutcome::reason`].
+    Refused,
+}
+
+/// Results of a convergence study.
+#[derive(Debug, Clone)]
+pub struct Convergence {
+    /// Order that theory gives the method on a smooth solution.
+    pub formal_order: f64,
+    /// Name of the error that was judged.
+    pub norm: &'static str,
+    /// The judge's finding.
+    pub judgement: Judgement,
+    /// The levels, coarse to fine.
+    pub levels: Vec<LevelOutcome>,
+    /// Richardson's extrapolation at the observed place, for each triple of cells n, 2n, 4n.
+    pub richardson: Vec<([u64; 3], Richardson)>,
+    /// Reference position that was observed (m).
+    pub observed_at: Option<f64>,
+}
+
+/// One level of a refinement plan.
+#[derive(Debug, Clone)]
+pub struct LevelOutcome {
+    /// Cells along the first axis.
+    pub cells: u64,
+    /// Cell size (m).
+    pub h: f64,
+    /// Time step (s).
+    pub dt: f64,
+    /// Particles per cell (MPM).
+    pub ppc: Option<u64>,
+    /// What the run has shown.
+    pub run: Run,
+    /// Whether the judge may count the level.
+    pub usable: bool,
+    /// Order between the next coarser level and this one.
+    pub order: Option<f64>,
+}
+
+/// One position of the moving particle in an internal-force study.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForceRow {
+    /// Position of the moving particle, in cells from the node.
+    pub position: f64,
+    /// Particles in the cell on the left.
+    pub left: u64,
+    /// Particles in the cell on the right.
+    pub right: u64,
+    /// Internal force on the node (N).
+    pub force: f64,
+    /// What the suite's formula predicts (N).
+    pub predicted: f64,
+}
+
+impl SuiteOutcome {
+    /// Whether every case passed.
+    pub fn passed(&self) -> bool {
+        self.cases.iter().all(CaseOutcome::passed)
+    }
+}
+
+impl CaseOutcome {
+    /// Whether everything came as expected.
+    pub fn passed(&self) -> bool {
+        self.unmet.is_empty()
+    }
+
+    /// The convergence study, if the case is one.
+    pub fn convergence(&self) -> Option<&Convergence> {
+        match &self.study {
+            Study::Convergence(study) => Some(study),
+            _ => None,
+        }
+    }
+}
+
+impl Convergence {
+    /// Verdict of the judge.
+    pub fn verdict(&self) -> Verdict {
+        self.judgement.verdict
+    }
+
+    /// The observed label's history on the finest level that has one.
+    pub fn history(&self) -> Option<&History> {
+        self.levels.iter().rev().find_map(|level| level.run.history.as_ref())
+    }
+}

@@ -1,0 +1,143 @@
+//! Ways in which verification tools are known to go wrong, each fed its bad case.
+
+use approx::assert_abs_diff_eq;
+use rstest::rstest;
+
+use super::super::{Claim, Level, Norms, Richardson, RichardsonClass, Verdict, judge};
+use super::{Random, halved, judged};
+
+#[test]
+fn a_growing_error_has_a_negative_order() {
+    let judgement = judged(&[1.0, 4.0, 16.0, 64.0], 2.0);
+    assert_eq!(judgement.verdict, Verdict::Divergent);
+    assert!(judgement.pairwise[1..].iter().all(|p| p.unwrap() < 0.0));
+    assert!(judgement.order.unwrap().high < 0.0);
+}
+
+#[rstest]
+fn a_non_finite_figure_fails_on_any_level(
+    #[values(0, 2, 4)] level: usize,
+    #[values(f64::NAN, f64::INFINITY, f64::NEG_INFINITY)] figure: f64,
+    #[values(true, false)] usable: bool,
+) {
+    let mut series = halved(5, |h| h * h);
+    series[level].error = figure;
+    series[level].usable = usable;
+    assert_eq!(judge(&series, &Claim::formal(2.0)).verdict, Verdict::Failed);
+    series[level] = Level::new(figure, 1.0);
+    assert_eq!(judge(&series, &Claim::formal(2.0)).verdict, Verdict::Failed);
+}
+
+#[rstest]
+#[case(2.3)]
+#[case(60.0)]
+fn an_order_above_theory_is_no_success(#[case] order: f64) {
+    let series = halved(5, |h| libm::pow(h, order));
+    assert_eq!(judge(&series, &Claim::formal(2.0)).verdict, Verdict::TooGood);
+}
+
+/// With a ratio of two assumed, the last pair of this order-2 series would show an order of 0.83.
+#[test]
+fn the_true_ratio_of_spacings_is_used() {
+    let cells = [5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 120.0, 160.0];
+    let series = cells.map(|n| Level::new(25.0 / n, 3.0 / (n * n)));
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    for order in &judgement.pairwise[1..] {
+        assert_abs_diff_eq!(order.unwrap(), 2.0, epsilon = 1e-12);
+    }
+}
+
+#[rstest]
+#[case::tolerance_of_100(Claim::within(2.0, -98.0, 102.0))]
+#[case::wide_but_positive(Claim::within(2.0, 0.5, 3.5))]
+#[case::nan(Claim::within(2.0, f64::NAN, f64::NAN))]
+#[case::nan_formal_order(Claim::formal(f64::NAN))]
+fn a_claim_that_everything_meets_is_refused(#[case] claim: Claim) {
+    let judgement = judge(&halved(5, |h| h * h), &claim);
+    assert_eq!(judgement.verdict, Verdict::Failed, "{}", judgement.reason);
+}
+
+/// An all-zero field that equals an all-zero truth proves nothing.
+#[test]
+fn no_error_at_all_is_not_convergence() {
+    assert_eq!(judged(&[0.0; 6], 2.0).verdict, Verdict::AtFloor);
+    assert!(Norms::of(&[], 1, &[]).linf.is_nan());
+}
+
+/// End points of order 2 with anything in between.
+#[rstest]
+#[case(&[1.0, 0.9, 0.8, 0.7, 0.003_906_25])]
+#[case(&[1.0, 0.005, 0.005, 0.004, 0.003_906_25])]
+#[case(&[1.0, 0.01, 0.4, 0.008, 0.003_906_25])]
+fn not_only_the_end_points_count(#[case] errors: &[f64]) {
+    let verdict = judged(errors, 2.0).verdict;
+    assert_ne!(verdict, Verdict::Converging);
+}
+
+/// The "asymptotic range ratio" would call these values asymptotic: 1.0 to 1 %.
+#[test]
+fn the_order_of_three_values_is_held_against_theory_not_against_itself() {
+    let richardson = Richardson::equal_ratio([103.0, 101.5, 101.0], 2.0);
+    assert_eq!(richardson.class, RichardsonClass::MonotoneConvergent);
+    let order = richardson.order.unwrap();
+    assert_abs_diff_eq!(order, libm::log2(3.0), epsilon = 1e-12);
+}
+
+/// The width of the interval follows the scatter and the number of levels.
+#[test]
+fn the_confidence_interval_is_computed() {
+    let half_width = |levels: usize, sigma: f64| {
+        let mut series = halved(levels, |h| h * h);
+        Random(7).disturb(&mut series, sigma);
+        judge(&series, &Claim::formal(2.0)).order.unwrap().half_width()
+    };
+    assert_abs_diff_eq!(half_width(6, 0.04) / half_width(6, 0.01), 4.0, epsilon = 1e-9);
+    assert!(half_width(9, 0.02) < half_width(4, 0.02));
+}
+
+/// The order alone would pass: it is the interval that is gated, on both sides.
+#[rstest]
+#[case(1.95)]
+#[case(2.05)]
+fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
+    let noise = [1.04, 0.96, 0.97, 1.04, 1.0];
+    let mut series = halved(5, |h| libm::pow(h, order));
+    series.iter_mut().zip(noise).for_each(|(level, noise)| level.error *= noise);
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert!((judgement.order.unwrap().value - 2.0).abs() < 0.1);
+    assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
+    assert!(judgement.reason.contains("sticks out"));
+}
+
+/// No silent substitute: what the order was fitted to is shown, and an outlier stays in it.
+#[test]
+fn an_outlier_is_kept_wherever_it_lies() {
+    for outlier in 1..7 {
+        let mut series = halved(8, |h| h * h);
+        series[outlier].error *= 5.0;
+        let judgement = judge(&series, &Claim::formal(2.0));
+        assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
+        assert_eq!(judgement.window, Some((0..8).collect()));
+    }
+}
+
+#[test]
+fn a_drift_through_the_expected_range_is_not_settled() {
+    let orders = [2.2, 2.15, 2.1, 2.05, 2.0, 1.95, 1.9, 1.85];
+    let mut errors = vec![1.0];
+    for order in orders {
+        errors.push(errors[errors.len() - 1] * libm::exp2(-order));
+    }
+    let judgement = judged(&errors, 2.0);
+    assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
+    assert!(judgement.reason.contains("drifts by -0.400"), "{}", judgement.reason);
+}
+
+/// Small figures keep their digits.
+#[test]
+fn a_reason_tells_3_2e_9_from_3_2e_7() {
+    let at = |error: f64| judged(&[error; 4], 2.0).reason;
+    assert!(at(3.2e-9).contains("3.2e-9"));
+    assert!(at(3.2e-7).contains("3.2e-7"));
+}

@@ -1,0 +1,116 @@
+//! What holds for every series.
+
+use proptest::prelude::*;
+
+use super::super::{Claim, Level, Verdict, judge};
+use super::Random;
+
+/// Series of all kinds: falling, flat, growing, with a floor, with noise from none to wild.
+fn series() -> impl Strategy<Value = Vec<Level>> {
+    let shape = (4_usize..10, -2.0..5.0_f64, 0.0..3.0_f64, any::<bool>(), 0.0..1.0_f64);
+    let noise = prop_oneof![Just(0.0), 0.0..0.05_f64, 0.0..2.0_f64];
+    (shape, noise, 1_u64..u64::MAX).prop_map(|((levels, order, ratio, floor, mix), noise, seed)| {
+        let mut random = Random(seed);
+        let mut h = 1.0;
+        let mut series = Vec::new();
+        for _ in 0..levels {
+            let plateau = if floor { libm::exp(-8.0 * mix) } else { 0.0 };
+            series.push(Level::new(h, libm::pow(h, order) + mix * h + plateau));
+            h /= 1.3 + ratio * random.uniform();
+        }
+        random.disturb(&mut series, noise);
+        series
+    })
+}
+
+fn anything() -> impl Strategy<Value = Level> {
+    (any::<f64>(), any::<f64>(), any::<bool>())
+        .prop_map(|(h, error, usable)| Level { usable, ..Level::new(h, error) })
+}
+
+/// Figures of any size that an error and a spacing may have, subnormal ones included.
+fn any_magnitude() -> impl Strategy<Value = Level> {
+    (any::<f64>(), any::<f64>()).prop_map(|(h, error)| Level::new(h.abs(), error.abs()))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+    #[test]
+    fn units_change_nothing(
+        series in series(),
+        error_unit in -30.0..30.0_f64,
+        h_unit in -30.0..30.0_f64,
+        formal in 0.5..3.0_f64,
+    ) {
+        let claim = Claim::formal(formal);
+        let (error_unit, h_unit) = (libm::exp(error_unit), libm::exp(h_unit));
+        let scaled: Vec<Level> = series
+            .iter()
+            .map(|level| Level::new(level.h * h_unit, level.error * error_unit))
+            .collect();
+        let (one, other) = (judge(&series, &claim), judge(&scaled, &claim));
+        prop_assert_eq!(one.verdict, other.verdict);
+        prop_assert_eq!(one.window, other.window);
+        prop_assert_eq!(one.order.is_some(), other.order.is_some());
+        for (a, b) in one.order.into_iter().zip(other.order) {
+            prop_assert!((a.value - b.value).abs() <= 1e-9);
+            prop_assert!((a.low - b.low).abs() <= 1e-9 && (a.high - b.high).abs() <= 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_order_of_levels_changes_nothing(series in series(), turn in 0_usize..10) {
+        let mut turned = series.clone();
+        turned.rotate_left(turn % series.len());
+        let claim = Claim::formal(2.0);
+        prop_assert_eq!(judge(&series, &claim), judge(&turned, &claim));
+    }
+
+    #[test]
+    fn converging_means_what_it_says(series in series(), formal in 0.5..3.0_f64) {
+        let judgement = judge(&series, &Claim::formal(formal));
+        if judgement.verdict == Verdict::Converging {
+            let order = judgement.order.unwrap();
+            prop_assert!(order.low >= formal - 0.1 && order.high <= formal + 0.1);
+            let window = judgement.window.unwrap();
+            prop_assert!(window.len() >= 4 && window.last() == Some(&(series.len() - 1)));
+        }
+    }
+
+    #[test]
+    fn nothing_panics(levels in prop::collection::vec(anything(), 0..9), formal in any::<f64>()) {
+        judge(&levels, &Claim::formal(formal));
+        judge(&levels, &Claim::formal(2.0));
+    }
+
+    #[test]
+    fn no_magnitude_panics(levels in prop::collection::vec(any_magnitude(), 0..9)) {
+        let judgement = judge(&levels, &Claim::formal(2.0));
+        prop_assert_eq!(judgement.pairwise.len(), judgement.levels.len());
+        prop_assert!(!judgement.reason.is_empty() && !judgement.reason.contains('\n'));
+    }
+}
+
+#[test]
+fn subnormal_errors_have_an_order() {
+    let least = 5e-324;
+    let series = [8, 7, 6, 5].map(|k| {
+        let h = libm::exp2(f64::from(k));
+        Level::new(h, least * h)
+    });
+    let judgement = judge(&series, &Claim::formal(1.0));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+}
+
+#[test]
+fn spacings_that_cannot_be_told_apart_fail() {
+    let mut h: f64 = 1e300;
+    let series = [1.0, 2.0, 3.0, 4.0].map(|error| {
+        h = h.next_up();
+        Level::new(h, error)
+    });
+    let judgement = judge(&series, &Claim::formal(1.0));
+    assert_eq!(judgement.verdict, Verdict::Failed);
+    assert_eq!(judgement.reason, "the spacings cannot be told apart");
+}

@@ -1,0 +1,160 @@
+//! Synthetic series and the verdict that each must get.
+
+use approx::assert_abs_diff_eq;
+use rstest::rstest;
+
+use super::super::{Claim, Level, Verdict, judge};
+use super::{Random, halved, judged};
+
+const POWERS_OF_4: [f64; 6] = [1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25, 0.000_976_562_5];
+
+#[rstest]
+fn a_pure_order_is_converging(
+    #[values(1.0, 5.0 / 3.0, 2.0, 3.0)] order: f64,
+    #[values(4, 5, 8)] levels: usize,
+) {
+    let series = halved(levels, |h| 7.0 * libm::pow(h, order));
+    let judgement = judge(&series, &Claim::formal(order));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    assert_eq!(judgement.window, Some((0..levels).collect()));
+    assert_abs_diff_eq!(judgement.order.unwrap().value, order, epsilon = 1e-12);
+}
+
+#[rstest]
+fn noise_of_two_per_cent_keeps_the_verdict(#[values(1.0, 5.0 / 3.0, 2.0, 3.0)] order: f64) {
+    let mut random = Random(1);
+    let mut series = halved(7, |h| libm::pow(h, order));
+    random.disturb(&mut series, 0.02);
+    let judgement = judge(&series, &Claim::formal(order));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+}
+
+#[rstest]
+#[case::order_60(60.0, 2.0, Verdict::TooGood)]
+#[case::order_3_for_2(3.0, 2.0, Verdict::TooGood)]
+#[case::order_1_for_2(1.0, 2.0, Verdict::TooLow)]
+#[case::order_1_85_for_2(1.85, 2.0, Verdict::TooLow)]
+#[case::order_minus_1(-1.0, 1.0, Verdict::Divergent)]
+#[case::order_minus_3(-3.0, 2.0, Verdict::Divergent)]
+#[case::order_0(0.0, 2.0, Verdict::AtFloor)]
+fn a_pure_order_against_another(
+    #[case] order: f64,
+    #[case] formal: f64,
+    #[case] expected: Verdict,
+) {
+    let judgement = judge(&halved(6, |h| libm::pow(h, order)), &Claim::formal(formal));
+    assert_eq!(judgement.verdict, expected, "{}", judgement.reason);
+}
+
+#[rstest]
+#[case::flat(&[1.0, 1.02, 0.99, 1.01, 1.0], Verdict::AtFloor)]
+#[case::all_zeros(&[0.0; 5], Verdict::AtFloor)]
+#[case::oscillating(&[1.0, 2.0, 1.0, 2.0, 1.0], Verdict::Oscillatory)]
+#[case::oscillating_irregularly(&[1.0, 3.0, 0.8, 2.0, 0.5, 2.5], Verdict::Oscillatory)]
+#[case::outlier_in_the_middle(&[1.0, 0.25, 0.0625, 0.078, 0.0039, 0.00098, 0.000_244], Verdict::PreAsymptotic)]
+#[case::outlier_downwards(&[1.0, 0.25, 0.0625, 0.0031, 0.0039, 0.00098, 0.000_244], Verdict::PreAsymptotic)]
+#[case::nan(&[1.0, 0.25, f64::NAN, 0.0156, 0.0039], Verdict::Failed)]
+#[case::infinite(&[f64::INFINITY, 0.25, 0.0625, 0.0156, 0.0039], Verdict::Failed)]
+#[case::negative(&[1.0, 0.25, 0.0625, -0.0156, 0.0039], Verdict::Failed)]
+#[case::zero_in_the_middle(&[1.0, 0.25, 0.0, 0.0156, 0.0039], Verdict::AtFloor)]
+#[case::grows_after_a_zero(&[1.0, 0.25, 0.0, 0.5, 3.0, 12.0], Verdict::Divergent)]
+#[case::floor_of_noise(&[1e-12, 2.5e-13, 6.25e-14, 1.56e-14, 1.1e-14, 0.8e-14, 1.2e-14, 0.9e-14], Verdict::AtFloor)]
+#[case::floor_of_zeros(&[1e-12, 2.5e-13, 6.25e-14, 1.56e-14, 0.0, 0.0], Verdict::AtFloor)]
+#[case::floor_of_one_level(&[1.0, 0.25, 0.0625, 0.0156, 0.0039, 0.0038], Verdict::AtFloor)]
+#[case::two_levels(&[1.0, 0.25], Verdict::TooFewLevels)]
+#[case::three_levels(&[1.0, 0.25, 0.0625], Verdict::TooFewLevels)]
+#[case::no_level(&[], Verdict::TooFewLevels)]
+#[case::converges_then_diverges(&[1.0, 0.25, 0.0625, 0.0156, 0.031, 0.12], Verdict::Divergent)]
+#[case::diverges_then_converges(&[1.0, 4.0, 16.0, 4.0, 1.0, 0.25], Verdict::Converging)]
+#[case::jump_at_the_finest(&[1.0, 0.25, 0.0625, 0.0156, 0.0039, 0.09], Verdict::PreAsymptotic)]
+fn a_series_of_halvings(#[case] errors: &[f64], #[case] expected: Verdict) {
+    let judgement = judged(errors, 2.0);
+    assert_eq!(judgement.verdict, expected, "{}", judgement.reason);
+}
+
+#[rstest]
+#[case::small_second_term(0.001, Verdict::Converging)]
+#[case::large_second_term(0.1, Verdict::PreAsymptotic)]
+#[case::second_term_everywhere(1000.0, Verdict::TooLow)]
+fn a_second_term_of_lower_order(#[case] c: f64, #[case] expected: Verdict) {
+    let judgement = judge(&halved(6, |h| h * h + c * h), &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, expected, "{}", judgement.reason);
+}
+
+#[test]
+fn a_term_of_higher_order_is_left_behind_on_coarse_levels() {
+    let judgement = judge(&halved(8, |h| h * h + h * h * h * h), &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    assert!(judgement.window.unwrap()[0] > 0);
+}
+
+#[test]
+fn a_plateau_of_another_axis_is_a_floor_and_the_order_before_is_kept() {
+    let judgement = judge(&halved(12, |h| h * h + 1e-4), &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::AtFloor, "{}", judgement.reason);
+    assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.03);
+}
+
+#[test]
+fn a_superconvergent_first_pair_is_left_out_of_the_window() {
+    let judgement = judged(&[16.0, 1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25], 2.0);
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    assert_eq!(judgement.window, Some(vec![1, 2, 3, 4, 5]));
+    assert_abs_diff_eq!(judgement.pairwise[1].unwrap(), 4.0, epsilon = 1e-12);
+}
+
+#[test]
+fn levels_out_of_order_are_sorted() {
+    let mut series = halved(6, |h| h * h);
+    let sorted = judge(&series, &Claim::formal(2.0));
+    series.swap(0, 4);
+    series.swap(1, 5);
+    assert_eq!(judge(&series, &Claim::formal(2.0)), sorted);
+}
+
+#[test]
+fn a_level_given_twice_counts_once_and_contradicting_levels_fail() {
+    let mut series = halved(4, |h| h * h);
+    series[3] = series[2].clone();
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::TooFewLevels);
+    assert_eq!(judgement.levels.len(), 3);
+    series[3].error *= 1.5;
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Failed);
+}
+
+#[test]
+fn crossing_levels_are_shown_and_do_not_count() {
+    let mut series = halved(5, |h| h * h);
+    let crossing = [(0.05, 0.03), (0.04, 0.2), (0.03, 0.9)];
+    series.extend(crossing.map(|(h, error)| Level::new(h, error).unusable()));
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    assert_eq!(judgement.window, Some(vec![0, 1, 2, 3, 4]));
+    assert!(judgement.pairwise[7].unwrap() < 0.0);
+}
+
+#[test]
+fn an_unusable_level_in_between_is_skipped_and_one_that_failed_is_not() {
+    let mut series = halved(6, |h| h * h);
+    series[2] = Level::new(0.25, 5.0).unusable();
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    assert_eq!(judgement.window, Some(vec![0, 1, 3, 4, 5]));
+    series[2] = series[2].clone().failing("particle 7 left the domain at t = 0.2");
+    let judgement = judge(&series, &Claim::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Failed);
+    assert_eq!(judgement.reason, "h = 0.25: particle 7 left the domain at t = 0.2");
+}
+
+#[rstest]
+#[case(&POWERS_OF_4, "order 2.000 [2.000, 2.000] over 6 levels, h = 1 ... 0.03125, within the expected [1.9, 2.1]")]
+#[case(&POWERS_OF_4[..3], "3 usable levels, a claim needs 4")]
+#[case(&[4.0, 2.0, 4.0, 2.0], "the error goes up and down without a trend: 4, 2, 4, 2")]
+#[case(&[4.0, 1.0, 2.0, 4.0], "the error grows from 1 at h = 0.5 to 4 at h = 0.125: order -1.000 [-1.000, -1.000] over 3 levels, h = 0.5 ... 0.125")]
+#[case(&[4.0, 1.0, 0.0, 0.0], "the error stays at 0 from h = 0.25 on; no order before that")]
+#[case(&[16.0, 4.0, 1.0, 0.0], "the error stays at 0 from h = 0.125 on; before that order 2.000 [2.000, 2.000] over 3 levels, h = 1 ... 0.25")]
+fn reasons_give_the_figures(#[case] errors: &[f64], #[case] expected: &str) {
+    assert_eq!(judged(errors, 2.0).reason, expected);
+}

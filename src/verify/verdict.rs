@@ -1,0 +1,108 @@
+//! The words a judgement may use.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// What a series of errors shows. Only [`Verdict::Converging`] supports a claimed order; every
+/// other word is a different way of not doing so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The whole confidence interval of the observed order lies in the expected range.
+    Converging,
+    /// The observed order is above the expected range: a defect in the test, not a success.
+    TooGood,
+    /// The observed order is below the expected range.
+    TooLow,
+    /// The error stops falling: round-off, or the plateau of an axis that was not refined.
+    AtFloor,
+    /// The error falls, but no window of levels has a settled order.
+    PreAsymptotic,
+    /// The error goes up and down under refinement without a convincing trend.
+    Oscillatory,
+    /// The error grows under refinement.
+    Divergent,
+    /// A level failed, or a figure is not one that an error or a spacing can have.
+    Failed,
+    /// Fewer usable levels than any claim needs.
+    TooFewLevels,
+}
+
+impl Verdict {
+    /// Every verdict, in the order of their declaration.
+    pub const ALL: [Self; 9] = [
+        Self::Converging,
+        Self::TooGood,
+        Self::TooLow,
+        Self::AtFloor,
+        Self::PreAsymptotic,
+        Self::Oscillatory,
+        Self::Divergent,
+        Self::Failed,
+        Self::TooFewLevels,
+    ];
+
+    /// The verdict in plain words, as reports print it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Converging => "converging",
+            Self::TooGood => "too good",
+            Self::TooLow => "too low",
+            Self::AtFloor => "at floor",
+            Self::PreAsymptotic => "pre-asymptotic",
+            Self::Oscillatory => "oscillatory",
+            Self::Divergent => "divergent",
+            Self::Failed => "failed",
+            Self::TooFewLevels => "too few levels",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A word that is no verdict.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{word}` is not a verdict; known: {}", Verdict::ALL.map(Verdict::name).join(", "))]
+pub struct UnknownVerdict {
+    /// The word as it was given.
+    pub word: String,
+}
+
+impl FromStr for Verdict {
+    type Err = UnknownVerdict;
+
+    /// Reads the name in plain words or in snake case (`too_good`, `pre_asymptotic`).
+    fn from_str(word: &str) -> Result<Self, UnknownVerdict> {
+        Self::ALL
+            .into_iter()
+            .find(|verdict| word == verdict.name() || word == snake_case(verdict.name()))
+            .ok_or_else(|| UnknownVerdict { word: word.into() })
+    }
+}
+
+fn snake_case(name: &str) -> String {
+    name.replace([' ', '-'], "_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_reads_back_in_both_spellings() {
+        for verdict in Verdict::ALL {
+            assert_eq!(verdict.to_string().parse(), Ok(verdict));
+            assert_eq!(snake_case(verdict.name()).parse(), Ok(verdict));
+        }
+    }
+
+    #[test]
+    fn an_unknown_word_is_refused_and_the_known_ones_are_listed() {
+        let complaint = "fine".parse::<Verdict>().unwrap_err().to_string();
+        assert!(complaint.starts_with("`fine` is not a verdict"));
+        assert!(Verdict::ALL.iter().all(|v| complaint.contains(v.name())));
+    }
+}
