@@ -26,7 +26,13 @@ struct Event {
 }
 
 impl Event {
-    fn judge(&self, allowed: f64, condition: String, values: (f64, f64), unit: &'static str) -> Result<(), Violation> {
+    fn judge(
+        &self,
+        allowed: f64,
+        condition: String,
+        values: (f64, f64),
+        unit: &'static str,
+    ) -> Result<(), Violation> {
         let (expected, found) = values;
         if (found - expected).abs() <= allowed {
             return Ok(());
@@ -49,9 +55,10 @@ fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
 /// Largest value of a quantity over the interior points; NaN if any is NaN, so that every
 /// comparison with it fails.
 fn scale(problem: &Problem, quantity: impl Fn(&Event, &Derivatives) -> f64) -> f64 {
-    interior(problem, 1).iter().map(|(e, d)| quantity(e, d)).fold(0.0, |a, b| {
-        if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) }
-    })
+    interior(problem, 1)
+        .iter()
+        .map(|(e, d)| quantity(e, d))
+        .fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
 }
 
 fn largest(values: &[f64; 3]) -> f64 {
@@ -126,8 +133,7 @@ fn on_face(
         };
         let found = normal * problem.equation.piola(&all.grad, i, face.axis);
         let what = if matches!(face.condition, Condition::Free) { "free" } else { "loaded" };
-        let name =
-            format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
+        let name = format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
         let allowed = problem.tolerance * stress.max(pulled.abs());
         event.judge(allowed, name, (pulled, found), "Pa")?;
     }
@@ -181,7 +187,12 @@ pub(super) fn differentiation(problem: &Problem) -> Result<(), Violation> {
     Ok(())
 }
 
-fn differences(problem: &Problem, event: &Event, speed: f64, acceleration: f64) -> Result<(), Violation> {
+fn differences(
+    problem: &Problem,
+    event: &Event,
+    speed: f64,
+    acceleration: f64,
+) -> Result<(), Violation> {
     let step = 1e-4 * problem.until;
     let all = problem.motion.derivatives(&event.label, event.t);
     for i in 0..problem.dimension() {

@@ -1,2 +1,17 @@
-//! The page.
+//! The page: what a person or a program reads of a [`SuiteOutcome`](crate::verify::SuiteOutcome).
+//!
+//! - [`text`]: the aligned text that is kept as a snapshot. No time, host, date or path.
+//! - [`json`]: one document, an interface.
+//! - [`svg`]: figures, drawn by the layer in [`figure`].
+//! - [`drift`]: comparison of two texts, number by number.
+
+pub mod drift;
 pub mod figure;
+mod json;
+mod svg;
+mod table;
+mod text;
+
+pub use json::json;
+pub use svg::{Figure, svg};
+pub use text::{case, summary, text};

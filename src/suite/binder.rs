@@ -207,7 +207,8 @@ impl<'a> Binder<'a> {
     /// A complaint about part of the formula at `path`, or of the function that it calls.
     fn in_text(&self, path: &Path, error: &FormulaError) -> Complaint {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
-        let path = function.map_or_else(|| path.clone(), |head| Path::top("functions").then(head.as_str()));
+        let path = function
+            .map_or_else(|| path.clone(), |head| Path::top("functions").then(head.as_str()));
         let complaint = match self.source.within(&path.0, error.span.clone()) {
             Some(place) => self.source.complain(place, &error.message),
             None => self.complain(&path, &error.message),

@@ -161,9 +161,13 @@ fn methods(words: &MethodWords) -> Vec<(String, Method)> {
             let mut all = Vec::new();
             for &element in element.as_slice() {
                 for &mass in mass.as_slice() {
-                    for (a, law) in choices(law.as_ref(), EquationName::SmallStrain, EquationName::name) {
+                    for (a, law) in
+                        choices(law.as_ref(), EquationName::SmallStrain, EquationName::name)
+                    {
                         for (b, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
-                            for (c, sampling) in choices(sampling.as_ref(), Sampling::Inside, Sampling::name) {
+                            for (c, sampling) in
+                                choices(sampling.as_ref(), Sampling::Inside, Sampling::name)
+                            {
                                 let parts = [element.name(), mass.name()].join("-");
                                 let method = Method::Fem { element, mass, law, start, sampling };
                                 all.push((format!("fem-{parts}{a}{b}{c}"), method));

@@ -162,9 +162,10 @@ pub(super) fn bar(scene: &Scene, method: &Method, cells: u64) -> Result<Bar, Str
         density: scene.density,
         law: piola(law, scene.young, scene.poisson),
         fixed: [scene.faces[0].fixed, scene.faces[1].fixed],
-        body_force: scene.gravity.clone().map(|b| -> fem::Load {
-            Box::new(move |_, t| b[0].eval(&[t]))
-        }),
+        body_force: scene
+            .gravity
+            .clone()
+            .map(|b| -> fem::Load { Box::new(move |_, t| b[0].eval(&[t])) }),
         traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
         initial_displacement: Box::new(|_| 0.0),
         initial_velocity: Box::new(move |x| at(&velocity, &Vector::<1>::new(x))[0]),

@@ -96,7 +96,12 @@ impl<'a> Runner<'a> {
         }
     }
 
-    fn level(&self, plan: &ConvergencePlan, case: &Case, cells: u64) -> Result<LevelOutcome, String> {
+    fn level(
+        &self,
+        plan: &ConvergencePlan,
+        case: &Case,
+        cells: u64,
+    ) -> Result<LevelOutcome, String> {
         let truth = self.truth(plan, case)?;
         let mut subject = subject(plan, &case.method, cells)?;
         let h = cell_size(&plan.scene, cells);
@@ -174,7 +179,8 @@ fn judge_levels(plan: &ConvergencePlan, case: &Case, levels: &[LevelOutcome]) ->
             }
         })
         .collect();
-    let claim = Claim { formal_order: case.method.formal_order(), expected: case.expectation.order };
+    let claim =
+        Claim { formal_order: case.method.formal_order(), expected: case.expectation.order };
     judge(&judged, &claim)
 }
 
@@ -245,7 +251,9 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase, progress: Progress<'_>) ->
 /// Largest deviation relative to the largest prediction; NaN if any force is.
 fn deviation(rows: &[ForceRow]) -> f64 {
     let largest = |value: &dyn Fn(&ForceRow) -> f64| {
-        rows.iter().map(value).fold(0.0, |a: f64, b| if (a + b).is_nan() { f64::NAN } else { a.max(b.abs()) })
+        rows.iter()
+            .map(value)
+            .fold(0.0, |a: f64, b| if (a + b).is_nan() { f64::NAN } else { a.max(b.abs()) })
     };
     largest(&|row| row.force - row.predicted) / largest(&|row| row.predicted)
 }

@@ -109,11 +109,7 @@ fn verdict(binder: &Binder<'_>, path: &Path, word: &str) -> Result<Verdict, Comp
     })
 }
 
-fn bounds(
-    binder: &Binder<'_>,
-    path: &Path,
-    pair: &[NumberText],
-) -> Result<(f64, f64), Complaint> {
+fn bounds(binder: &Binder<'_>, path: &Path, pair: &[NumberText]) -> Result<(f64, f64), Complaint> {
     let [low, high] = pair else {
         let complaint = binder.complain(path, "an interval has two ends");
         return Err(complaint.with_label("expected [low, high]"));

@@ -45,10 +45,7 @@ pub(super) fn plan(
     Ok(ForcePlan { cases: cases(binder, words)?, ..plan })
 }
 
-fn cases(
-    binder: &Binder<'_>,
-    words: &InternalForceWords,
-) -> Result<Vec<ForceCase>, Complaint> {
+fn cases(binder: &Binder<'_>, words: &InternalForceWords) -> Result<Vec<ForceCase>, Complaint> {
     let bases = |ForceMethodWords::Mpm { basis }: &ForceMethodWords| basis.as_slice().to_vec();
     let bases: Vec<BasisName> = words.methods.iter().flat_map(bases).collect();
     let names: Vec<String> = bases.iter().map(|basis| format!("mpm-{}", basis.name())).collect();

@@ -5,7 +5,7 @@ use super::{
     cases, force,
     model::{ConvergencePlan, ReferencePlan, StudyPlan, Suite},
     scene, truth,
-    words::{ConvergenceWords, Head, InternalForceWords, RefineWords, ReferenceWords, StudyName},
+    words::{ConvergenceWords, Head, InternalForceWords, ReferenceWords, RefineWords, StudyName},
     yaml::{Complaint, Source, read},
 };
 

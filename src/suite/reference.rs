@@ -39,7 +39,12 @@ impl Reference {
     }
 
     /// Linear interpolation between nodes at the instant nearest to `t`.
-    fn interpolate(&self, field: impl Fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>, x: f64, t: f64) -> f64 {
+    fn interpolate(
+        &self,
+        field: impl Fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>,
+        x: f64,
+        t: f64,
+    ) -> f64 {
         let last = self.kept.len() - 1;
         let instant = libm::round(t / self.until * last as f64).clamp(0.0, last as f64) as usize;
         let nodal = field(&self.kept[instant]);

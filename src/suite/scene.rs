@@ -79,11 +79,7 @@ fn corners(
     Ok((from, to))
 }
 
-fn poissons_ratio(
-    binder: &Binder<'_>,
-    path: &Path,
-    text: &NumberText,
-) -> Result<f64, Complaint> {
+fn poissons_ratio(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<f64, Complaint> {
     let poisson = binder.number(path, text)?;
     if poisson > -1.0 && poisson < 0.5 {
         return Ok(poisson);
@@ -123,8 +119,11 @@ fn face(
     let known = &FACES[..2 * dimension];
     known.iter().position(|face| *face == name).ok_or_else(|| {
         let message = format!("a body of dimension {dimension} has no face `{name}`");
-        let complaint =
-            if is_key { binder.complain_key(path, &message) } else { binder.complain(path, &message) };
+        let complaint = if is_key {
+            binder.complain_key(path, &message)
+        } else {
+            binder.complain(path, &message)
+        };
         complaint.with_help(&format!("known faces: {}", known.join(", ")))
     })
 }
@@ -137,9 +136,10 @@ fn initial_velocity(
 ) -> Result<Vec<Formula>, Complaint> {
     let path = path.then("initial_velocity");
     let variables = coordinates_and_time(dimension);
-    words.initial_velocity.as_ref().map_or(Ok(Vec::new()), |texts| {
-        binder.vector(&path, texts, dimension, &variables)
-    })
+    words
+        .initial_velocity
+        .as_ref()
+        .map_or(Ok(Vec::new()), |texts| binder.vector(&path, texts, dimension, &variables))
 }
 
 fn add_load(
@@ -187,7 +187,9 @@ fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<()
         if outside || apart {
             let name = face.name;
             let message = if outside {
-                format!("the body's {name} face at {body} is outside the grid, which ends at {grid}")
+                format!(
+                    "the body's {name} face at {body} is outside the grid, which ends at {grid}"
+                )
             } else {
                 format!("the {name} face at {body} is fixed, but the grid ends at {grid}")
             };

@@ -19,14 +19,14 @@ pub(super) struct Head {
     pub(super) study: StudyName,
 }
 
-named! {
-    /// Kinds of study.
-    pub enum StudyName {
-        /// Errors over a refinement plan.
-        Convergence = "convergence",
-        /// Internal force on a node while a particle moves through it.
-        InternalForce = "internal_force",
-    }
+/// Kinds of study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum StudyName {
+    /// Errors over a refinement plan.
+    Convergence,
+    /// Internal force on a node while a particle moves through it.
+    InternalForce,
 }
 
 impl StudyName {
@@ -144,12 +144,12 @@ pub(super) enum MaterialWords {
     LinearElastic { young: NumberText, poisson: NumberText, density: NumberText },
 }
 
-named! {
-    /// Boundary conditions on a face; a face that is not named is free.
-    pub enum BoundaryName {
-        /// No displacement.
-        Fixed = "fixed",
-    }
+/// Boundary conditions on a face; a face that is not named is free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum BoundaryName {
+    /// No displacement.
+    Fixed,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -284,12 +284,12 @@ pub(super) struct ExpectWords {
     pub(super) because: String,
 }
 
-named! {
-    /// Whether particles change their cell on the finest level.
-    pub enum CrossingsName {
-        /// None does.
-        None = "none",
-        /// At least one does.
-        Some = "some",
-    }
+/// Whether particles change their cell on the finest level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum CrossingsName {
+    /// None does.
+    None,
+    /// At least one does.
+    Some,
 }

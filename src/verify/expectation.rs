@@ -42,7 +42,8 @@ impl Expectation {
             unmet.push(format!("expected the verdict `{}`, got `{}`", self.verdict, seen.verdict));
         }
         if let Some(bounds) = self.order {
-            let inside = seen.order.is_some_and(|(low, high)| within(low, bounds) && within(high, bounds));
+            let inside =
+                seen.order.is_some_and(|(low, high)| within(low, bounds) && within(high, bounds));
             if !inside {
                 let got = seen.order.map_or("none".to_owned(), show);
                 unmet.push(format!("expected the order within {}, got {got}", show(bounds)));

@@ -45,9 +45,7 @@ pub use judge::{Judgement, judge};
 pub use level::Level;
 pub use norm::Norms;
 pub use observer::{History, displacement_at};
-pub use outcome::{
-    CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome,
-};
+pub use outcome::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
 pub use pairwise::observed_order;
 pub use richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use run::{Run, errors, run};

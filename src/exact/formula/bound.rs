@@ -11,7 +11,8 @@ use super::{
     scope::Scope,
 };
 
-/// Registers that fit the stack; formulas that need more allocate.
+/// Registers kept on the stack, in one of two sizes lest a short formula pay for clearing many.
+/// A formula that needs more of them allocates.
 const FEW: usize = 8;
 const MANY: usize = 32;
 
@@ -59,11 +60,12 @@ impl Formula {
     pub fn eval<T: Number>(&self, variables: &[T]) -> T {
         assert_eq!(variables.len(), self.variables, "variables of `{}`", self.source);
         let zero = T::from(0.0);
-        match self.registers {
-            0 => self.run(variables, &mut []),
-            1..=FEW => self.run(variables, &mut [zero; FEW]),
-            ..=MANY => self.run(variables, &mut [zero; MANY]),
-            many => self.run(variables, &mut vec![zero; many]),
+        if self.registers <= FEW {
+            self.run(variables, &mut [zero; FEW])
+        } else if self.registers <= MANY {
+            self.run(variables, &mut [zero; MANY])
+        } else {
+            self.run(variables, &mut vec![zero; self.registers])
         }
     }
 

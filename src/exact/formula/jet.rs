@@ -129,6 +129,8 @@ impl<const N: usize> Sub for Jet<N> {
     }
 }
 
+// The rules of differentiation mix the operators.
+#[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Mul for Jet<N> {
     type Output = Self;
 
@@ -144,6 +146,8 @@ impl<const N: usize> Mul for Jet<N> {
     }
 }
 
+// The rules of differentiation mix the operators.
+#[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
@@ -191,19 +195,17 @@ impl<const N: usize> Number for Jet<N> {
             0 | 1 => 0.0,
             _ => n * (n - 1.0) * power(self.value, n - 2.0),
         };
-        self.chain(power(self.value, n), first, second)
+        self.chain(Number::powi(self.value, exponent), first, second)
     }
 
     fn pow(self, exponent: Self) -> Self {
         let (a, b) = (self.value, exponent.value);
         if (0..N).all(|i| exponent.is_flat(i)) {
-            return match whole(b) {
-                Some(whole) => self.powi(whole),
-                None => {
-                    let first = b * power(a, b - 1.0);
-                    self.chain(power(a, b), first, b * (b - 1.0) * power(a, b - 2.0))
-                }
-            };
+            if let Some(exponent) = whole(b) {
+                return self.powi(exponent);
+            }
+            let first = b * power(a, b - 1.0);
+            return self.chain(power(a, b), first, b * (b - 1.0) * power(a, b - 2.0));
         }
         // a^b = exp(b*ln(a)), and every derivative of the exponential is its value.
         let value = power(a, b);

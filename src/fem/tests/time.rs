@@ -5,11 +5,11 @@ use rstest::rstest;
 use super::{bar_at_rest, orders, run, vibrating_bar};
 use crate::fem::Element::{self, Linear, Quadratic};
 use crate::fem::Mass::{self, Consistent, Lumped};
+use crate::subject::Subject;
 use crate::{
     fem::{Bar, Setup},
     subject::Start,
 };
-use crate::subject::Subject;
 
 /// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
 fn column(start: Start) -> Setup {

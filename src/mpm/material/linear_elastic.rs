@@ -71,9 +71,8 @@ mod tests {
     #[test]
     fn stress_is_the_derivative_of_the_energy() {
         let law = LinearElastic::new(50.0, 0.3);
-        let energy = |e: &Matrix<3>| {
-            law.lambda / 2.0 * e.trace() * e.trace() + law.mu * (e * e).trace()
-        };
+        let energy =
+            |e: &Matrix<3>| law.lambda / 2.0 * e.trace() * e.trace() + law.mu * (e * e).trace();
         let eps = Matrix::<3>::new(0.01, 0.002, 0.0, 0.002, -0.02, 0.003, 0.0, 0.003, 0.005);
         let sigma = law.increment(&eps);
         for (i, j) in [(0, 0), (1, 1), (0, 1), (1, 2)] {

@@ -108,7 +108,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
         let Some((step, path)) = self.path.split_first() else { return Err(self.stop()) };
         let Step::Key(key) = step else { return Ok(()) };
         let last = path.is_empty() && self.sought == Sought::Key;
-        while let Some(same) = map.next_key_seed(Key { key, last, walk: self })? {
+        while let Some(same) = map.next_key_seed(Key { wanted: key, last, walk: self })? {
             if same {
                 return map.next_value_seed(Self { path, ..self });
             }
@@ -167,7 +167,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
 
 /// Compares a key, and fails there if it is the one whose own place is sought.
 struct Key<'a> {
-    key: &'a str,
+    wanted: &'a str,
     last: bool,
     walk: Walk<'a>,
 }
@@ -188,7 +188,7 @@ impl Visitor<'_> for Key<'_> {
     }
 
     fn visit_str<E: de::Error>(self, key: &str) -> Result<bool, E> {
-        let same = key == self.key;
+        let same = key == self.wanted;
         if same && self.last { Err(self.walk.stop()) } else { Ok(same) }
     }
 }

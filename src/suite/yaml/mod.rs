@@ -38,6 +38,7 @@ mod scan;
 mod shape;
 mod source;
 mod translate;
+mod unwanted;
 mod words;
 
 #[cfg(test)]

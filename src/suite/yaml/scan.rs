@@ -7,8 +7,8 @@
 //! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
 //! quotes that are never closed, of which the parser would only notice the end of the file.
 
+use super::Complaint;
 use super::scalars::Scalar;
-use super::{Complaint, MAX_NESTING};
 use std::ops::Range;
 
 /// The scalars of a text in their order, or the reason why it is refused.
@@ -31,7 +31,7 @@ pub(super) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Complaint> {
 
 /// The state of the walk, named after the rules of YAML that it decides.
 pub(super) struct Scanner<'t> {
-    name: &'t str,
+    pub(super) name: &'t str,
     pub(super) text: &'t str,
     pub(super) at: usize,
     line_start: usize,
@@ -135,12 +135,7 @@ impl Scanner<'_> {
             return Err(self.complain(self.here(), &message));
         };
         if !self.text[start..].starts_with(opening) {
-            let message = format!("`{}` where another bracket must close first", byte as char);
-            let line = Complaint::at(self.name, self.text, start..start, "")
-                .place()
-                .map_or(0, super::Place::line);
-            let help = format!("`{}` was opened on line {line}", &self.text[start..=start]);
-            return Err(self.complain(self.here(), &message).with_help(&help));
+            return Err(self.crossed(start, byte));
         }
         self.pass(false);
         Ok(())
@@ -203,44 +198,6 @@ impl Scanner<'_> {
         }
         self.nesting()
     }
-
-    fn nesting(&self) -> Result<(), Complaint> {
-        if self.open.len() + self.indents.len() <= MAX_NESTING {
-            return Ok(());
-        }
-        let message = format!("lists and maps nest more than {MAX_NESTING} deep");
-        Err(self.complain(self.here(), &message))
-    }
-
-    fn all_closed(&self) -> Result<(), Complaint> {
-        let Some(&start) = self.open.last() else { return Ok(()) };
-        let bracket = &self.text[start..=start];
-        let closing = if bracket == "[" { "]" } else { "}" };
-        Err(self
-            .complain(start..start + 1, &format!("this `{bracket}` is never closed"))
-            .with_label(&format!("no matching `{closing}`")))
-    }
-
-    fn second_document(&self) -> Complaint {
-        self.complain(self.here(), "a second document starts here")
-            .with_label("a suite is one document")
-            .with_help("put each suite in a file of its own")
-    }
-
-    fn unneeded(&self, what: &str, byte: u8) -> Complaint {
-        self.complain(self.here(), &format!("{what} are not supported"))
-            .with_label(&format!("a value cannot start with `{}`", byte as char))
-            .with_help("put text in quotes; give a value a name under `parameters`")
-    }
-
-    pub(super) fn tab(&self) -> Complaint {
-        self.complain(self.here(), "tab used for indentation; YAML needs spaces")
-            .with_label("a tab")
-    }
-
-    pub(super) fn complain(&self, range: Range<usize>, message: &str) -> Complaint {
-        Complaint::at(self.name, self.text, range, message)
-    }
 }
 
 /// The reading head.
@@ -292,7 +249,7 @@ impl Scanner<'_> {
         self.key_allowed = key_allowed;
     }
 
-    fn here(&self) -> Range<usize> {
+    pub(super) fn here(&self) -> Range<usize> {
         self.at..self.at + 1
     }
 }

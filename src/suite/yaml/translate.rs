@@ -39,15 +39,8 @@ fn split_path(text: &str) -> (&str, &str) {
         "invalid value: ",
         "invalid length ",
     ];
-    let start = OPENINGS.iter().filter_map(|opening| text.find(opening)).min();
-    match start {
-        Some(start) => (text[..start].trim_end_matches(": "), &text[start..]),
-        // Any other problem is a sentence; a path has no spaces.
-        None => match text.split_once(": ") {
-            Some((path, problem)) if !path.contains(' ') => (path, problem),
-            _ => ("", text),
-        },
-    }
+    let start = OPENINGS.iter().filter_map(|opening| text.find(opening)).min().unwrap_or(0);
+    (text[..start].trim_end_matches(": "), &text[start..])
 }
 
 #[derive(Clone, Copy)]

@@ -37,13 +37,13 @@ impl<'a> Binder<'a> {
         self.append(Action::Copy(Operand::Constant(0.0)), at);
         self.append(Action::Copy(Operand::Constant(from)), at + 1);
         let body = self.code.len();
-        let term = self.terms(frame, sum, at + 1, terms)?;
+        let term = self.term(frame, sum, at + 1, terms)?;
         self.append(Action::Next(Loop { term, last, body }), at);
         Ok(self.settle(start, at, terms))
     }
 
     /// Compiles the body of a sum, which runs once for each of the `terms`.
-    fn terms(
+    fn term(
         &mut self,
         frame: &mut Frame<'a>,
         sum: &'a Sum,
@@ -66,17 +66,14 @@ impl<'a> Binder<'a> {
         node: usize,
         at: usize,
     ) -> Result<f64, FormulaError> {
-        let error =
-            |message: String| FormulaError::new(frame.expr.node(node).span.clone(), message);
-        let not_constant = error("a bound of a sum may not depend on a variable".to_owned());
-        let Operand::Constant(value) = self.compile(frame, node, at)? else {
-            return Err(not_constant);
+        let message = match self.compile(frame, node, at)? {
+            Operand::Constant(value) if whole(value).is_some() => return Ok(value),
+            Operand::Constant(value) => {
+                format!("a bound of a sum must be a whole number, not {value}")
+            }
+            _ => "a bound of a sum may not depend on a variable or an index".to_owned(),
         };
-        if whole(value).is_none() {
-            let message = format!("a bound of a sum must be a whole number, not {value}");
-            return Err(FormulaError::new(frame.expr.node(node).span.clone(), message));
-        }
-        Ok(value)
+        Err(FormulaError::new(frame.expr.node(node).span.clone(), message))
     }
 
     /// Takes back the loop that begins at `start` if it can be evaluated at once: because there

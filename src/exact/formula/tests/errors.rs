@@ -41,7 +41,7 @@ use super::{Expr, Formula, Scope, bar, bind, declare};
 #[case("sum(s,1,2,1)", "`s` is already a function", 4..5)]
 #[case("sum(x,1,2,1)", "`x` is already a variable", 4..5)]
 #[case("sum(n,1,2,sum(n,1,2,n))", "`n` is already the index of an enclosing sum", 14..15)]
-#[case("sum(n,1,x,n)", "a bound of a sum may not depend on a variable", 8..9)]
+#[case("sum(n,1,x,n)", "a bound of a sum may not depend on a variable or an index", 8..9)]
 #[case("sum(n,1,2.5,n)", "a bound of a sum must be a whole number, not 2.5", 8..11)]
 #[case("sum(n,1,1/0,n)", "a bound of a sum must be a whole number, not inf", 8..11)]
 #[case("sum(n,1,100001,n)", "the sum has 100001 terms, more than 100000", 6..14)]

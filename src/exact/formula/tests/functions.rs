@@ -37,7 +37,7 @@ fn a_series_takes_its_length_as_an_argument() {
     let formula = Formula::bind(&Expr::parse("series(x,4)").unwrap(), &scope, &["x"]).unwrap();
     assert_eq!(formula.eval(&[2.0]), 15.0);
     let error = Formula::bind(&Expr::parse("series(2,x)").unwrap(), &scope, &["x"]).unwrap_err();
-    assert_eq!(error.message, "a bound of a sum may not depend on a variable");
+    assert_eq!(error.message, "a bound of a sum may not depend on a variable or an index");
     assert_eq!((error.span, error.within.as_deref()), (8..15, Some("series")));
 }
 

@@ -35,7 +35,7 @@ use super::{Expr, bind};
 #[case("2*-3^2+1", -17.0)]
 #[case("0^0", 1.0)]
 #[case(" 1 +\t2\n", 3.0)]
-#[case("sqrt(E/rho)*sqrt(rho/E)", 1.0)]
+#[case("sqrt(2*E/rho)", 2.0)]
 #[case("min(1,2)+10*max(1,2)", 21.0)]
 #[case("step(0)+step(-1)*10+sign(-3)*100+abs(-2)*1000", 1901.0)]
 #[case("floor(-1.5)", -2.0)]
@@ -111,9 +111,9 @@ fn nan_is_passed_on(#[case] source: &str) {
 #[test]
 fn names_and_calls_are_listed_in_reading_order() {
     let expr = Expr::parse("s(a)+sum(n,1,N,n*pi*b)+sin(a)*r(s(1))").unwrap();
-    let names = [("a", 2..3), ("N", 11..12), ("b", 18..19), ("a", 25..26)];
+    let names = [("a", 2..3), ("N", 13..14), ("b", 20..21), ("a", 27..28)];
     assert_eq!(expr.names(), names.map(|(name, span)| (name.to_owned(), span)));
-    let calls = [("s", 0..1), ("r", 28..29), ("s", 30..31)];
+    let calls = [("s", 0..1), ("r", 30..31), ("s", 32..33)];
     assert_eq!(expr.calls(), calls.map(|(name, span)| (name.to_owned(), span)));
 }
 

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{bar, bind};
+use super::{bar, declare};
 use crate::exact::formula::{Expr, Formula, FormulaError, Jet};
 
 const TOKENS: &[&str] = &[
@@ -46,19 +46,32 @@ enum Tree {
     Negate(Box<Tree>),
     Call(&'static str, fn(f64) -> f64, Box<Tree>),
     Operation(char, Box<(Tree, Tree)>),
+    /// A call of the user function `h`.
+    User(Box<(Tree, Tree)>),
+    /// The sum of n times the term, over n from 1 to 3.
+    Sum(Box<Tree>),
 }
 
 impl Tree {
     fn text(&self) -> String {
+        self.nested(0)
+    }
+
+    /// The text within a number of sums, whose indices need different names.
+    fn nested(&self, sums: usize) -> String {
         match self {
             Self::Number(value) => value.to_string(),
             Self::X => "x".to_owned(),
             Self::Y => "y".to_owned(),
-            Self::Negate(a) => format!("(-{})", a.text()),
-            Self::Call(name, _, a) => format!("{name}({})", a.text()),
+            Self::Negate(a) => format!("(-{})", a.nested(sums)),
+            Self::Call(name, _, a) => format!("{name}({})", a.nested(sums)),
             Self::Operation(sign, operands) => {
-                format!("({}{sign}{})", operands.0.text(), operands.1.text())
+                format!("({}{sign}{})", operands.0.nested(sums), operands.1.nested(sums))
             }
+            Self::User(operands) => {
+                format!("h({},{})", operands.0.nested(sums), operands.1.nested(sums))
+            }
+            Self::Sum(term) => format!("sum(n{sums},1,3,n{sums}*{})", term.nested(sums + 1)),
         }
     }
 
@@ -78,6 +91,13 @@ impl Tree {
                     _ => a / b,
                 }
             }
+            Self::User(operands) => {
+                let (a, b) = (operands.0.value(x, y), operands.1.value(x, y));
+                b - a * b + a
+            }
+            Self::Sum(term) => {
+                [1.0, 2.0, 3.0].iter().fold(0.0, |sum, n| sum + n * term.value(x, y))
+            }
         }
     }
 }
@@ -94,10 +114,23 @@ fn tree() -> impl Strategy<Value = Tree> {
             call("sqrt", libm::sqrt),
             call("atan", libm::atan),
             inner.clone().prop_map(|a| Tree::Negate(Box::new(a))),
-            (prop::sample::select(vec!['+', '-', '*', '/']), inner.clone(), inner)
+            (prop::sample::select(vec!['+', '-', '*', '/']), inner.clone(), inner.clone())
                 .prop_map(|(sign, a, b)| Tree::Operation(sign, Box::new((a, b)))),
+            (inner.clone(), inner.clone()).prop_map(|operands| Tree::User(Box::new(operands))),
+            inner.prop_map(|term| Tree::Sum(Box::new(term))),
         ]
     })
+}
+
+/// Binds a tree's text to x and y.
+fn grow(text: &str) -> Formula {
+    let mut scope = bar();
+    declare(&mut scope, "h", &["a", "b"], "b-a*b+a");
+    Formula::bind(&Expr::parse(text).unwrap(), &scope, &["x", "y"]).unwrap()
+}
+
+fn soup() -> impl Strategy<Value = Vec<&'static str>> {
+    prop::collection::vec(prop::sample::select(TOKENS), 0..24)
 }
 
 /// Binds `source`, and checks that the span of an error can be shown.
@@ -127,13 +160,13 @@ proptest! {
     }
 
     #[test]
-    fn token_soup_never_panics(tokens in prop::collection::vec(prop::sample::select(TOKENS), 0..24)) {
+    fn token_soup_never_panics(tokens in soup()) {
         let _ = digest(&tokens.concat());
     }
 
     #[test]
     fn values_are_those_of_the_tree(tree in tree(), x in -3.0..3.0, y in -3.0..3.0) {
-        let formula = bind(&tree.text(), &["x", "y"]).unwrap();
+        let formula = grow(&tree.text());
         let value = formula.eval(&[x, y]);
         prop_assert!(same(value, tree.value(x, y)));
         let jet = formula.eval(&[Jet::<2>::variable(x, 0), Jet::variable(y, 1)]);
@@ -143,7 +176,7 @@ proptest! {
     #[test]
     fn folding_is_evaluation(tree in tree(), x in -3.0..3.0, y in 0_u8..4) {
         let folded = tree.text().replace('y', &y.to_string());
-        let value = bind(&folded, &["x"]).unwrap().eval(&[x]);
+        let value = grow(&folded).eval(&[x, f64::NAN]);
         prop_assert!(same(value, tree.value(x, f64::from(y))));
     }
 }

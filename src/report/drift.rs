@@ -1,0 +1,92 @@
+//! Has a report drifted? Two texts compared number by number.
+//!
+//! Words must be the same. Whole numbers (counters) must be the same. Decimal numbers may differ
+//! by [`RELATIVE`], or by one unit in the last place that is printed; a number that is not finite
+//! equals nothing, not even itself. So a snapshot keeps its text over the last bits of another
+//! platform, and shows any change that a reviewer should see.
+
+/// Largest relative difference of two decimal numbers that count as equal.
+pub const RELATIVE: f64 = 1e-3;
+
+/// Whether `new` says the same as `old`. Runs of spaces count as one: a column may become wider.
+pub fn same(old: &str, new: &str) -> bool {
+    let (old, new) = (old.trim_end(), new.trim_end());
+    old.lines().count() == new.lines().count()
+        && old.lines().zip(new.lines()).all(|(old, new)| same_line(old, new))
+}
+
+fn same_line(old: &str, new: &str) -> bool {
+    let (old, new) = (tokens(old), tokens(new));
+    old.len() == new.len() && old.iter().zip(&new).all(|(old, new)| same_token(old, new))
+}
+
+fn same_token(old: &str, new: &str) -> bool {
+    if matches!(old, "nan" | "inf") {
+        return false;
+    }
+    match (number(old), number(new)) {
+        (Some(a), Some(b)) if is_decimal(old) && is_decimal(new) => {
+            let allowed = f64::max(RELATIVE * a.abs(), 1.000_001 * last_place(old));
+            (a - b).abs() <= allowed
+        }
+        _ => old == new,
+    }
+}
+
+/// Splits a line into numbers and everything between them.
+fn tokens(line: &str) -> Vec<&str> {
+    let edge = |c: char| c.is_whitespace() || "[](),;:=".contains(c);
+    let mut tokens = Vec::new();
+    for word in line.split(char::is_whitespace) {
+        let mut rest = word;
+        while !rest.is_empty() {
+            let end = rest.find(edge).unwrap_or(rest.len()).max(1);
+            let (token, tail) = rest.split_at(end);
+            tokens.push(token);
+            rest = tail;
+        }
+    }
+    tokens
+}
+
+fn number(token: &str) -> Option<f64> {
+    let digits = token.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '.');
+    token.parse::<f64>().ok().filter(|value| digits && value.is_finite())
+}
+
+fn is_decimal(token: &str) -> bool {
+    token.contains(['.', 'e'])
+}
+
+/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`.
+fn last_place(token: &str) -> f64 {
+    let (mantissa, exponent) = token.split_once('e').unwrap_or((token, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    libm::pow(10.0, f64::from(exponent) - decimals as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::same("rms 1.235e-05  order 1.99", "rms 1.235e-05  order 1.99", true)]
+    #[case::last_place("1.235e-05", "1.236e-05", true)]
+    #[case::two_percent("1.235e-05", "1.260e-05", false)]
+    #[case::small_is_not_zero("3.200e-09", "3.200e-07", false)]
+    #[case::order_in_its_last_place("1.99 [1.95, 2.03]", "2.00 [1.95, 2.03]", true)]
+    #[case::order("1.99 [1.95, 2.03]", "1.89 [1.95, 2.03]", false)]
+    #[case::counter("transfers 300000", "transfers 300001", false)]
+    #[case::word("converging", "divergent", false)]
+    #[case::nan_equals_nothing("rms nan", "rms nan", false)]
+    #[case::inf_equals_nothing("rms inf", "rms inf", false)]
+    #[case::wider_column("a  1.0", "a 1.0", true)]
+    #[case::sign("order -1.35", "order 1.35", false)]
+    #[case::line_lost("a\nb", "a", false)]
+    #[case::number_became_word("1.5", "-", false)]
+    fn comparisons(#[case] old: &str, #[case] new: &str, #[case] equal: bool) {
+        assert_eq!(same(old, new), equal);
+    }
+}

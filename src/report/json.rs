@@ -1,0 +1,121 @@
+//! The report as JSON: an interface for programs.
+//!
+//! One document:
+//!
+//! ```json
+//! {"suites": [{"suite": "...", "passed": true, "cases": [{
+//!     "case": "...", "subject": "mpm", "formal_order": 2.0,
+//!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
+//!     "verdict": "converging", "expected": "...", "passed": true,
+//!     "reason": "...", "unmet": [],
+//!     "levels": [{"cells": 5, "h": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
+//!         "transfers": 300000, "crossings": 0, "left_domain": 0, "min_j": 0.99,
+//!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
+//!         "order": null, "failure": null}],
+//!     "forces": null}]}]}
+//! ```
+//!
+//! `null` stands where a thing does not exist; numbers that are not finite are the strings
+//! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Keys may be added; none is renamed
+//! or removed without a new major version.
+
+use crate::verify::{CaseOutcome, ForceRow, Interval, LevelOutcome, Study, SuiteOutcome};
+use serde_json::{Value, json};
+
+/// The document for `outcomes`, indented, with a newline at its end.
+pub fn json(outcomes: &[SuiteOutcome]) -> String {
+    let suites: Vec<Value> = outcomes.iter().map(suite).collect();
+    format!("{:#}\n", json!({ "suites": suites }))
+}
+
+fn suite(outcome: &SuiteOutcome) -> Value {
+    json!({
+        "suite": outcome.suite,
+        "passed": outcome.passed(),
+        "cases": outcome.cases.iter().map(case).collect::<Vec<_>>(),
+    })
+}
+
+fn case(outcome: &CaseOutcome) -> Value {
+    let study = outcome.convergence();
+    let levels = study.map_or(&[][..], |study| &study.levels);
+    json!({
+        "case": outcome.case,
+        "subject": outcome.subject,
+        "formal_order": study.map(|study| number(study.formal_order)),
+        "observed_order": study.and_then(|study| study.judgement.order).map(interval),
+        "verdict": outcome.verdict,
+        "expected": outcome.expected,
+        "passed": outcome.passed(),
+        "reason": outcome.reason,
+        "unmet": outcome.unmet,
+        "levels": levels.iter().map(level).collect::<Vec<_>>(),
+        "forces": match &outcome.study {
+            Study::InternalForce(rows) => rows.iter().map(force).collect(),
+            _ => Value::Null,
+        },
+    })
+}
+
+fn interval(order: Interval) -> Value {
+    json!({"value": number(order.value), "low": number(order.low), "high": number(order.high)})
+}
+
+fn level(level: &LevelOutcome) -> Value {
+    let (run, census) = (&level.run, &level.run.census);
+    json!({
+        "cells": level.cells,
+        "h": number(level.h),
+        "dt": number(level.dt),
+        "ppc": level.ppc,
+        "particles": census.particles,
+        "steps": run.steps,
+        "transfers": census.transfers,
+        "crossings": census.crossings,
+        "left_domain": census.left_domain,
+        "min_j": number(census.min_j),
+        "errors": {
+            "rms": number(run.errors.rms),
+            "l1": number(run.errors.l1),
+            "l2": number(run.errors.l2),
+            "linf": number(run.errors.linf),
+            "max_rms": number(run.max_rms),
+        },
+        "order": level.order.map(number),
+        "failure": run.failure,
+    })
+}
+
+fn force(row: &ForceRow) -> Value {
+    json!({
+        "position": number(row.position),
+        "n_left": row.left,
+        "n_right": row.right,
+        "force": number(row.force),
+        "predicted": number(row.predicted),
+    })
+}
+
+fn number(value: f64) -> Value {
+    match value {
+        v if v.is_nan() => json!("nan"),
+        v if v.is_infinite() => json!(if v > 0.0 { "inf" } else { "-inf" }),
+        v => json!(v),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(f64::NAN, "\"nan\"")]
+    #[case(f64::INFINITY, "\"inf\"")]
+    #[case(f64::NEG_INFINITY, "\"-inf\"")]
+    #[case(0.1, "0.1")]
+    fn numbers(#[case] value: f64, #[case] text: &str) {
+        assert_eq!(number(value).to_string(), text);
+    }
+}

@@ -1,0 +1,160 @@
+//! The figures of a suite.
+
+use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
+use crate::verify::{Convergence, LevelOutcome, Study, SuiteOutcome};
+
+/// A figure and the name of its file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// File name, without a folder.
+    pub file: String,
+    /// The SVG document.
+    pub svg: String,
+}
+
+/// Most curves in one plot: a reader cannot tell more apart.
+const MOST_SERIES: usize = 6;
+
+/// Every figure of a suite: convergence plots (as many as keep each readable), the observed
+/// velocity for each MPM or FEM case that watched one, and the forces of an internal-force study.
+pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let mut figures = convergence(outcome);
+    figures.extend(histories(outcome));
+    figures.extend(forces(outcome));
+    figures
+}
+
+fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
+    let cases = outcome.cases.iter();
+    cases.filter_map(|case| Some((case.case.as_str(), case.convergence()?))).collect()
+}
+
+fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let studies = studies(outcome);
+    let plots = studies.chunks(MOST_SERIES).enumerate();
+    plots
+        .map(|(i, part)| {
+            let number =
+                if studies.len() > MOST_SERIES { format!("-{}", i + 1) } else { String::new() };
+            Figure {
+                file: format!("{}{number}.svg", outcome.suite),
+                svg: plot(outcome, part).to_svg(),
+            }
+        })
+        .collect()
+}
+
+fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
+    let series = |(name, study): &(&str, &Convergence)| Series {
+        name: (*name).to_owned(),
+        points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
+    };
+    let mut orders: Vec<f64> = studies.iter().filter_map(|(_, study)| reference(study)).collect();
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    let norm = studies.first().map_or("rms", |(_, study)| study.norm).replace('_', " ");
+    Plot {
+        title: outcome.title.clone(),
+        x_label: "cell size h (m)".to_owned(),
+        y_label: format!("{norm} error of displacement (m)"),
+        series: studies.iter().map(series).collect(),
+        reference_orders: orders,
+    }
+}
+
+/// The slope that a reader should see beside a series: the formal order where the observed
+/// interval holds it or nothing was fitted, else the observed order.
+fn reference(study: &Convergence) -> Option<f64> {
+    let formal = study.formal_order;
+    match study.judgement.order {
+        Some(order) if (order.value - formal).abs() > 0.15 && order.value > 0.2 => {
+            Some(libm::round(order.value * 3.0) / 3.0)
+        }
+        _ => Some(formal),
+    }
+}
+
+fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
+    let window = study.judgement.window.as_deref().unwrap_or_default();
+    let mark = if level.run.failure.is_some() {
+        Mark::Failed
+    } else if level.run.census.crossings.unwrap_or(0) > 0 {
+        Mark::Crossing
+    } else if window.contains(&index) {
+        Mark::Window
+    } else {
+        Mark::Shown
+    };
+    let error = match study.norm {
+        "l1" => level.run.errors.l1,
+        "l2" => level.run.errors.l2,
+        "linf" => level.run.errors.linf,
+        "max_rms" => level.run.max_rms,
+        _ => level.run.errors.rms,
+    };
+    Point { h: level.h, error, mark }
+}
+
+/// Exact and computed velocity at the observed label, on a coarse, the middle and the finest level.
+fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let figure = |(name, study): (&str, &Convergence)| {
+        let seen: Vec<_> = study
+            .levels
+            .iter()
+            .filter(|level| level.run.failure.is_none())
+            .filter_map(|level| Some((level, level.run.history.as_ref()?)))
+            .collect();
+        let (_, first) = *seen.first()?;
+        let pick = [0, seen.len() / 2, seen.len() - 1];
+        let mut curves = vec![Curve {
+            name: "exact".to_owned(),
+            points: first.velocity.iter().map(|[t, _, exact]| (*t, *exact)).collect(),
+            exact: true,
+            markers: false,
+        }];
+        for (i, (level, history)) in seen.iter().enumerate() {
+            if pick.contains(&i) {
+                curves.push(Curve {
+                    name: format!("{} cells", level.cells),
+                    points: history.velocity.iter().map(|[t, v, _]| (*t, *v)).collect(),
+                    exact: false,
+                    markers: false,
+                });
+            }
+        }
+        let title =
+            format!("{}: velocity near X = {} m, {name}", outcome.title, study.observed_at?);
+        let (x_label, y_label) = ("time (s)".to_owned(), "velocity (m/s)".to_owned());
+        let svg = History { title, x_label, y_label, curves }.to_svg();
+        Some(Figure { file: format!("{}-{name}-velocity.svg", outcome.suite), svg })
+    };
+    studies(outcome).into_iter().filter_map(figure).collect()
+}
+
+fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
+    let mut curves = Vec::new();
+    for case in &outcome.cases {
+        let Study::InternalForce(rows) = &case.study else { continue };
+        if curves.is_empty() {
+            let points = rows.iter().map(|row| (row.position, row.predicted)).collect();
+            curves.push(Curve {
+                name: "predicted".to_owned(),
+                points,
+                exact: true,
+                markers: false,
+            });
+        }
+        let points = rows.iter().map(|row| (row.position, row.force)).collect();
+        curves.push(Curve { name: case.case.clone(), points, exact: false, markers: true });
+    }
+    if curves.is_empty() {
+        return None;
+    }
+    let svg = History {
+        title: outcome.title.clone(),
+        x_label: "position of the moving particle, x/h".to_owned(),
+        y_label: "internal force on the node (N)".to_owned(),
+        curves,
+    };
+    Some(Figure { file: format!("{}.svg", outcome.suite), svg: svg.to_svg() })
+}

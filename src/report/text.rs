@@ -1,0 +1,232 @@
+//! The report as text: aligned tables that read well in a diff.
+//!
+//! Errors have four significant digits, orders two decimals; counters are exact. Nothing in it
+//! depends on the machine.
+
+use super::table::{Table, optional, scientific};
+use crate::verify::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
+
+/// Width to which prose is wrapped.
+const WIDTH: usize = 100;
+
+/// The whole report of a suite.
+pub fn text(outcome: &SuiteOutcome) -> String {
+    let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
+    wrap(&mut lines, "", &outcome.about);
+    lines.push(String::new());
+    row(&mut lines, "source", &outcome.source);
+    for (key, value) in &outcome.statement {
+        row(&mut lines, key, value);
+    }
+    for case in &outcome.cases {
+        lines.push(String::new());
+        case_lines(&mut lines, case);
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The report of one case, for failing tests.
+pub fn case(outcome: &CaseOutcome) -> String {
+    let mut lines = Vec::new();
+    case_lines(&mut lines, outcome);
+    lines.join("\n") + "\n"
+}
+
+/// One line for each case: the table that `run` prints.
+pub fn summary(outcomes: &[SuiteOutcome]) -> String {
+    let mut table = Table::new(&["", "case", "verdict", "order", "expected"]);
+    for suite in outcomes {
+        for case in &suite.cases {
+            let order = case.convergence().and_then(|study| study.judgement.order);
+            table.row(vec![
+                if case.passed() { "pass" } else { "FAIL" }.to_owned(),
+                format!("{}::{}", suite.suite, case.case),
+                case.verdict.clone(),
+                optional(order.map(|o| format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high))),
+                case.expected.clone(),
+            ]);
+        }
+    }
+    table.flush_left(&[1, 2, 4]).lines().join("\n") + "\n"
+}
+
+fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
+    lines.push(format!("== {} ==", case.case));
+    let settings: Vec<String> =
+        case.settings.iter().map(|(key, value)| format!("{key}: {value}")).collect();
+    wrap(lines, "  ", &settings.join("; "));
+    lines.push(String::new());
+    match &case.study {
+        Study::Convergence(study) => convergence(lines, study),
+        Study::InternalForce(rows) => internal_force(lines, rows),
+        Study::Refused => {}
+    }
+    lines.push(String::new());
+    row(lines, "verdict", &format!("{}: {}", case.verdict, case.reason));
+    row(lines, "expected", &format!("{}, because {}", case.expected, case.because));
+    if case.passed() {
+        row(lines, "result", "as expected");
+    }
+    for unmet in &case.unmet {
+        row(lines, "result", &format!("NOT AS EXPECTED: {unmet}"));
+    }
+}
+
+fn convergence(lines: &mut Vec<String>, study: &Convergence) {
+    let heads = [
+        "cells",
+        "h",
+        "dt",
+        "ppc",
+        "particles",
+        "steps",
+        "transfers",
+        "crossings",
+        "left domain",
+        "min J",
+        "rms",
+        "l1",
+        "l2",
+        "linf",
+        "max rms",
+        "history",
+        "order",
+        "counts",
+    ];
+    let mut table = Table::new(&heads);
+    for (index, level) in study.levels.iter().enumerate() {
+        table.row(level_row(study, index, level));
+    }
+    lines.extend(table.without_empty_columns().lines());
+    if study.observed_at.is_some() {
+        richardson(lines, study);
+    }
+    let failures =
+        study.levels.iter().filter_map(|level| Some((level.cells, level.run.failure.as_ref()?)));
+    for (cells, failure) in failures {
+        row(lines, "failure", &format!("{cells} cells: {failure}"));
+    }
+    if let Some(lost) = order_lost(study) {
+        lines.push(String::new());
+        row(lines, "order lost", &lost);
+    }
+}
+
+fn level_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<String> {
+    let (run, census) = (&level.run, &level.run.census);
+    let window = study.judgement.window.as_deref().unwrap_or_default();
+    let counts = match (level.usable, window.contains(&index)) {
+        (false, _) => "no: crossings",
+        (true, true) => "yes",
+        (true, false) => "no",
+    };
+    vec![
+        level.cells.to_string(),
+        scientific(level.h),
+        scientific(level.dt),
+        optional(level.ppc),
+        optional(census.particles),
+        run.steps.to_string(),
+        census.transfers.to_string(),
+        optional(census.crossings),
+        optional(census.left_domain),
+        format!("{:.4}", census.min_j),
+        scientific(run.errors.rms),
+        scientific(run.errors.l1),
+        scientific(run.errors.l2),
+        scientific(run.errors.linf),
+        scientific(run.max_rms),
+        optional(run.history.as_ref().map(|history| scientific(history.relative_error()))),
+        optional(level.order.map(|order| format!("{order:.2}"))),
+        counts.to_owned(),
+    ]
+}
+
+/// Richardson's extrapolation at the observed place, triple by triple.
+fn richardson(lines: &mut Vec<String>, study: &Convergence) {
+    if study.richardson.is_empty() {
+        return;
+    }
+    let place = study.observed_at.unwrap_or(f64::NAN);
+    lines.push(String::new());
+    lines.push(format!("  Richardson's extrapolation of u at X = {place} m"));
+    let mut table = Table::new(&["cells", "ratio", "class", "order", "extrapolated u", "gci"]);
+    for (cells, found) in &study.richardson {
+        table.row(vec![
+            format!("{}, {}, {}", cells[0], cells[1], cells[2]),
+            format!("{:.2}", found.ratio),
+            found.class.to_string(),
+            optional(found.order.map(|order| format!("{order:.2}"))),
+            optional(found.extrapolated.map(scientific)),
+            optional(found.gci.map(scientific)),
+        ]);
+    }
+    lines.extend(table.lines());
+}
+
+/// Where particles begin to change their cell, and what that does to the order.
+fn order_lost(study: &Convergence) -> Option<String> {
+    let first = study.levels.iter().find(|level| level.run.census.crossings.unwrap_or(0) > 0)?;
+    let crossings = first.run.census.crossings?;
+    let finest = study.levels.last()?;
+    let pair = |level: &LevelOutcome| {
+        level.order.map_or("no order".to_owned(), |order| format!("order {order:.2}"))
+    };
+    Some(format!(
+        "particles change their cell from {} cells on ({crossings} crossings, {} against the next \
+         coarser level); on the finest level, {} cells, {} crossings and {}",
+        first.cells,
+        pair(first),
+        finest.cells,
+        finest.run.census.crossings.unwrap_or(0),
+        pair(finest),
+    ))
+}
+
+fn internal_force(lines: &mut Vec<String>, rows: &[ForceRow]) {
+    let mut table = Table::new(&["x/h", "n left", "n right", "force", "predicted", "difference"]);
+    for force in rows {
+        table.row(vec![
+            format!("{:.4}", force.position),
+            force.left.to_string(),
+            force.right.to_string(),
+            scientific(force.force),
+            scientific(force.predicted),
+            format!("{:.0e}", force.force - force.predicted),
+        ]);
+    }
+    lines.extend(table.lines());
+}
+
+/// `key` in a column of its own, `value` wrapped beside it.
+fn row(lines: &mut Vec<String>, key: &str, value: &str) {
+    const KEY: usize = 18;
+    let mut wrapped = Vec::new();
+    wrap(&mut wrapped, "", value);
+    for (i, line) in wrapped.iter().enumerate() {
+        let key = if i == 0 { key } else { "" };
+        lines.push(format!("  {key:KEY$}{line}").trim_end().to_owned());
+    }
+}
+
+/// Wraps prose at word boundaries; empty lines separate paragraphs.
+fn wrap(lines: &mut Vec<String>, indent: &str, prose: &str) {
+    let mut line = String::new();
+    for paragraph in prose.split("\n\n") {
+        for word in paragraph.split_whitespace() {
+            if !line.is_empty()
+                && indent.len() + line.chars().count() + 1 + word.chars().count() > WIDTH
+            {
+                lines.push(format!("{indent}{line}"));
+                line.clear();
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+        if !line.is_empty() {
+            lines.push(format!("{indent}{}", std::mem::take(&mut line)));
+        }
+    }
+}

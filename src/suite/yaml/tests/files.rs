@@ -1,0 +1,98 @@
+//! Files that are not what they should be.
+
+use crate::suite::yaml::{Complaint, MAX_BYTES, Source};
+use rstest::rstest;
+use std::env::temp_dir;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+/// A file or folder that goes when the test ends.
+struct Temporary(PathBuf);
+
+impl Temporary {
+    fn new(name: &str) -> Self {
+        Self(temp_dir().join(format!("mpm-verify-{}-{name}", std::process::id())))
+    }
+
+    fn holding(name: &str, bytes: &[u8]) -> Self {
+        let temporary = Self::new(name);
+        fs::write(&temporary.0, bytes).unwrap();
+        temporary
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+fn refused(path: &Path) -> Complaint {
+    let complaint = Source::read(path).unwrap_err();
+    assert_eq!(complaint.file(), path.display().to_string());
+    complaint
+}
+
+#[test]
+fn a_good_file_keeps_the_name_it_was_asked_for() {
+    let file = Temporary::holding("good.yaml", b"\xef\xbb\xbfsuite: bar\n");
+    let source = Source::read(&file.0).unwrap();
+    assert_eq!(source.name(), file.0.display().to_string());
+    assert_eq!(source.text(), "suite: bar\n");
+}
+
+#[test]
+fn a_missing_file() {
+    let complaint = refused(Path::new("no/such.yaml"));
+    assert_eq!(complaint.one_line(), "no/such.yaml: there is no such file");
+    assert_eq!(complaint.to_string(), "error: there is no such file\n--> no/such.yaml");
+}
+
+#[test]
+fn a_folder() {
+    let complaint = refused(&temp_dir());
+    assert_eq!(complaint.message(), "this is a folder, not a suite file");
+    assert_eq!(complaint.help(), Some("name a file in it"));
+}
+
+#[test]
+fn fifty_megabytes_are_not_read() {
+    let file = Temporary::new("large.yaml");
+    File::create(&file.0).unwrap().set_len(50_000_000).unwrap();
+    let message = "the file is too large: 48829 KiB, at most 64 KiB";
+    assert_eq!(refused(&file.0).message(), message);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_endless_device_is_not_read_to_its_end() {
+    let message = "the file is too large: at most 64 KiB";
+    assert_eq!(refused(Path::new("/dev/zero")).message(), message);
+}
+
+#[test]
+fn the_cap_is_exact() {
+    assert!(Source::from_text("full", "#".repeat(MAX_BYTES)).is_ok());
+    let complaint = Source::from_text("over", "#".repeat(MAX_BYTES + 1)).unwrap_err();
+    assert_eq!(complaint.one_line(), "over: the file is too large: 65 KiB, at most 64 KiB");
+}
+
+#[rstest]
+#[case("latin", b"a: 1\nb: \xe9t\xe9\n", (2, 4), 8, "save the file as UTF-8")]
+#[case("cut", b"a: \xc3", (1, 4), 3, "save the file as UTF-8")]
+#[case("utf16", b"\xff\xfea\0:\0", (1, 1), 0, "save the file as UTF-8 (it looks like UTF-16)")]
+fn not_utf8(
+    #[case] name: &str,
+    #[case] bytes: &[u8],
+    #[case] place: (usize, usize),
+    #[case] offset: usize,
+    #[case] help: &str,
+) {
+    let file = Temporary::holding(name, bytes);
+    let complaint = refused(&file.0);
+    let found = complaint.place().unwrap();
+    assert_eq!((found.line(), found.column()), place);
+    let message = format!("the file is not UTF-8 text: byte {offset} does not fit");
+    assert_eq!(complaint.message(), message);
+    assert_eq!(complaint.help(), Some(help));
+}

@@ -1,0 +1,155 @@
+//! One mistake at a time in the sample: where it is seen, what is said, what is advised.
+
+use super::sample::{SAMPLE, Suite};
+use crate::suite::yaml::{Complaint, OneOrMany, Ordered, Source, read, refuse};
+use rstest::rstest;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
+
+fn wrong<T: DeserializeOwned>(yaml: &str) -> Complaint {
+    let source = Source::from_text("bar.yaml", yaml);
+    source.and_then(|source| read::<T>(&source)).err().expect("a mistake")
+}
+
+fn check(complaint: &Complaint, place: (usize, usize, usize), message: &str, help: &str) {
+    let found = complaint.place().expect("a place");
+    let found = (found.line(), found.column(), found.length());
+    assert_eq!((found, complaint.message()), (place, message), "\n{complaint}");
+    assert_eq!(complaint.help().unwrap_or_default(), help, "\n{complaint}");
+}
+
+#[rstest]
+#[case::unknown_key("cells:", "cels:", (9, 10, 4), "unknown key `cels`", "did you mean `cells`?")]
+#[case::unknown_key_far("ppc", "thickness", (9, 30, 9), "unknown key `thickness`", "possible keys: `cells`, `ppc`, `until`")]
+#[case::capitals("dimension:", "Dimension:", (4, 3, 9), "unknown key `Dimension`", "did you mean `dimension`?")]
+#[case::unknown_member("linear_elastic", "linear-elastic", (6, 14, 14), "unknown name `linear-elastic`", "did you mean `linear_elastic`?")]
+#[case::unknown_bare_name("left: fixed", "left: fxied", (7, 20, 5), "unknown name `fxied`", "did you mean `fixed`?")]
+#[case::unknown_in_a_list("musl, usl", "musl, leapfrog", (11, 57, 8), "unknown name `leapfrog`", "possible names: `musl`, `usl`")]
+#[case::forged("cells:", "\"x`, expected `y\":", (9, 10, 17), "unknown key `x`, expected `y`", "possible keys: `cells`, `ppc`, `until`")]
+#[case::missing(", density: rho", "", (6, 30, 1), "missing key `density` in `linear_elastic`", "add `density: VALUE` in `linear_elastic`")]
+#[case::missing_at_the_root("suite: vibrating-bar\n", "", (1, 1, 10), "missing key `suite`", "add `suite: VALUE`")]
+#[case::missing_in_a_block("  dimension: 1\n", "", (4, 3, 4), "missing key `dimension` in `scene`", "add `dimension: VALUE` in `scene`")]
+#[case::nothing_there("  - mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}", "  - mpm:", (11, 9, 0), "missing key `basis` in `mpm`", "add `basis: VALUE` in `mpm`")]
+#[case::text_for_a_count("5, 10", "five, 10", (9, 18, 4), "expected a whole number, zero or more, found the string \"five\"", "")]
+#[case::quoted_number("5, 10", "\"5\", 10", (9, 18, 3), "expected a whole number, zero or more, found the string \"5\"", "remove the quotes")]
+#[case::negative_count("5, 10", "-5, 10", (9, 18, 2), "expected a whole number, zero or more, found the number -5", "")]
+#[case::fraction("5, 10", "5.5, 10", (9, 18, 3), "expected a whole number, zero or more, found the number 5.5", "")]
+#[case::out_of_range("dimension: 1", "dimension: 300", (4, 14, 3), "expected a whole number from 0 to 255, found the number 300", "")]
+#[case::list_for_a_number("ppc: 4", "ppc: [4]", (9, 35, 1), "expected a whole number from 0 to 65535, found a list", "")]
+#[case::number_for_a_list("[5, 10, 20]", "5", (9, 17, 1), "expected a list, found the number 5", "")]
+#[case::word_for_a_map("{cells: [5, 10, 20], ppc: 4}", "fine", (9, 9, 4), "expected a map (`key: value`), found the string \"fine\"", "")]
+#[case::flag("  dimension: 1", "  quiet: 1\n  dimension: 1", (4, 10, 1), "expected `true` or `false`, found the number 1", "")]
+#[case::flag_for_a_formula("poisson: 0", "poisson: true", (6, 50, 4), "expected a finite number or a formula, found `true`", "")]
+#[case::nothing_for_a_formula("poisson: 0", "poisson: ~", (6, 50, 1), "expected a finite number or a formula, found nothing", "")]
+#[case::map_for_a_formula("L: 25", "L: {a: 1}", (2, 17, 1), "expected a finite number or a formula, found a map (`key: value`)", "")]
+#[case::list_for_a_name("basis: linear", "basis: [linear]", (11, 18, 1), "expected a name, or a name with its settings, found a list", "")]
+#[case::too_long("[1.9, 2.1]", "[1.9, 2.1, 3]", (13, 13, 1), "expected a list of 2 values, found 3", "")]
+#[case::too_short("[1.9, 2.1]", "[1.9]", (13, 13, 1), "expected a list of 2 values, found 1", "")]
+#[case::settings_where_none("left: fixed", "left: {fixed: {a: 1}}", (7, 21, 5), "`fixed` takes no settings", "write the bare name `fixed`")]
+#[case::settings_lacking("{linear_elastic: {young: E, poisson: 0, density: rho}}", "linear_elastic", (6, 13, 14), "`linear_elastic` needs settings", "write `linear_elastic: ...` with its settings")]
+#[case::two_names("{box: {from: [0], to: [L]}}", "{box: {from: [0], to: [L]}, ball: 1}", (5, 9, 1), "one name with its settings is expected here, found none or several", "write `{NAME: {...}}`; a list holds several")]
+#[case::two_names_of_many("{linear_elastic: {young: E, poisson: 0, density: rho}}", "{neo_hookean: {young: E}, rigid: 1}", (6, 13, 1), "one name with its settings is expected here, found none or several", "write `{NAME: {...}}`; a list holds several")]
+#[case::no_name("{box: {from: [0], to: [L]}}", "{}", (5, 9, 1), "one name with its settings is expected here, found none or several", "write `{NAME: {...}}`; a list holds several")]
+#[case::twice("ppc: 4", "ppc: 4, cells: [1]", (9, 38, 5), "the key `cells` is given twice", "keep one of the two")]
+#[case::parameter_twice("rho: 1,", "rho: 1, L: 3,", (2, 37, 1), "the key `L` is given twice", "keep one of the two")]
+#[case::not_a_number("poisson: 0", "poisson: .nan", (6, 50, 4), "expected a finite number, found one that is not a number", "")]
+#[case::infinite("[1.9, 2.1]", "[1.9, .inf]", (13, 19, 4), "expected a finite number, found one that is infinite", "")]
+#[case::empty_list("[musl, usl]", "[]", (11, 50, 1), "an empty list selects nothing", "")]
+#[case::key_of_a_list("L: 25", "[L]: 25", (2, 14, 1), "expected a name as key, found a list", "")]
+#[case::tab("  dimension", "\tdimension", (4, 1, 1), "tab used for indentation; YAML needs spaces", "")]
+#[case::tab_after_spaces("  - {order", "  \t- {order", (13, 3, 1), "tab used for indentation; YAML needs spaces", "")]
+#[case::tab_under_a_value("  body", "\tbody", (5, 1, 1), "tab used for indentation; YAML needs spaces", "")]
+#[case::open_bracket("[5, 10, 20]", "[5, 10, 20", (9, 17, 1), "this `[` is not closed before a `}`", "the `}` is on line 9, column 35")]
+#[case::open_to_the_end("\"...\"}", "\"...\"", (13, 5, 1), "this `{` is never closed", "")]
+#[case::stray_bracket("dimension: 1", "dimension: ]", (4, 14, 1), "`]` without a `[` before it", "")]
+#[case::open_quote("\"...\"", "\"...", (13, 34, 1), "this quote is never closed", "")]
+#[case::no_comma("[1.9, 2.1]", "[1.9 , [2.1] 3]", (13, 26, 1), "expected `,` or `]` here", "entries of a list are separated by `,`")]
+#[case::colon_in_text("vibrating-bar", "vibrating: bar", (1, 17, 1), "`:` is not possible here", "check the indentation; put text that holds `: ` in quotes")]
+#[case::at_sign("vibrating-bar", "@bar", (1, 8, 1), "a value cannot start with this character", "put the value in quotes")]
+#[case::star("poisson: 0", "poisson: *nu", (6, 50, 1), "anchors and aliases are not supported", "put text in quotes; give a value a name under `parameters`")]
+#[case::too_far_in("  dimension", "   dimension", (5, 3, 4), "expected a key here", "check the indentation, and quotes around text that holds `:`, `#` or quotes")]
+#[case::escape("pi/", "\\pi/", (2, 45, 1), "unknown escape in double quotes", "use single quotes to keep `\\` as it is")]
+#[case::second_document("refine:", "---\nrefine:", (9, 1, 1), "a second document starts here", "put each suite in a file of its own")]
+#[case::after_the_end("refine:", "...\nrefine:", (10, 1, 1), "a second document starts here", "put each suite in a file of its own")]
+fn in_the_sample(
+    #[case] right: &str,
+    #[case] mistaken: &str,
+    #[case] place: (usize, usize, usize),
+    #[case] message: &str,
+    #[case] help: &str,
+) {
+    assert!(SAMPLE.contains(right), "{right}");
+    check(&wrong::<Suite>(&SAMPLE.replacen(right, mistaken, 1)), place, message, help);
+}
+
+#[rstest]
+#[case::empty("")]
+#[case::blank("  \n\n")]
+#[case::comments("# nothing\n# yet\n")]
+#[case::mark("---\n")]
+#[case::null("~\n")]
+fn an_empty_file(#[case] yaml: &str) {
+    let complaint = wrong::<Suite>(yaml);
+    assert_eq!(complaint.message(), "the file is empty; a suite starts with `suite: NAME`");
+    assert!(complaint.place().is_some());
+}
+
+#[test]
+fn a_list_or_a_word_as_the_whole_file() {
+    let message = "expected a map (`key: value`), found a list";
+    check(&wrong::<Suite>("- suite: bar"), (1, 1, 1), message, "");
+    let message = "expected a map (`key: value`), found the string \"bar\"";
+    check(&wrong::<Suite>("bar"), (1, 1, 3), message, "");
+}
+
+#[test]
+fn nested_value_types_keep_the_place() {
+    type Nested = Ordered<OneOrMany<Ordered<OneOrMany<u8>>>>;
+    let message = "expected a whole number from 0 to 255, found the string \"x\"";
+    check(&wrong::<Nested>("a:\n- b: [1, x]"), (2, 10, 1), message, "");
+    check(&wrong::<Nested>("a: {b: x}"), (1, 8, 1), message, "");
+    check(&wrong::<Nested>("a: [{b: []}]"), (1, 9, 1), "an empty list selects nothing", "");
+    check(
+        &wrong::<Nested>("a: 3"),
+        (1, 4, 1),
+        "expected a map (`key: value`), found the number 3",
+        "",
+    );
+}
+
+#[derive(Debug)]
+struct Even;
+
+impl<'de> Deserialize<'de> for Even {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match u8::deserialize(deserializer)? {
+            7 => Err(serde::de::Error::custom("seven: a lucky one")),
+            odd if odd % 2 == 1 => Err(refuse("odd: no", "an even number", "add one")),
+            _ => Ok(Self),
+        }
+    }
+}
+
+#[test]
+fn refusals_of_other_types_arrive_whole() {
+    let complaint = wrong::<Ordered<Even>>("{a: 2, b c: 3}");
+    assert_eq!(complaint.label(), Some("an even number"));
+    // An error raised after a value was read stands at the map or list around it.
+    assert_eq!((complaint.message(), complaint.help()), ("odd: no", Some("add one")));
+    assert_eq!(wrong::<Ordered<Even>>("a: 7").message(), "seven: a lucky one");
+}
+
+#[test]
+fn it_looks_like_a_compiler_error() {
+    let complaint = wrong::<Suite>(&SAMPLE.replacen("cells:", "cels:", 1));
+    let want = "\
+error: unknown key `cels`
+ --> bar.yaml:9:10
+  |
+9 | refine: {cels: [5, 10, 20], ppc: 4}
+  |          ^^^^ no key that is known here
+  |
+  = help: did you mean `cells`?";
+    assert_eq!(complaint.to_string(), want);
+    assert_eq!(complaint.one_line(), "bar.yaml:9:10: unknown key `cels`");
+}

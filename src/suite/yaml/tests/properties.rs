@@ -1,0 +1,132 @@
+//! For any text at all: no panic, and complaints that can be shown.
+
+use super::sample::{SAMPLE, Suite};
+use crate::suite::yaml::{Source, Step, read};
+use proptest::prelude::*;
+use serde_yaml::Value;
+
+/// Reads a text as everything that it could be, and shows what comes of it.
+fn survives(text: &str) {
+    let outcome = Source::from_text("any.yaml", text).and_then(|source| {
+        source.value_at(&["suite".into()]);
+        source.within(&["scene".into()], 0..3);
+        read::<Suite>(&source)
+    });
+    if let Err(complaint) = outcome {
+        let shown = complaint.to_string();
+        assert!(shown.starts_with("error: "));
+        assert!(shown.contains("--> any.yaml"));
+        assert!(!complaint.one_line().contains('\n'));
+    }
+}
+
+/// Text made of what YAML gives a meaning to.
+fn yaml_like() -> impl Strategy<Value = String> {
+    let token = prop_oneof![
+        8 => prop::sample::select(vec![
+            "a", "b: ", "c:", "- ", "-", "? ", ": ", ":", ", ", "[", "]", "{", "}", "\"", "'", "#",
+            " # ", "|", "|-\n", ">2\n", "!", "%", "\t", "\n", "\n ", "\n  ", "\n    ", "\r\n", "é",
+            "\\", "''", "1", ".nan", "~", "---", "...", "\n---\n", "x y", "<<: ",
+        ]).prop_map(str::to_owned),
+        1 => "[a-c]{1,3}",
+    ];
+    prop::collection::vec(token, 0..40).prop_map(|tokens| tokens.concat())
+}
+
+/// The sample with a few stretches replaced.
+fn mutated() -> impl Strategy<Value = String> {
+    let change = (any::<prop::sample::Index>(), 0usize..6, yaml_like());
+    prop::collection::vec(change, 1..4).prop_map(|changes| {
+        let mut chars: Vec<char> = SAMPLE.chars().collect();
+        for (at, length, new) in changes {
+            let start = at.index(chars.len() + 1);
+            let end = (start + length).min(chars.len());
+            chars.splice(start..end, new.chars().take(4));
+        }
+        chars.into_iter().collect()
+    })
+}
+
+/// The paths of all scalars that are not empty.
+fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
+    match value {
+        Value::Mapping(map) => {
+            for (key, value) in map {
+                let Some(key) = key.as_str() else { continue };
+                path.push(key.into());
+                paths(value, path, all);
+                path.pop();
+            }
+        }
+        Value::Sequence(list) => {
+            for (index, value) in list.iter().enumerate() {
+                path.push(index.into());
+                paths(value, path, all);
+                path.pop();
+            }
+        }
+        Value::Null => {}
+        _ => all.push(path.clone()),
+    }
+}
+
+/// What this front door refuses although it is YAML.
+fn refused_on_purpose(message: &str) -> bool {
+    ["not supported", "second document", "not allowed", "tab used"]
+        .iter()
+        .any(|reason| message.contains(reason))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn any_text_is_survived(text in any::<String>()) {
+        survives(&text);
+    }
+
+    #[test]
+    fn any_yaml_like_text_is_survived(text in yaml_like()) {
+        survives(&text);
+    }
+
+    #[test]
+    fn any_changed_suite_is_survived(text in mutated()) {
+        survives(&text);
+    }
+
+    /// The scan before the parser follows the parser: it refuses nothing that the parser takes
+    /// but what it means to, and finds a scalar wherever the parser does.
+    #[test]
+    fn the_scan_agrees_with_the_parser(text in prop_oneof![yaml_like(), mutated()]) {
+        if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
+            match Source::from_text("any.yaml", text.as_str()) {
+                Err(complaint) => prop_assert!(refused_on_purpose(complaint.message()), "{complaint}"),
+                // A key that is itself a list or a map hides the keys after it; `read` refuses it.
+                Ok(source) if read::<Value>(&source).is_err() => {}
+                Ok(source) => {
+                    let mut all = Vec::new();
+                    paths(&value, &mut Vec::new(), &mut all);
+                    for path in all {
+                        let place = source.value_at(&path).expect("the value is there");
+                        prop_assert!(source.scalar_at(place.bytes().start).is_some(), "{path:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where a text stands verbatim, its parts are found; whatever the style.
+    #[test]
+    fn a_part_of_a_formula_is_where_it_says(
+        style in prop::sample::select(vec!["", "'", "\""]),
+        words in "[a-zé][a-z0-9*/()+é]{0,12}[a-z)]",
+        from in 0usize..14,
+    ) {
+        let from = (0..=from.min(words.len())).rfind(|at| words.is_char_boundary(*at)).unwrap();
+        let text = format!("k:  [{style}{words}{style}, 1]");
+        let source = Source::from_text("any.yaml", text.as_str()).unwrap();
+        let place = source.within(&["k".into(), 0.into()], from..words.len()).unwrap();
+        prop_assert_eq!(&text[place.bytes()], &words[from..]);
+    }
+}
