@@ -56,7 +56,7 @@ mod tests {
     #[case::negative(0.5, -1e-3, 50, None)]
     #[case::nan(0.5, f64::NAN, 50, None)]
     #[case::years(1.0, 1e-12, 50, None)]
-    fn steps(
+    fn steps_of_a_run(
         #[case] until: f64,
         #[case] wanted: f64,
         #[case] instants: u64,
