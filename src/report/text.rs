@@ -12,7 +12,9 @@ const WIDTH: usize = 100;
 /// The whole report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
     let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
-    wrap(&mut lines, "", &outcome.about);
+    for paragraph in outcome.about.split("\n\n") {
+        wrap(&mut lines, WIDTH, paragraph);
+    }
     lines.push(String::new());
     row(&mut lines, "source", &outcome.source);
     for (key, value) in &outcome.statement {
@@ -54,7 +56,7 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
     lines.push(format!("== {} ==", case.case));
     let settings: Vec<String> =
         case.settings.iter().map(|(key, value)| format!("{key}: {value}")).collect();
-    wrap(lines, "  ", &settings.join("; "));
+    row(lines, "method", &settings.join("; "));
     lines.push(String::new());
     match &case.study {
         Study::Convergence(study) => convergence(lines, study),
@@ -73,47 +75,34 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
 }
 
 fn convergence(lines: &mut Vec<String>, study: &Convergence) {
-    let heads = [
-        "cells",
-        "h",
-        "dt",
-        "ppc",
-        "particles",
-        "steps",
-        "transfers",
-        "crossings",
-        "left domain",
-        "min J",
-        "rms",
-        "l1",
-        "l2",
-        "linf",
-        "max rms",
-        "history",
-        "order",
-        "counts",
-    ];
-    let mut table = Table::new(&heads);
+    let heads = ["cells", "h", "rms", "l1", "l2", "linf", "max rms", "velocity", "order", "counts"];
+    let mut errors = Table::new(&heads);
+    let heads =
+        ["cells", "dt", "ppc", "particles", "steps", "transfers", "crossings", "outside", "min J"];
+    let mut work = Table::new(&heads);
     for (index, level) in study.levels.iter().enumerate() {
-        table.row(level_row(study, index, level));
+        errors.row(error_row(study, index, level));
+        work.row(work_row(level));
     }
-    lines.extend(table.without_empty_columns().lines());
-    if study.observed_at.is_some() {
-        richardson(lines, study);
-    }
-    let failures =
-        study.levels.iter().filter_map(|level| Some((level.cells, level.run.failure.as_ref()?)));
-    for (cells, failure) in failures {
+    lines.extend(errors.without_empty_columns().lines());
+    lines.push(String::new());
+    lines.extend(work.without_empty_columns().lines());
+    richardson(lines, study);
+    let failure = |level: &LevelOutcome| Some((level.cells, level.run.failure.clone()?));
+    for (cells, failure) in study.levels.iter().filter_map(failure) {
+        lines.push(String::new());
         row(lines, "failure", &format!("{cells} cells: {failure}"));
     }
     if let Some(lost) = order_lost(study) {
         lines.push(String::new());
-        row(lines, "order lost", &lost);
+        row(lines, "crossing", &lost);
     }
 }
 
-fn level_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<String> {
-    let (run, census) = (&level.run, &level.run.census);
+/// Errors of the displacement (m), and of the observed velocity relative to its largest value.
+fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<String> {
+    let run = &level.run;
+    let error = |value| if run.failure.is_some() { "failed".to_owned() } else { scientific(value) };
     let window = study.judgement.window.as_deref().unwrap_or_default();
     let counts = match (level.usable, window.contains(&index)) {
         (false, _) => "no: crossings",
@@ -123,31 +112,36 @@ fn level_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
     vec![
         level.cells.to_string(),
         scientific(level.h),
-        scientific(level.dt),
-        optional(level.ppc),
-        optional(census.particles),
-        run.steps.to_string(),
-        census.transfers.to_string(),
-        optional(census.crossings),
-        optional(census.left_domain),
-        format!("{:.4}", census.min_j),
-        scientific(run.errors.rms),
-        scientific(run.errors.l1),
-        scientific(run.errors.l2),
-        scientific(run.errors.linf),
-        scientific(run.max_rms),
+        error(run.errors.rms),
+        error(run.errors.l1),
+        error(run.errors.l2),
+        error(run.errors.linf),
+        error(run.max_rms),
         optional(run.history.as_ref().map(|history| scientific(history.relative_error()))),
         optional(level.order.map(|order| format!("{order:.2}"))),
         counts.to_owned(),
     ]
 }
 
+/// What the level cost, and what a reader must know beside its error.
+fn work_row(level: &LevelOutcome) -> Vec<String> {
+    let census = &level.run.census;
+    vec![
+        level.cells.to_string(),
+        scientific(level.dt),
+        optional(level.ppc),
+        optional(census.particles),
+        level.run.steps.to_string(),
+        census.transfers.to_string(),
+        optional(census.crossings),
+        optional(census.left_domain),
+        format!("{:.4}", census.min_j),
+    ]
+}
+
 /// Richardson's extrapolation at the observed place, triple by triple.
 fn richardson(lines: &mut Vec<String>, study: &Convergence) {
-    if study.richardson.is_empty() {
-        return;
-    }
-    let place = study.observed_at.unwrap_or(f64::NAN);
+    let (Some(place), false) = (study.observed_at, study.richardson.is_empty()) else { return };
     lines.push(String::new());
     lines.push(format!("  Richardson's extrapolation of u at X = {place} m"));
     let mut table = Table::new(&["cells", "ratio", "class", "order", "extrapolated u", "gci"]);
@@ -202,31 +196,24 @@ fn internal_force(lines: &mut Vec<String>, rows: &[ForceRow]) {
 fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     const KEY: usize = 18;
     let mut wrapped = Vec::new();
-    wrap(&mut wrapped, "", value);
+    wrap(&mut wrapped, WIDTH - KEY - 2, value);
     for (i, line) in wrapped.iter().enumerate() {
         let key = if i == 0 { key } else { "" };
         lines.push(format!("  {key:KEY$}{line}").trim_end().to_owned());
     }
 }
 
-/// Wraps prose at word boundaries; empty lines separate paragraphs.
-fn wrap(lines: &mut Vec<String>, indent: &str, prose: &str) {
+/// Wraps prose at word boundaries.
+fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
     let mut line = String::new();
-    for paragraph in prose.split("\n\n") {
-        for word in paragraph.split_whitespace() {
-            if !line.is_empty()
-                && indent.len() + line.chars().count() + 1 + word.chars().count() > WIDTH
-            {
-                lines.push(format!("{indent}{line}"));
-                line.clear();
-            }
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
+    for word in prose.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > width {
+            lines.push(std::mem::take(&mut line));
         }
         if !line.is_empty() {
-            lines.push(format!("{indent}{}", std::mem::take(&mut line)));
+            line.push(' ');
         }
+        line.push_str(word);
     }
+    lines.push(line);
 }

@@ -13,7 +13,7 @@ use crate::{fem::Sampling, subject::Start, verify::Clock};
 /// Most cases that a suite may unfold into.
 const MOST_CASES: usize = 1000;
 
-/// The ends of the runs: text and value (s).
+/// The ends of the runs: how names write them, and value (s).
 pub(super) fn until(
     binder: &Binder<'_>,
     words: &OneOrMany<NumberText>,
@@ -23,7 +23,8 @@ pub(super) fn until(
     texts
         .map(|(i, text)| {
             let path = if words.as_slice().len() > 1 { path.then(i) } else { path.clone() };
-            Ok((text.to_string(), binder.positive(&path, text, "the end of the run")?))
+            let until = binder.positive(&path, text, "the end of the run")?;
+            Ok((until.to_string(), until))
         })
         .collect()
 }

@@ -23,7 +23,7 @@ pub struct Run {
     pub steps: u64,
     /// Why and when the run ended early.
     pub failure: Option<String>,
-    /// The observed label, if one was asked for.
+    /// The observed label, if one was asked for and the run came to its end.
     pub history: Option<History>,
     /// Displacement at the observed place at the end (m).
     pub displacement: Option<f64>,
@@ -85,7 +85,7 @@ impl<'a> Watch<'a> {
             census: subject.census(),
             steps: step,
             failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
-            history: self.history.map(|(_, history)| history),
+            history: None,
             displacement: None,
         }
     }

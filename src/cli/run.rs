@@ -1,0 +1,90 @@
+//! `mpm-verify run`.
+
+use super::{BAD_INPUT, FAILED, Format, RunArgs, output, select};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::{
+    report,
+    suite::{Runner, Suite},
+    verify::SuiteOutcome,
+};
+use std::{fs, io, path::Path};
+
+/// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
+/// if something later cannot be used.
+pub(super) fn run(args: &RunArgs) -> u8 {
+    if let Err(message) = threads(args.jobs) {
+        output::complain(&message);
+        return BAD_INPUT;
+    }
+    let (suites, refused): (Vec<_>, Vec<_>) =
+        select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
+    let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
+    let bar = progress_bar(&suites);
+    let outcomes: Vec<SuiteOutcome> = suites.iter().map(|suite| one(suite, args, &bar)).collect();
+    bar.finish_and_clear();
+    match args.format {
+        Format::Json => output::print(&report::json(&outcomes)),
+        Format::Text if !outcomes.is_empty() => output::print(&report::summary(&outcomes)),
+        Format::Text => {}
+    }
+    let written = args.out.as_deref().map_or(Ok(()), |folder| write(folder, &outcomes));
+    for complaint in refused.iter().filter_map(|refused| refused.as_ref().err()) {
+        output::complain(&complaint.to_string());
+    }
+    if let Err(message) = &written {
+        output::complain(message);
+    }
+    if !refused.is_empty() || written.is_err() {
+        BAD_INPUT
+    } else if outcomes.iter().all(SuiteOutcome::passed) {
+        0
+    } else {
+        FAILED
+    }
+}
+
+fn threads(jobs: Option<usize>) -> Result<(), String> {
+    const MOST: usize = 1024;
+    let Some(jobs) = jobs else { return Ok(()) };
+    if !(1..=MOST).contains(&jobs) {
+        return Err(format!("error: --jobs {jobs}: expected a number from 1 to {MOST}"));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs);
+    pool.build_global().map_err(|error| format!("error: --jobs {jobs}: {error}"))
+}
+
+/// A bar on standard error, shown only where that is a terminal.
+fn progress_bar(suites: &[Suite]) -> ProgressBar {
+    let units = suites.iter().map(|suite| Runner::new(suite).units()).sum();
+    let bar = ProgressBar::with_draw_target(Some(units), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn one(suite: &Suite, args: &RunArgs, bar: &ProgressBar) -> SuiteOutcome {
+    bar.set_message(suite.name.clone());
+    let outcome = Runner::new(suite).run(&|| bar.inc(1));
+    if args.format == Format::Text && !args.brief {
+        bar.suspend(|| output::print(&format!("{}\n", report::text(&outcome))));
+    }
+    outcome
+}
+
+/// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
+fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
+    let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
+    let all = || -> io::Result<()> {
+        fs::create_dir_all(folder)?;
+        save("report.json", &report::json(outcomes))?;
+        for outcome in outcomes {
+            save(&format!("{}.txt", outcome.suite), &report::text(outcome))?;
+            for figure in report::svg(outcome) {
+                save(&figure.file, &figure.svg)?;
+            }
+        }
+        Ok(())
+    };
+    all().map_err(|error| format!("error: --out {}: {error}", folder.display()))
+}

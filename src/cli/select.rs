@@ -1,0 +1,81 @@
+//! What the user named, as suites.
+
+use mpm_verify::suite::{
+    Suite, embedded,
+    yaml::{Complaint, Source},
+};
+use std::path::{Path, PathBuf};
+
+/// Where suites are looked for by default.
+const FOLDER: &str = "verification";
+
+/// The suites that `targets` name, each loaded or with the complaint that says why not.
+///
+/// With no target: all of `verification/`, or the embedded suites where there is no such folder.
+pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Complaint>> {
+    let sources = if targets.is_empty() {
+        everything()
+    } else {
+        targets.iter().flat_map(|target| sources(target)).collect()
+    };
+    sources.into_iter().map(|source| source.and_then(|source| Suite::load(&source))).collect()
+}
+
+type Sources = Vec<Result<Source, Complaint>>;
+
+fn everything() -> Sources {
+    let folder = Path::new(FOLDER);
+    if folder.is_dir() {
+        files_in(folder)
+    } else {
+        embedded::names().filter_map(embedded::source).collect()
+    }
+}
+
+fn sources(target: &Path) -> Sources {
+    if target.is_dir() {
+        return files_in(target);
+    }
+    let name = target.to_string_lossy();
+    let looks_like_a_path = target.extension().is_some() || name.contains(['/', '\\']);
+    if target.exists() || looks_like_a_path {
+        return vec![Source::read(target)];
+    }
+    let local = Path::new(FOLDER).join(format!("{name}.yaml"));
+    if local.is_file() {
+        return vec![Source::read(local)];
+    }
+    vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))]
+}
+
+fn unknown(name: &str) -> Complaint {
+    let complaint = Complaint::about(name, &format!("there is no suite called `{name}`"));
+    let near = |known: &&str| strsim::jaro_winkler(known, name) > 0.8;
+    match embedded::names().find(near) {
+        Some(known) => complaint.with_help(&format!("did you mean `{known}`?")),
+        None => {
+            let known: Vec<&str> = embedded::names().collect();
+            complaint.with_help(&format!("known suites: {}", known.join(", ")))
+        }
+    }
+}
+
+/// Every `.yaml` file of a folder, sorted by name.
+fn files_in(folder: &Path) -> Sources {
+    let name = folder.display().to_string();
+    let entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) => {
+            let message = format!("this folder cannot be read: {error}");
+            return vec![Err(Complaint::about(&name, &message))];
+        }
+    };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut files: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|e| e == "yaml" || e == "yml")).collect();
+    files.sort();
+    if files.is_empty() {
+        return vec![Err(Complaint::about(&name, "this folder holds no suite (no .yaml file)"))];
+    }
+    files.into_iter().map(Source::read).collect()
+}
