@@ -1,7 +1,7 @@
 //! The figures of a suite.
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
-use crate::verify::{Convergence, LevelOutcome, Study, SuiteOutcome};
+use crate::verify::{Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
 
 /// A figure and the name of its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,17 +31,14 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
 
 fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     let studies = studies(outcome);
-    let plots = studies.chunks(MOST_SERIES).enumerate();
-    plots
-        .map(|(i, part)| {
-            let number =
-                if studies.len() > MOST_SERIES { format!("-{}", i + 1) } else { String::new() };
-            Figure {
-                file: format!("{}{number}.svg", outcome.suite),
-                svg: plot(outcome, part).to_svg(),
-            }
-        })
-        .collect()
+    let plots = studies.len().div_ceil(MOST_SERIES).max(1);
+    let parts = studies.chunks(studies.len().div_ceil(plots).max(1)).enumerate();
+    let figure = |(i, part): (usize, &[(&str, &Convergence)])| {
+        let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
+        let svg = plot(outcome, part).to_svg();
+        Figure { file: format!("{}{number}.svg", outcome.suite), svg }
+    };
+    parts.map(figure).collect()
 }
 
 fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
@@ -50,6 +47,9 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
         points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
     };
     let mut orders: Vec<f64> = studies.iter().filter_map(|(_, study)| reference(study)).collect();
+    if orders.is_empty() {
+        orders.extend(studies.first().map(|(_, study)| study.formal_order));
+    }
     orders.sort_by(f64::total_cmp);
     orders.dedup();
     let norm = studies.first().map_or("rms", |(_, study)| study.norm).replace('_', " ");
@@ -62,16 +62,11 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
     }
 }
 
-/// The slope that a reader should see beside a series: the formal order where the observed
-/// interval holds it or nothing was fitted, else the observed order.
+/// The slope that a reader should see beside a series that converges: its observed order, or the
+/// simple fraction next to it.
 fn reference(study: &Convergence) -> Option<f64> {
-    let formal = study.formal_order;
-    match study.judgement.order {
-        Some(order) if (order.value - formal).abs() > 0.15 && order.value > 0.2 => {
-            Some(libm::round(order.value * 3.0) / 3.0)
-        }
-        _ => Some(formal),
-    }
+    let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
+    Some(libm::round(order.value * 3.0) / 3.0)
 }
 
 fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {

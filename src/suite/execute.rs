@@ -53,7 +53,11 @@ impl<'a> Runner<'a> {
     /// threads cannot be seen in them.
     pub fn run(&self, progress: Progress<'_>) -> SuiteOutcome {
         let count = self.suite.case_names().len();
-        let cases = (0..count).into_par_iter().map(|i| self.case(i, progress)).collect();
+        self.outcome((0..count).into_par_iter().map(|i| self.case(i, progress)).collect())
+    }
+
+    /// The outcome of the suite, made of those of all its cases.
+    pub fn outcome(&self, cases: Vec<CaseOutcome>) -> SuiteOutcome {
         SuiteOutcome {
             suite: self.suite.name.clone(),
             title: self.suite.title.clone(),

@@ -7,7 +7,8 @@ use crate::{exact::Truth, subject::Samples};
 pub struct History {
     /// Reference position of the label that was watched: the nearest to the wanted one (m).
     pub label: Vec<f64>,
-    /// Time (s), first velocity component of the subject and of the truth (m/s), at each instant.
+    /// Time (s), first velocity component of the subject and of the truth (m/s), at t = 0 and
+    /// at each instant.
     pub velocity: Vec<[f64; 3]>,
 }
 

@@ -60,7 +60,11 @@ impl<'a> Watch<'a> {
     fn new(subject: &dyn Subject, truth: &'a dyn Truth, observe: Option<&[f64]>) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
-        let history = observe.map(|place| History::start(&samples, place));
+        let history = observe.map(|place| {
+            let (at, mut history) = History::start(&samples, place);
+            history.record(at, &samples, truth, 0.0);
+            (at, history)
+        });
         Self { truth, samples, errors: Norms::NONE, max_rms: 0.0, history }
     }
 
