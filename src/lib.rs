@@ -15,6 +15,64 @@
 //! The walls: [`mpm`] and [`fem`] are subjects and know nothing but [`subject`]; [`exact`] is the
 //! truth and knows no solver; [`verify`] is the judge and knows no particular subject; [`suite`]
 //! is the only one that knows all; [`report`] knows results only.
+//!
+//! # Judging a solver of your own
+//!
+//! Implement [`subject::Subject`], put it on a series of grids, and ask the judge. Here the subject
+//! is an oscillator `u_tt = -w^2 u` stepped by leapfrog, and time is what is refined:
+//!
+//! ```
+//! use mpm_verify::{
+//!     exact::Truth,
+//!     subject::{Census, Failure, Samples, Subject},
+//!     verify::{Claim, Clock, Level, Verdict, judge, run},
+//! };
+//!
+//! const W: f64 = 3.0;
+//!
+//! struct Leapfrog { u: f64, v: f64, steps: u64 }
+//!
+//! impl Subject for Leapfrog {
+//!     fn step(&mut self, dt: f64) -> Result<(), Failure> {
+//!         self.u += 0.5 * dt * self.v;
+//!         self.v -= dt * W * W * self.u;
+//!         self.u += 0.5 * dt * self.v;
+//!         self.steps += 1;
+//!         Ok(())
+//!     }
+//!
+//!     fn sample(&self, samples: &mut Samples) {
+//!         samples.clear();
+//!         samples.dimension = 1;
+//!         samples.label.push(0.0);
+//!         samples.displacement.push(self.u);
+//!         samples.velocity.push(self.v);
+//!         samples.weight.push(1.0);
+//!     }
+//!
+//!     fn census(&self) -> Census {
+//!         let none = None;
+//!         Census { particles: none, transfers: self.steps, crossings: none, left_domain: none, min_j: 1.0 }
+//!     }
+//! }
+//!
+//! struct Sine;
+//!
+//! impl Truth for Sine {
+//!     fn displacement(&self, _: &[f64], t: f64, into: &mut [f64]) { into[0] = libm::sin(W * t) / W; }
+//!     fn velocity(&self, _: &[f64], t: f64, into: &mut [f64]) { into[0] = libm::cos(W * t); }
+//! }
+//!
+//! let levels: Vec<Level> = [0.1, 0.05, 0.025, 0.0125]
+//!     .map(|dt| {
+//!         let mut subject = Leapfrog { u: 0.0, v: 1.0, steps: 0 };
+//!         let clock = Clock::new(1.0, dt, 10).expect("a usable step");
+//!         Level::new(clock.dt(), run(&mut subject, &Sine, &clock, None).errors.rms)
+//!     })
+//!     .into();
+//! let found = judge(&levels, &Claim::formal(2.0));
+//! assert_eq!(found.verdict, Verdict::Converging, "{}", found.reason);
+//! ```
 
 pub mod subject;
 

@@ -58,8 +58,12 @@ fn is_decimal(token: &str) -> bool {
     token.contains(['.', 'e'])
 }
 
-/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`.
+/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`. In scientific notation
+/// a zero is exact: every other number would have been printed.
 fn last_place(token: &str) -> f64 {
+    if token.contains('e') && number(token) == Some(0.0) {
+        return 0.0;
+    }
     let (mantissa, exponent) = token.split_once('e').unwrap_or((token, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     let exponent: i32 = exponent.parse().unwrap_or(0);
@@ -76,6 +80,7 @@ mod tests {
     #[case::last_place("1.235e-05", "1.236e-05", true)]
     #[case::two_percent("1.235e-05", "1.260e-05", false)]
     #[case::small_is_not_zero("3.200e-09", "3.200e-07", false)]
+    #[case::zero_is_exact("0.000e+00", "3.200e-09", false)]
     #[case::order_in_its_last_place("1.99 [1.95, 2.03]", "2.00 [1.95, 2.03]", true)]
     #[case::order("1.99 [1.95, 2.03]", "1.89 [1.95, 2.03]", false)]
     #[case::counter("transfers 300000", "transfers 300001", false)]
