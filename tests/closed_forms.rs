@@ -1,0 +1,78 @@
+//! Two exact solutions of one problem: the images that the suites state, against the eigenfunction
+//! series of Wobbes & Tielen (2015), and against figures worked out by hand.
+
+use approx::assert_abs_diff_eq;
+use mpm_verify::{
+    exact::Truth,
+    suite::{StudyPlan, Suite, embedded},
+};
+use rstest::rstest;
+use std::f64::consts::PI;
+
+/// Displacement of the exact solution of an embedded suite.
+fn displacement(name: &str, x: f64, t: f64) -> f64 {
+    let source = embedded::source(name).expect("an embedded suite").expect("a sound text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let StudyPlan::Convergence(plan) = suite.study else { panic!("{name} is a convergence study") };
+    let mut u = [0.0];
+    plan.exact.expect("an exact solution").motion.displacement(&[x], t, &mut u);
+    u[0]
+}
+
+/// `u = us + sum_n a_n cos(c l_n t) sin(l_n y)`, `l_n = (2n - 1) pi/(2H)`, where the series cancels
+/// the static solution `us` at t = 0. H = 1, c = 10.
+fn series(gravity: f64, load: f64, y: f64, t: f64, terms: u32) -> f64 {
+    let c = 10.0;
+    let still = gravity / (c * c) * (y * y / 2.0 - y) + load * y;
+    let waves: f64 = (1..=terms)
+        .map(|n| {
+            let l = (2.0 * f64::from(n) - 1.0) * PI / 2.0;
+            let sign = if n % 2 == 1 { 1.0 } else { -1.0 };
+            let a = 2.0 * gravity / (c * c) / (l * l * l) - 2.0 * load * sign / (l * l);
+            a * libm::cos(c * l * t) * libm::sin(l * y)
+        })
+        .sum();
+    still + waves
+}
+
+#[rstest]
+fn the_oedometer_agrees_with_its_series(
+    #[values(0.0, 0.1, 0.5, 0.73, 1.0)] y: f64,
+    #[values(0.0, 0.03, 0.21, 0.4, 0.5)] t: f64,
+) {
+    let images = displacement("oedometer", y, t);
+    assert_abs_diff_eq!(images, series(9.81, 0.0, y, t, 20_000), epsilon = 1e-10);
+}
+
+/// The talk's series has 20 terms: good to 1e-5 of the largest displacement, as benchmark pages say.
+#[test]
+fn twenty_terms_of_the_series_leave_an_error_of_one_part_in_ten_thousand_at_most() {
+    let largest = 2.0 * 9.81 / 200.0;
+    let error =
+        |y: f64, t: f64| (displacement("oedometer", y, t) - series(9.81, 0.0, y, t, 20)).abs();
+    for (y, t) in [(0.5, 0.5), (0.25, 0.13), (1.0, 0.1)] {
+        assert!(error(y, t) <= 1e-4 * largest, "{} at y = {y}, t = {t}", error(y, t));
+    }
+}
+
+/// With the wave speed of Steffen's bar, 1 m/s, its series at t is that of c = 10 at t/10.
+#[rstest]
+fn steffens_bar_agrees_with_its_series(
+    #[values(0.0, 0.2, 0.55, 1.0)] x: f64,
+    #[values(0.1, 0.6, 1.5)] t: f64,
+) {
+    let images = displacement("steffen-bar", x, t);
+    assert_abs_diff_eq!(images, series(0.0, 0.7 / 100.0, x, t / 10.0, 20_000), epsilon = 1e-7);
+}
+
+/// Before the first wave arrives the column falls freely; after half a period all is twice the
+/// static solution.
+#[test]
+fn free_fall_first_and_twice_the_static_solution_later() {
+    assert_abs_diff_eq!(
+        displacement("oedometer", 0.9, 0.05),
+        -9.81 / 2.0 * 0.05 * 0.05,
+        epsilon = 1e-15
+    );
+    assert_abs_diff_eq!(displacement("oedometer", 1.0, 0.2), -9.81 / 100.0, epsilon = 1e-15);
+}
