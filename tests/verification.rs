@@ -22,6 +22,8 @@ use std::{
 };
 
 fn main() -> ExitCode {
+    // A snapshot that differs ends in a panic, whose backtrace tells nobody anything.
+    std::panic::set_hook(Box::new(|panic| eprintln!("{panic}")));
     let arguments = Arguments::from_args();
     let trials = files().iter().flat_map(|file| trials(file)).collect::<Vec<_>>();
     let trials = if trials.is_empty() { vec![nothing_found()] } else { trials };

@@ -66,7 +66,8 @@ pub(super) fn scientific(value: f64) -> String {
     if !value.is_finite() {
         return if value.is_nan() { "nan".to_owned() } else { "inf".to_owned() };
     }
-    let text = format!("{value:.3e}");
+    // No minus before a zero.
+    let text = format!("{:.3e}", value + 0.0);
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let (sign, digits) = exponent.strip_prefix('-').map_or(("+", exponent), |digits| ("-", digits));
     format!("{mantissa}e{sign}{digits:0>2}")
@@ -80,6 +81,7 @@ mod tests {
     #[rstest]
     #[case(1.23456e-5, "1.235e-05")]
     #[case(0.0, "0.000e+00")]
+    #[case(-0.0, "0.000e+00")]
     #[case(-2.5e12, "-2.500e+12")]
     #[case(1e-300, "1.000e-300")]
     #[case(f64::NAN, "nan")]
