@@ -1,0 +1,160 @@
+//! The architecture, held by tests: who may import whom, and what code may not do.
+//!
+//! ```text
+//! token    text -> words and signs, without comments and strings
+//! source   files -> modules, without what is compiled for tests only
+//! import   words -> the paths that a file names
+//! graph    paths -> which file imports which; cycles
+//! rules    the rules, each with its reason
+//! ```
+//!
+//! [`synthetic`] holds the scanner itself to small crates with planted breaches.
+
+mod graph;
+mod import;
+mod rules;
+mod source;
+mod synthetic;
+mod token;
+
+use rules::Breach;
+
+const DISPATCH: &str = "src/suite/dispatch.rs";
+
+/// Fails with a list of `breaches` that a stranger to the crate understands.
+fn hold(rule: &str, why: &str, breaches: &[Breach]) {
+    let lines: Vec<String> =
+        breaches.iter().map(|b| format!("  {}:{}: {}", b.file, b.line, b.what)).collect();
+    assert!(lines.is_empty(), "\n{}\nrule: {rule}\nwhy:  {why}\n", lines.join("\n"));
+}
+
+#[test]
+fn no_module_imports_itself_through_others() {
+    let edges = graph::edges(&source::of_crate());
+    let cycles = graph::cycles(&edges);
+    let written: Vec<String> = cycles.iter().map(|cycle| in_words(cycle)).collect();
+    assert!(
+        written.is_empty(),
+        "\n{}\nrule: no cycle among modules (a file is a module; see tests/architecture/graph.rs \
+         for what counts as an import)\nwhy:  modules in a cycle can only be understood, tested \
+         and changed all at once\n",
+        written.join("\n")
+    );
+}
+
+fn in_words(cycle: &[&graph::Edge]) -> String {
+    let step = |edge: &&graph::Edge| {
+        let (from, to) = (edge.from.join("::"), edge.to.join("::"));
+        format!("    {from} -> {to}: {}:{} names `{}`\n", edge.file, edge.line, edge.path)
+    };
+    format!("  a cycle of {}:\n{}", cycle.len(), cycle.iter().map(step).collect::<String>())
+}
+
+#[test]
+fn imports_stay_within_the_walls() {
+    let edges = graph::edges(&source::of_crate());
+    for wall in &rules::WALLS {
+        let rule = match wall.may {
+            [] => format!("`{}` imports no other part of the crate", wall.around),
+            may => format!("`{}` imports only itself and {}", wall.around, may.join(", ")),
+        };
+        hold(&rule, wall.why, &rules::through(wall, &edges));
+    }
+}
+
+#[test]
+fn walls_and_exceptions_are_about_files_that_exist() {
+    let sources = source::of_crate();
+    for wall in &rules::WALLS {
+        let inside = sources.iter().any(|s| s.module.first().is_some_and(|p| p == wall.around));
+        assert!(inside, "there is a rule about `{}`, which is not in src/", wall.around);
+    }
+    for (file, reason) in rules::LONGER {
+        let found = sources.iter().find(|source| source.file == file);
+        let needed = found.is_some_and(|source| source.lines > rules::MOST_LINES);
+        assert!(needed, "{file} may be long ({reason}) but is not: take it off the list");
+    }
+}
+
+#[test]
+fn only_dispatch_knows_both_solvers() {
+    let (sources, both): (_, [&[&str]; 2]) = (source::of_crate(), [&["Solver"], &["Bar"]]);
+    hold(
+        "only src/suite/dispatch.rs mentions both `Solver` (MPM) and `Bar` (FEM)",
+        "names become solvers in one place, so that a new solver is added in one place",
+        &rules::mentions(&sources, &both, DISPATCH),
+    );
+    let there = rules::mentions(&sources, &both, "nowhere");
+    assert!(!there.is_empty(), "{DISPATCH} no longer has `Solver` and `Bar`: rename them here too");
+}
+
+#[test]
+fn only_dispatch_spells_out_the_dimensions() {
+    let (sources, all): (_, [&[&str]; 3]) =
+        (source::of_crate(), [&["<", "1", ">"], &["<", "2", ">"], &["<", "3", ">"]]);
+    hold(
+        "only src/suite/dispatch.rs has `<1>`, `<2>` and `<3>` together",
+        "all else is written once for any dimension, so that no dimension is forgotten",
+        &rules::mentions(&sources, &all, DISPATCH),
+    );
+    let there = rules::mentions(&sources, &all, "nowhere");
+    assert!(
+        !there.is_empty(),
+        "{DISPATCH} no longer has `<1>`, `<2>`, `<3>`: change this rule too"
+    );
+}
+
+#[test]
+fn only_the_front_door_knows_the_yaml_library() {
+    for library in ["serde_yaml", "yaml_serde"] {
+        hold(
+            "only src/suite/yaml/ names the YAML library",
+            "every text passes the same checks, and another library would change one folder",
+            &rules::mentions(&source::of_crate(), &[&[library]], "src/suite/yaml/"),
+        );
+    }
+}
+
+#[test]
+fn files_are_short() {
+    hold(
+        "a file has at most 260 lines, not counting its tests",
+        "a file holds one idea; one that grows beyond has two",
+        &rules::long(&source::of_crate(), &rules::LONGER),
+    );
+}
+
+#[test]
+fn modules_have_names() {
+    hold(
+        "no module is called utils, helpers, misc or common",
+        "a name that fits everything attracts everything",
+        &rules::nameless(&source::of_crate()),
+    );
+}
+
+#[test]
+fn modules_are_files() {
+    hold(
+        "no module but `tests` stands inside a file",
+        "the rules about imports follow modules from file to file and would not see it",
+        &rules::nested(&source::of_crate()),
+    );
+}
+
+#[test]
+fn results_have_the_same_bits_everywhere() {
+    let sources = source::of_crate();
+    hold(
+        "transcendental functions and powers come from `libm`: `libm::sin(x)`, not `x.sin()`",
+        "the standard library takes them from the platform, whose last bits differ between \
+         machines; sqrt is exact by IEEE 754 and may be a method",
+        &rules::platform_calls(&sources),
+    );
+    hold(
+        "no `mul_add`: write the product and the sum",
+        "it rounds once where the formula as written rounds twice, so a change between the two \
+         changes the bits of every stored result",
+        &rules::fused(&sources),
+    );
+}

@@ -1,0 +1,172 @@
+//! The rules of the house, each with its reason; a breach says which file and which line.
+
+use crate::{graph::Edge, source::Source, token::Token};
+
+/// Most lines of a file, without its tests.
+pub(crate) const MOST_LINES: usize = 260;
+
+/// Files that may be longer, each with its reason.
+pub(crate) const LONGER: [(&str, &str); 2] = [
+    (
+        "src/suite/words.rs",
+        "the whole grammar of a suite, to be read from top to bottom beside a YAML file",
+    ),
+    (
+        "src/suite/model.rs",
+        "the same grammar with every number computed, one type for each of its words",
+    ),
+];
+
+/// A folder (or file) of `src/` and what it may import besides itself.
+pub(crate) struct Wall {
+    pub(crate) around: &'static str,
+    pub(crate) may: &'static [&'static str],
+    pub(crate) why: &'static str,
+}
+
+/// `suite` has no wall: it is the one that knows all.
+pub(crate) const WALLS: [Wall; 7] = [
+    Wall { around: "named", may: &[], why: "every part is built on it" },
+    Wall { around: "subject", may: &["named"], why: "it is the contract between judge and solver" },
+    Wall {
+        around: "mpm",
+        may: &["subject", "named"],
+        why: "a solver that knows how it is judged is no longer the solver that users run",
+    },
+    Wall {
+        around: "fem",
+        may: &["subject", "named"],
+        why: "a solver that knows how it is judged is no longer the solver that users run",
+    },
+    Wall {
+        around: "exact",
+        may: &["subject", "named"],
+        why: "a truth that is made with a solver can only agree with it",
+    },
+    Wall {
+        around: "verify",
+        may: &["exact", "subject", "named"],
+        why: "the judge must take any subject, so it knows none by name",
+    },
+    Wall {
+        around: "report",
+        may: &["verify", "exact", "subject", "named"],
+        why: "a report shows results and must not be able to change how they come about",
+    },
+];
+
+/// Functions of `f64` whose bits the standard library leaves to the platform.
+const PLATFORM: &str = "sin cos tan sin_cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh \
+    exp exp2 exp_m1 ln ln_1p log log2 log10 powf powi cbrt hypot gamma ln_gamma erf erfc";
+
+/// Where methods of `Number` have the names of those of `f64`, and are made of `libm`.
+const NUMBERS: &str = "src/exact/formula/";
+
+/// Where a rule is broken, and how.
+#[derive(Debug)]
+pub(crate) struct Breach {
+    pub(crate) file: String,
+    pub(crate) line: usize,
+    pub(crate) what: String,
+}
+
+impl Breach {
+    fn at(source: &Source, line: usize, what: impl Into<String>) -> Self {
+        Self { file: source.file.clone(), line, what: what.into() }
+    }
+}
+
+/// Imports through `wall`.
+pub(crate) fn through(wall: &Wall, edges: &[Edge]) -> Vec<Breach> {
+    let part = |module: &[String]| module.first().map_or("lib", String::as_str).to_owned();
+    let outward = edges.iter().filter(|edge| part(&edge.from) == wall.around);
+    outward
+        .filter(|edge| part(&edge.to) != wall.around && !wall.may.contains(&&*part(&edge.to)))
+        .map(|edge| Breach {
+            file: edge.file.clone(),
+            line: edge.line,
+            what: format!("imports `{}` of `{}`", edge.path, part(&edge.to)),
+        })
+        .collect()
+}
+
+/// Files besides `allowed` (a path, or a folder that ends in `/`) that have all of `wanted`, each
+/// a run of tokens.
+pub(crate) fn mentions(sources: &[Source], wanted: &[&[&str]], allowed: &str) -> Vec<Breach> {
+    let elsewhere = sources.iter().filter(|source| !source.file.starts_with(allowed));
+    elsewhere
+        .filter_map(|source| {
+            let lines: Option<Vec<usize>> =
+                wanted.iter().map(|run| line_of(&source.code, run)).collect();
+            let names: Vec<String> = wanted.iter().map(|run| run.concat()).collect();
+            let what = format!("mentions `{}`", names.join("`, `"));
+            Some(Breach::at(source, lines?.into_iter().max()?, what))
+        })
+        .collect()
+}
+
+fn line_of(code: &[Token], run: &[&str]) -> Option<usize> {
+    let same = |window: &&[Token]| window.iter().zip(run).all(|(token, text)| token.text == *text);
+    code.windows(run.len()).find(same).map(|window| window[0].line)
+}
+
+/// Files that are too long and are not on the list.
+pub(crate) fn long(sources: &[Source], longer: &[(&str, &str)]) -> Vec<Breach> {
+    let listed = |source: &Source| longer.iter().any(|(file, _)| *file == source.file);
+    sources
+        .iter()
+        .filter(|source| source.lines > MOST_LINES && !listed(source))
+        .map(|s| Breach::at(s, MOST_LINES + 1, format!("has {} lines that are no tests", s.lines)))
+        .collect()
+}
+
+/// Modules whose names say nothing.
+pub(crate) fn nameless(sources: &[Source]) -> Vec<Breach> {
+    let empty = ["util", "utils", "helper", "helpers", "misc", "common"];
+    let bad = |source: &&Source| source.module.iter().any(|name| empty.contains(&name.as_str()));
+    sources
+        .iter()
+        .filter(bad)
+        .map(|source| Breach::at(source, 1, "has a name that does not say what is inside"))
+        .collect()
+}
+
+/// Modules inside a file: imports are followed from file to file only.
+pub(crate) fn nested(sources: &[Source]) -> Vec<Breach> {
+    windows(sources, |words| match words {
+        ["mod", name, "{"] => Some(format!("holds the module `{name}`, which has no file")),
+        _ => None,
+    })
+}
+
+/// Calls whose bits depend on the platform.
+pub(crate) fn platform_calls(sources: &[Source]) -> Vec<Breach> {
+    let mut breaches = windows(sources, |words| match words {
+        [".", name, "("] if is_platform(name) => Some(format!("calls the method `.{name}()`")),
+        ["f64", "::", name] if is_platform(name) => Some(format!("calls `f64::{name}`")),
+        _ => None,
+    });
+    breaches.retain(|breach| !breach.file.starts_with(NUMBERS) || breach.what.contains("f64::"));
+    breaches
+}
+
+fn is_platform(name: &str) -> bool {
+    PLATFORM.split_whitespace().any(|known| known == name)
+}
+
+/// Fused operations, wherever they are.
+pub(crate) fn fused(sources: &[Source]) -> Vec<Breach> {
+    mentions(sources, &[&["mul_add"]], "nowhere")
+}
+
+/// Looks at every three tokens in a row.
+fn windows(sources: &[Source], rule: impl Fn(&[&str; 3]) -> Option<String>) -> Vec<Breach> {
+    let triples =
+        sources.iter().flat_map(|source| source.code.windows(3).map(move |t| (source, t)));
+    triples
+        .filter_map(|(source, t)| {
+            let what = rule(&[&t[0].text, &t[1].text, &t[2].text])?;
+            Some(Breach::at(source, t[1].line, what))
+        })
+        .collect()
+}

@@ -1,0 +1,95 @@
+//! The files under `src/` and what of them is code that ships.
+
+use crate::token::{Token, tokens};
+use std::{collections::BTreeSet, fs, ops::Range, path::Path};
+
+/// Names from the crate's root down; the root (`lib.rs`) has none.
+pub(crate) type Module = Vec<String>;
+
+/// One file, which is one module; a `mod.rs` is the module of its folder.
+#[derive(Debug)]
+pub(crate) struct Source {
+    /// Path from the root of the repository, with `/`.
+    pub(crate) file: String,
+    pub(crate) module: Module,
+    /// Without comments, strings and whatever stands under `#[cfg(test)]`.
+    pub(crate) code: Vec<Token>,
+    /// Number of lines, without those under `#[cfg(test)]`.
+    pub(crate) lines: usize,
+}
+
+/// Reads the crate: every file of `src/` but those that are compiled for tests only.
+pub(crate) fn of_crate() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    collect(root, "src", &mut files);
+    of_files(&files)
+}
+
+fn collect(root: &Path, folder: &str, files: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(root.join(folder)).expect("src/ can be listed") {
+        let entry = entry.expect("src/ can be listed");
+        let file = format!("{folder}/{}", entry.file_name().to_str().expect("a UTF-8 name"));
+        if entry.path().is_dir() {
+            collect(root, &file, files);
+        } else if file.ends_with(".rs") {
+            let text = fs::read_to_string(entry.path()).expect("a source file is readable text");
+            files.push((file, text));
+        }
+    }
+}
+
+/// The sources among `files`, pairs of path and text.
+pub(crate) fn of_files(files: &[(String, String)]) -> Vec<Source> {
+    let mut for_tests = BTreeSet::new();
+    let mut sources: Vec<Source> =
+        files.iter().map(|(file, text)| source(file, text, &mut for_tests)).collect();
+    sources.retain(|source| {
+        let above = |n| source.module[..n].to_vec();
+        let for_tests = (0..=source.module.len()).any(|n| for_tests.contains(&above(n)));
+        !for_tests && !source.file.contains("/tests/")
+    });
+    sources.sort_by(|a, b| a.file.cmp(&b.file));
+    sources
+}
+
+/// Also notes the modules that `text` declares for tests only.
+fn source(file: &str, text: &str, for_tests: &mut BTreeSet<Module>) -> Source {
+    let module = module(file);
+    let (mut code, mut lines) = (tokens(text), text.lines().count());
+    while let Some(item) = test_item(&code) {
+        let words: Vec<&str> = code[item.clone()].iter().map(|t| t.text.as_str()).collect();
+        if let [.., "mod", name, ";"] = words[..] {
+            for_tests.insert([&module[..], &[name.to_owned()]].concat());
+        }
+        lines -= code[item.end - 1].line - code[item.start].line + 1;
+        code.drain(item);
+    }
+    Source { file: file.to_owned(), module, code, lines }
+}
+
+fn module(file: &str) -> Module {
+    let path = file.trim_start_matches("src/").trim_end_matches(".rs");
+    let path = path.strip_suffix("/mod").unwrap_or(path);
+    if path == "lib" { Module::new() } else { path.split('/').map(str::to_owned).collect() }
+}
+
+/// Where the first item under `#[cfg(test)]` stands, from its attribute to its `;` or `}`.
+fn test_item(code: &[Token]) -> Option<Range<usize>> {
+    let attribute = ["#", "[", "cfg", "(", "test", ")", "]"];
+    let texts = |window: &[Token]| window.iter().zip(attribute).all(|(t, a)| t.text == a);
+    let start = code.windows(attribute.len()).position(texts)?;
+    let (mut depth, mut at) = (0, start + attribute.len());
+    while let Some(token) = code.get(at) {
+        at += 1;
+        depth += match token.text.as_str() {
+            "(" | "[" | "{" => 1,
+            ")" | "]" | "}" => -1,
+            _ => 0,
+        };
+        if depth == 0 && matches!(token.text.as_str(), ";" | "}") {
+            break;
+        }
+    }
+    Some(start..at)
+}
