@@ -4,6 +4,7 @@
 //! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
 //! runs. Knows no solver.
 
+mod check;
 mod equation;
 pub mod formula;
 mod motion;

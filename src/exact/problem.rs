@@ -1,6 +1,6 @@
 //! The continuum problem that an exact solution is held to.
 
-use super::{equation::Equation, formula::Formula, motion::Motion, violation::Violation};
+use super::{equation::Equation, formula::Formula, motion::Motion};
 
 /// A boundary condition on one face of the body.
 #[derive(Debug, Clone)]
@@ -53,19 +53,6 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Holds the motion against the equation (point by point and in weak form), the boundary and
-    /// the initial conditions, at reproducible random points.
-    ///
-    /// # Errors
-    /// The first [`Violation`].
-    pub fn check(&self) -> Result<(), Violation> {
-        super::pointwise::initial(self)?;
-        super::pointwise::boundary(self)?;
-        super::pointwise::differentiation(self)?;
-        super::pointwise::equation(self)?;
-        super::weak::momentum(self)
-    }
-
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.from.len()

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{binary::Binary, error::FormulaError, parser, unary::Unary};
+use super::{binary::Binary, unary::Unary};
 
 /// A parsed formula, not yet bound: its names stand for nothing so far.
 #[derive(Debug, Clone)]
@@ -47,12 +47,8 @@ pub(super) struct Sum {
 }
 
 impl Expr {
-    /// Reads a formula.
-    ///
-    /// # Errors
-    /// When `source` is not a formula of the language, or exceeds its limits.
-    pub fn parse(source: &str) -> Result<Self, FormulaError> {
-        Ok(Self { source: source.to_owned(), nodes: parser::parse(source)? })
+    pub(super) fn new(source: &str, nodes: Vec<Node>) -> Self {
+        Self { source: source.to_owned(), nodes }
     }
 
     /// The text that was parsed.

@@ -5,7 +5,7 @@ mod call;
 use std::ops::Range;
 
 use super::{
-    ast::{Kind, Node},
+    ast::{Expr, Kind, Node},
     binary::Binary,
     error::FormulaError,
     lexer::{Lexeme, Token, tokens},
@@ -16,8 +16,18 @@ const MAX_DEPTH: usize = 128;
 /// How tightly the unary minus holds its operand: tighter than `*`, looser than `^`.
 const MINUS: u8 = 5;
 
+impl Expr {
+    /// Reads a formula.
+    ///
+    /// # Errors
+    /// When `source` is not a formula of the language, or exceeds its limits.
+    pub fn parse(source: &str) -> Result<Self, FormulaError> {
+        Ok(Self::new(source, parse(source)?))
+    }
+}
+
 /// The nodes of the formula `source`, its root last.
-pub(super) fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
+fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
     let lexemes = tokens(source)?;
     let mut parser =
         Parser { source, lexemes, at: 0, nodes: Vec::new(), indices: Vec::new(), depth: 0 };

@@ -1,0 +1,18 @@
+//! Every condition that a problem puts on its motion.
+
+use super::{pointwise, problem::Problem, violation::Violation, weak};
+
+impl Problem {
+    /// Holds the motion against the equation (point by point and in weak form), the boundary and
+    /// the initial conditions, at reproducible random points.
+    ///
+    /// # Errors
+    /// The first [`Violation`].
+    pub fn check(&self) -> Result<(), Violation> {
+        pointwise::initial(self)?;
+        pointwise::boundary(self)?;
+        pointwise::differentiation(self)?;
+        pointwise::equation(self)?;
+        weak::momentum(self)
+    }
+}
