@@ -3,7 +3,7 @@
 use super::legend::{Legend, Placed};
 use super::plot::{Plot, Titles};
 use super::scale::{Pad, Scale};
-use super::series::{self, Failure, Line};
+use super::series::{self, Failure, Line, Series};
 use super::space::{Rect, Space};
 use super::svg::{Element, Pt};
 use super::triangle::{self, Triangle};
@@ -21,39 +21,6 @@ pub struct Convergence {
     pub series: Vec<Series>,
     /// Orders shown as slope triangles; an order which is not positive is left out.
     pub reference_orders: Vec<f64>,
-}
-
-/// The errors of one quantity over all levels.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series {
-    /// Name in the legend.
-    pub name: String,
-    /// The levels in any order.
-    pub points: Vec<Point>,
-}
-
-/// The error at one level.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    /// Cell size.
-    pub h: f64,
-    /// Error; one which is not finite is drawn as failed, zero is noted below the figure.
-    pub error: f64,
-    /// What the level counts for.
-    pub mark: Mark,
-}
-
-/// What a level counts for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// In the asymptotic window: filled, joined by a solid line.
-    Window,
-    /// Outside the window: hollow, joined by a thin dashed line.
-    Shown,
-    /// Particles changed cell: hollow with a cross.
-    Crossing,
-    /// No finite error: an arrow at the upper edge of the frame.
-    Failed,
 }
 
 /// Where legend and slope triangles have found their places.

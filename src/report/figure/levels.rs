@@ -1,6 +1,28 @@
-//! Which points of a series have a place on logarithmic axes.
+//! The levels of a series, and which of them have a place on logarithmic axes.
 
-use super::convergence::{Mark, Point};
+/// The error at one level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Cell size.
+    pub h: f64,
+    /// Error; one which is not finite is drawn as failed, zero is noted below the figure.
+    pub error: f64,
+    /// What the level counts for.
+    pub mark: Mark,
+}
+
+/// What a level counts for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// In the asymptotic window: filled, joined by a solid line.
+    Window,
+    /// Outside the window: hollow, joined by a thin dashed line.
+    Shown,
+    /// Particles changed cell: hollow with a cross.
+    Crossing,
+    /// No finite error: an arrow at the upper edge of the frame.
+    Failed,
+}
 
 /// A point as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]

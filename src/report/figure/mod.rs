@@ -46,5 +46,7 @@ mod triangle;
 #[cfg(test)]
 mod tests;
 
-pub use convergence::{Convergence, Mark, Point, Series};
+pub use convergence::Convergence;
 pub use history::{Curve, History};
+pub use levels::{Mark, Point};
+pub use series::Series;

@@ -1,12 +1,20 @@
 //! A series of the convergence plot: its line, its failed levels, and what the legend says.
 
-use super::convergence::{Mark, Series};
 use super::legend::{Entry, KEY};
-use super::levels::{Level, levels};
+use super::levels::{Level, Mark, Point, levels};
 use super::marker::{self, Fill};
 use super::plot::Plot;
 use super::style::{HEIGHT, Look, NEUTRAL, Shape, look};
 use super::svg::{Element, Pt};
+
+/// The errors of one quantity over all levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in the legend.
+    pub name: String,
+    /// The levels in any order.
+    pub points: Vec<Point>,
+}
 
 /// Every mark with its key in the legend, in the order of the legend.
 const MARKS: [(Mark, &str); 4] = [
