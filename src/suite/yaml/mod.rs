@@ -33,6 +33,7 @@ mod ordered;
 mod place;
 mod read;
 mod refusal;
+mod scalar;
 mod scalars;
 mod scan;
 mod shape;

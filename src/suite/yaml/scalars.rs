@@ -1,42 +1,9 @@
 //! How far a scalar reaches, by the rules of its style.
 
 use super::Complaint;
+use super::scalar::{Scalar, Style};
 use super::scan::Scanner;
 use std::ops::Range;
-
-/// The extent of one scalar, with its quotes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Scalar {
-    pub(super) range: Range<usize>,
-    style: Style,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Style {
-    Plain,
-    SingleQuoted,
-    DoubleQuoted,
-    Block,
-}
-
-impl Scalar {
-    /// The bytes that are the value, if they are so one for one: no escape, no folded line.
-    pub(super) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
-        let Range { start, end } = self.range;
-        let (inside, altered) = match self.style {
-            Style::Plain => (start..end, '\n'),
-            Style::SingleQuoted => (start + 1..end - 1, '\''),
-            Style::DoubleQuoted => (start + 1..end - 1, '\\'),
-            Style::Block => return None,
-        };
-        let words = text.get(inside.clone())?;
-        (!words.contains([altered, '\n'])).then_some(inside)
-    }
-
-    pub(super) fn is_quoted(&self) -> bool {
-        matches!(self.style, Style::SingleQuoted | Style::DoubleQuoted)
-    }
-}
 
 impl Scanner<'_> {
     pub(super) fn plain_scalar(&mut self) -> Result<(), Complaint> {

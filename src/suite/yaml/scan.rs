@@ -8,7 +8,7 @@
 //! quotes that are never closed, of which the parser would only notice the end of the file.
 
 use super::Complaint;
-use super::scalars::Scalar;
+use super::scalar::Scalar;
 use std::ops::Range;
 
 /// The scalars of a text in their order, or the reason why it is refused.

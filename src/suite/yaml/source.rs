@@ -1,6 +1,6 @@
 //! A suite file in memory, checked before anything interprets it.
 
-use super::scalars::Scalar;
+use super::scalar::Scalar;
 use super::scan::scan;
 use super::{Complaint, Place};
 use std::fs::{self, File};
