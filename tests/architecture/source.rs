@@ -32,7 +32,7 @@ fn collect(root: &Path, folder: &str, files: &mut Vec<(String, String)>) {
         let file = format!("{folder}/{}", entry.file_name().to_str().expect("a UTF-8 name"));
         if entry.path().is_dir() {
             collect(root, &file, files);
-        } else if file.ends_with(".rs") {
+        } else if entry.path().extension().is_some_and(|end| end == "rs") {
             let text = fs::read_to_string(entry.path()).expect("a source file is readable text");
             files.push((file, text));
         }
