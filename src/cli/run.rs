@@ -1,6 +1,10 @@
 //! `mpm-verify run`.
 
-use super::{BAD_INPUT, FAILED, Format, RunArgs, output, select};
+use super::{
+    args::{Format, RunArgs},
+    output, select,
+    status::{BAD_INPUT, FAILED, PASSED},
+};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
@@ -37,7 +41,7 @@ pub(super) fn run(args: &RunArgs) -> u8 {
     if !refused.is_empty() || written.is_err() {
         BAD_INPUT
     } else if outcomes.iter().all(SuiteOutcome::passed) {
-        0
+        PASSED
     } else {
         FAILED
     }

@@ -51,13 +51,11 @@ fn sources(target: &Path) -> Sources {
 fn unknown(name: &str) -> Complaint {
     let complaint = Complaint::about(name, &format!("there is no suite called `{name}`"));
     let near = |known: &&str| strsim::jaro_winkler(known, name) > 0.8;
-    match embedded::names().find(near) {
-        Some(known) => complaint.with_help(&format!("did you mean `{known}`?")),
-        None => {
-            let known: Vec<&str> = embedded::names().collect();
-            complaint.with_help(&format!("known suites: {}", known.join(", ")))
-        }
+    if let Some(known) = embedded::names().find(near) {
+        return complaint.with_help(&format!("did you mean `{known}`?"));
     }
+    let known: Vec<&str> = embedded::names().collect();
+    complaint.with_help(&format!("known suites: {}", known.join(", ")))
 }
 
 /// Every `.yaml` file of a folder, sorted by name.

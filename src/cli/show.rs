@@ -1,14 +1,17 @@
 //! `mpm-verify list`, `check` and `explain`.
 
-use super::{BAD_INPUT, output, select};
+use super::{
+    output, select,
+    status::{BAD_INPUT, PASSED},
+};
 use mpm_verify::suite::{StudyPlan, Suite, statement};
 use std::path::PathBuf;
 
 /// Prints every suite with its cases.
 pub(super) fn list(targets: &[PathBuf]) -> u8 {
     each(targets, |suite| {
-        let cases: String = suite.case_names().iter().map(|case| format!("  {case}\n")).collect();
-        format!("{}: {}\n{cases}", suite.name, suite.title)
+        let cases = suite.case_names().join("\n  ");
+        format!("{}: {}\n  {cases}\n", suite.name, suite.title)
     })
 }
 
@@ -27,7 +30,7 @@ pub(super) fn explain(targets: &[PathBuf]) -> u8 {
 }
 
 fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> u8 {
-    let mut code = 0;
+    let mut code = PASSED;
     for suite in select::suites(targets) {
         match suite {
             Ok(suite) => output::print(&page(&suite)),

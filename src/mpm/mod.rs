@@ -1,7 +1,7 @@
 //! The reference Material Point Method: the "original MPM" of Sulsky, Chen & Schreyer (1994) as
 //! Wobbes & Tielen (2015) use it, for any number of dimensions.
 //!
-//! One step is a list of named stages ([`scheme`]); each stage is a pass over particles or nodes.
+//! One step is a list of named stages ([`SchemeName::stages`]); each stage is a pass over particles or nodes.
 //! Only basis x transfer meets inside the particle-node loop, so only these are type parameters,
 //! hidden behind the object-safe [`Kernel`]; [`Material`] and [`Effect`] meet the solver between
 //! stages and are trait objects. An effect that a scene does not list is not there.

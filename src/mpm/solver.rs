@@ -105,7 +105,9 @@ impl<const D: usize> Solver<D> {
         for (v, m) in grid.velocity.iter_mut().zip(&grid.mass) {
             *v = per_mass(v, *m);
         }
-        fixed.iter().for_each(|face| face.hold(&mut grid.velocity));
+        for face in fixed {
+            face.hold(&mut grid.velocity);
+        }
     }
 
     fn force(&mut self) {
@@ -121,7 +123,9 @@ impl<const D: usize> Solver<D> {
         for ((a, f), m) in grid.acceleration.iter_mut().zip(&grid.force).zip(&grid.mass) {
             *a = per_mass(f, *m);
         }
-        fixed.iter().for_each(|face| face.hold(&mut grid.acceleration));
+        for face in fixed {
+            face.hold(&mut grid.acceleration);
+        }
     }
 
     fn stress(&mut self, dt: f64) -> Result<(), Failure> {

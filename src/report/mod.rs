@@ -1,8 +1,8 @@
 //! The page: what a person or a program reads of a [`SuiteOutcome`](crate::verify::SuiteOutcome).
 //!
-//! - [`text`]: the aligned text that is kept as a snapshot. No time, host, date or path.
-//! - [`json`]: one document, an interface.
-//! - [`svg`]: figures, drawn by the layer in [`figure`].
+//! - [`text()`]: the aligned text that is kept as a snapshot. No time, host, date or path.
+//! - [`json()`]: one document, an interface.
+//! - [`svg()`]: figures, drawn by the layer in [`figure`].
 //! - [`drift`]: comparison of two texts, number by number.
 
 pub mod drift;

@@ -25,7 +25,7 @@ const SPARE_CELLS: f64 = 2.0;
 /// One line that says why there is no such subject.
 pub(super) fn subject(
     plan: &ConvergencePlan,
-    method: &Method,
+    method: Method,
     cells: u64,
 ) -> Result<Box<dyn Subject>, String> {
     match (method, plan.scene.dimension()) {
@@ -53,10 +53,10 @@ pub(super) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
 
 fn mpm<const D: usize>(
     plan: &ConvergencePlan,
-    method: &Method,
+    method: Method,
     cells: u64,
 ) -> Result<Box<dyn Subject>, String> {
-    let Method::Mpm { basis, transfer, scheme, start } = *method else {
+    let Method::Mpm { basis, transfer, scheme, start } = method else {
         return Err("not an MPM method".to_owned());
     };
     let scene = &plan.scene;
@@ -141,13 +141,13 @@ fn of_time<const D: usize>(formulas: &[Formula]) -> Box<dyn Fn(f64) -> Vector<D>
     Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
 }
 
-fn fem(scene: &Scene, method: &Method, cells: u64) -> Result<Box<dyn Subject>, String> {
+fn fem(scene: &Scene, method: Method, cells: u64) -> Result<Box<dyn Subject>, String> {
     Ok(Box::new(bar(scene, method, cells)?))
 }
 
 /// The FEM bar of `method`; also what references are made of.
-pub(super) fn bar(scene: &Scene, method: &Method, cells: u64) -> Result<Bar, String> {
-    let Method::Fem { element, mass, law, start, sampling } = *method else {
+pub(super) fn bar(scene: &Scene, method: Method, cells: u64) -> Result<Bar, String> {
+    let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".to_owned());
     };
     let (from, to) = (scene.from[0], scene.to[0]);

@@ -107,7 +107,7 @@ impl<'a> Runner<'a> {
         cells: u64,
     ) -> Result<LevelOutcome, String> {
         let truth = self.truth(plan, case)?;
-        let mut subject = subject(plan, &case.method, cells)?;
+        let mut subject = subject(plan, case.method, cells)?;
         let h = cell_size(&plan.scene, cells);
         let clock = Clock::new(case.until, plan.dt.eval(&[h]), plan.instants)
             .ok_or("the time step makes no sense")?;

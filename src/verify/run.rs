@@ -40,7 +40,7 @@ pub fn run(
     let mut watch = Watch::new(subject, truth, observe);
     for step in 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
-            return watch.failed(subject, step, clock.time(step), &failure);
+            return failed(subject, step, clock.time(step), &failure);
         }
         watch.look(subject, clock, step);
     }
@@ -82,18 +82,6 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> Run {
-        Run {
-            errors: Norms::NONE,
-            max_rms: f64::NAN,
-            census: subject.census(),
-            steps: step,
-            failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
-            history: None,
-            displacement: None,
-        }
-    }
-
     fn finished(self, subject: &dyn Subject, steps: u64, observe: Option<&[f64]>) -> Run {
         let place = observe.and_then(|place| place.first());
         Run {
@@ -105,6 +93,19 @@ impl<'a> Watch<'a> {
             displacement: place.and_then(|x| displacement_at(&self.samples, *x)),
             history: self.history.map(|(_, history)| history),
         }
+    }
+}
+
+/// A run that broke has no error, only a reason.
+fn failed(subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> Run {
+    Run {
+        errors: Norms::NONE,
+        max_rms: f64::NAN,
+        census: subject.census(),
+        steps: step,
+        failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
+        history: None,
+        displacement: None,
     }
 }
 
