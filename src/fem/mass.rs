@@ -53,21 +53,21 @@ impl MassMatrix {
     }
 }
 
-/// Reference length that belongs to each node, `int N_i dX` (m).
-pub(super) fn nodal_lengths(mesh: &Mesh) -> Vec<f64> {
-    let mut lengths = vec![0.0; mesh.node_count()];
+/// Adds the reference length that belongs to each node, `int N_i dX` (m), to `lengths`.
+pub(super) fn add_nodal_lengths(mesh: &Mesh, lengths: &mut [f64]) {
     for cell in 0..mesh.cells() {
         let shares = mesh.element().shares();
-        for (length, share) in mesh.local_mut(cell, &mut lengths).iter_mut().zip(shares) {
+        for (length, share) in mesh.local_mut(cell, lengths).iter_mut().zip(shares) {
             *length += share * mesh.cell_length();
         }
     }
-    lengths
 }
 
 /// Sums of the rows of the consistent matrix (kg/m2).
 pub(super) fn lumped(mesh: &Mesh, density: f64) -> Vec<f64> {
-    nodal_lengths(mesh).into_iter().map(|length| density * length).collect()
+    let mut lengths = vec![0.0; mesh.node_count()];
+    add_nodal_lengths(mesh, &mut lengths);
+    lengths.into_iter().map(|length| density * length).collect()
 }
 
 /// `int rho0 N_i N_j dX` (kg/m2), element after element.

@@ -1,6 +1,6 @@
 //! Where the state of a bar is looked at.
 
-use super::mass::nodal_lengths;
+use super::mass::add_nodal_lengths;
 use super::{Bar, Sampling};
 use crate::subject::Samples;
 
@@ -43,6 +43,7 @@ impl Bar {
         samples.label.extend(self.nodes());
         samples.displacement.extend(self.nodal_displacements());
         samples.velocity.extend(self.nodal_velocities());
-        samples.weight.extend(nodal_lengths(&self.mesh));
+        samples.weight.resize(self.nodes().len(), 0.0);
+        add_nodal_lengths(&self.mesh, &mut samples.weight);
     }
 }
