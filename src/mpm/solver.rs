@@ -42,8 +42,10 @@ impl<const D: usize> Solver<D> {
     /// A solver at t = 0.
     ///
     /// # Errors
-    /// [`Failure::LeftDomain`] if a particle starts outside the grid.
+    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
+    /// starts outside the grid.
     pub fn new(setup: Setup<D>) -> Result<Self, Failure> {
+        setup.particles.all_finite()?;
         let cells = setup.particles.x.iter().enumerate().map(|(p, x)| {
             setup.grid.cell(x).ok_or_else(|| Failure::LeftDomain {
                 site: Site::Particle(p),
