@@ -1,0 +1,93 @@
+//! The hot loop allocates nothing.
+
+mod common;
+
+use allocation_counter::measure;
+use common::{DT, free_body, in_dimension, methods};
+use mpm_verify::{
+    fem::{self, Bar, Element, Mass, Sampling},
+    mpm::{Fixed, Gravity, SchemeName, Side, Solver, Traction, Vector},
+    subject::{Samples, Start, Subject},
+};
+use rstest::rstest;
+
+/// Steps `subject` once, then counts what further steps and samples take from the heap.
+fn holds_its_memory(name: &str, subject: &mut dyn Subject, dt: f64) {
+    subject.step(dt).unwrap();
+    let stepping = measure(|| (0..20).for_each(|_| subject.step(dt).unwrap()));
+    assert_eq!(stepping.count_total, 0, "{name}: twenty steps after the first");
+
+    let mut samples = Samples::default();
+    subject.sample(&mut samples);
+    let sampling = measure(|| subject.sample(&mut samples));
+    assert_eq!(sampling.count_total, 0, "{name}: a sample into columns that have been used");
+    assert!(!samples.is_empty(), "{name}: there was something to sample");
+}
+
+/// A body under gravity, pulled at its far end, with one face of the grid fixed.
+fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
+    for method in methods() {
+        let mut setup = free_body::<D>(method, scheme);
+        let gravity = Gravity(Box::new(|t| Vector::<D>::from_element(-9.81 * t)));
+        let pull = Box::new(|t| Vector::<D>::from_element(0.1 * t));
+        let traction = Traction::on(&setup.particles, 0, Side::High, pull);
+        setup.effects = vec![Box::new(gravity), Box::new(traction)];
+        setup.fixed = vec![Fixed::face(&setup.grid, 0, Side::Low)];
+        setup.start = start;
+        let name = format!("{D}-D {method:?} {scheme:?} {start:?}");
+        holds_its_memory(&name, &mut Solver::new(setup).unwrap(), DT);
+    }
+}
+
+#[rstest]
+fn an_mpm_step_after_the_first_allocates_nothing(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    in_dimension!(dimension, mpm_holds_its_memory(scheme, start));
+}
+
+#[test]
+fn no_scheme_is_left_out_above() {
+    assert_eq!(SchemeName::ALL, [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl]);
+}
+
+/// A bar under a body force, fixed on the left and pulled on the right.
+fn loaded_bar(element: Element, mass: Mass, start: Start, sampling: Sampling) -> Bar {
+    let setup = fem::Setup {
+        from: 0.0,
+        to: 1.0,
+        cells: 12,
+        element,
+        mass,
+        density: 1.0,
+        law: Box::new(|def_grad| 100.0 * (def_grad - 1.0)),
+        fixed: [true, false],
+        body_force: Some(Box::new(|x, t| x * t)),
+        traction: [None, Some(Box::new(|t| 0.1 * t))],
+        initial_displacement: Box::new(|_| 0.0),
+        initial_velocity: Box::new(|x| 0.1 * x),
+        start,
+        sampling,
+    };
+    Bar::new(setup).unwrap()
+}
+
+#[rstest]
+fn a_fem_step_after_the_first_allocates_nothing(
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+    #[values(Sampling::Inside, Sampling::Nodes)] sampling: Sampling,
+) {
+    for &element in Element::ALL {
+        for &mass in Mass::ALL {
+            let name = format!("{element:?} {mass:?} {start:?} {sampling:?}");
+            holds_its_memory(&name, &mut loaded_bar(element, mass, start, sampling), 5e-4);
+        }
+    }
+}
+
+#[test]
+fn the_counter_counts() {
+    assert!(measure(|| drop(std::hint::black_box(vec![0_u8; 16]))).count_total > 0);
+}

@@ -1,0 +1,9 @@
+//! What a step keeps, what it gives exactly, and what it says when it cannot go on.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod failure;
+mod motion;
+mod single_particle;
+mod transfer;

@@ -1,0 +1,81 @@
+//! One free particle at the fraction xi of a linear cell, under the stress sigma, in 1-D.
+//!
+//! All it shows to the nodes is its own velocity, so only a scheme that strains with *updated*
+//! grid velocities moves its stress. With the Courant number C = c dt / h one step of USL gives
+//! `sigma <- (1 - C^2 / (xi (1 - xi))) sigma`; under USF and MUSL the stress never changes.
+
+use crate::common::H;
+use mpm_verify::{
+    mpm::{
+        BasisName, Block, Grid, LinearElastic, Particles, SchemeName, Setup, Solver, TransferName,
+        Vector, kernel,
+    },
+    subject::{Start, Subject},
+};
+use proptest::prelude::*;
+
+const YOUNG: f64 = 100.0;
+const DENSITY: f64 = 4.0;
+
+/// The particle is alone in the middle cell of three.
+fn particle(scheme: SchemeName, xi: f64, sigma: f64) -> Solver<1> {
+    let (from, to) = (Vector::<1>::new(H), Vector::<1>::new(2.0 * H));
+    let mut particles = Particles::fill(&Block { from, to, density: DENSITY }, H, 1);
+    particles.x[0][0] = (1.0 + xi) * H;
+    particles.sigma[0][(0, 0)] = sigma;
+    let setup = Setup {
+        grid: Grid::new(Vector::zeros(), H, [3]),
+        particles,
+        kernel: kernel(BasisName::Linear, TransferName::Flip),
+        material: Box::new(LinearElastic::new(YOUNG, 0.0)),
+        effects: Vec::new(),
+        fixed: Vec::new(),
+        scheme,
+        start: Start::AtZero,
+    };
+    Solver::new(setup).unwrap()
+}
+
+/// sigma after `steps` steps at the Courant number `courant`, relative to sigma before.
+fn ratio(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> f64 {
+    let mut solver = particle(scheme, xi, sigma);
+    let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
+    (0..steps).for_each(|_| solver.step(dt).unwrap());
+    solver.particles().sigma[0][(0, 0)] / sigma
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+
+    #[test]
+    fn usl_multiplies_the_stress_by_the_closed_form(
+        xi in 0.02..0.98_f64,
+        courant in 0.01..1.5_f64,
+        sigma in prop_oneof![-0.5..-0.01_f64, 0.01..0.5_f64],
+    ) {
+        let expected = 1.0 - courant * courant / (xi * (1.0 - xi));
+        let factor = ratio(SchemeName::Usl, xi, sigma, courant, 1);
+        let error = (factor - expected).abs() / expected.abs().max(1.0);
+        prop_assert!(error <= 1e-13, "factor {factor}, closed form {expected}, error {error:.1e}");
+    }
+
+    #[test]
+    fn usf_and_musl_never_change_the_stress(
+        xi in 0.02..0.98_f64,
+        courant in 0.01..1.5_f64,
+        sigma in prop_oneof![-0.5..-0.01_f64, 0.01..0.5_f64],
+    ) {
+        for scheme in [SchemeName::Usf, SchemeName::Musl] {
+            let error = (ratio(scheme, xi, sigma, courant, 100) - 1.0).abs();
+            prop_assert!(error <= 1e-13, "{scheme:?} changes the stress by {error:.1e}");
+        }
+    }
+}
+
+#[test]
+fn usl_is_neutral_at_its_courant_limit() {
+    for xi in [0.1, 0.25, 0.5, 0.9] {
+        let limit = libm::sqrt(2.0 * xi * (1.0 - xi));
+        assert!((ratio(SchemeName::Usl, xi, 0.1, limit, 1) + 1.0).abs() <= 1e-13, "xi = {xi}");
+    }
+}

@@ -1,0 +1,108 @@
+//! P2G and G2P alone: particles anywhere in the grid, of any mass, in any state of stress.
+
+use crate::common::{H, in_dimension, methods};
+use approx::assert_abs_diff_eq;
+use mpm_verify::mpm::{Grid, Matrix, Particles, Vector, kernel};
+use proptest::{array::uniform3, collection::vec, prelude::*};
+
+const CELLS: usize = 4;
+
+/// Position in units of the grid's side, velocity (m/s), stress (Pa), mass (kg) and volume (m^D).
+type Row = ([f64; 3], [f64; 3], [[f64; 3]; 3], f64, f64);
+
+fn rows() -> impl Strategy<Value = Vec<Row>> {
+    let place = prop_oneof![3 => 0.0..=1.0_f64, 1 => (0..=CELLS).prop_map(|i| i as f64 / 4.0)];
+    let stress = uniform3(uniform3(-1e3..1e3_f64));
+    let row = (uniform3(place), uniform3(-9.0..9.0_f64), stress);
+    let row = (row, 1e-3..1e3_f64, 1e-3..1e3_f64);
+    vec(row.prop_map(|((x, v, sigma), mass, vol)| (x, v, sigma, mass, vol)), 1..40)
+}
+
+fn grid<const D: usize>() -> Grid<D> {
+    Grid::new(Vector::zeros(), H, [CELLS; D])
+}
+
+fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
+    let side = H * CELLS as f64;
+    let x: Vec<_> = rows.iter().map(|row| Vector::from_fn(|i, _| row.0[i] * side)).collect();
+    let vol: Vec<_> = rows.iter().map(|row| row.4).collect();
+    Particles {
+        x0: x.clone(),
+        x,
+        v: rows.iter().map(|row| Vector::from_fn(|i, _| row.1[i])).collect(),
+        mass: rows.iter().map(|row| row.3).collect(),
+        vol0: vol.clone(),
+        vol,
+        sigma: rows.iter().map(|row| Matrix::from_fn(|i, j| row.2[i.min(j)][i.max(j)])).collect(),
+        grad_v: vec![Matrix::zeros(); rows.len()],
+        spacing: Vector::from_element(H),
+    }
+}
+
+fn p2g_keeps<const D: usize>(rows: &[Row]) {
+    let particles = cloud::<D>(rows);
+    for (basis, transfer) in methods() {
+        let (kernel, mut grid) = (kernel::<D>(basis, transfer), grid::<D>());
+        kernel.p2g_mass(&particles, &mut grid);
+        kernel.p2g_momentum(&particles, &mut grid);
+        let (before, after): (f64, f64) = (particles.mass.iter().sum(), grid.mass.iter().sum());
+        assert_abs_diff_eq!(after, before, epsilon = 1e-14 * before);
+
+        let each = || particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m);
+        let change = grid.velocity.iter().sum::<Vector<D>>() - each().sum::<Vector<D>>();
+        let size: f64 = each().map(|momentum| momentum.norm()).sum();
+        assert_abs_diff_eq!(change.norm(), 0.0, epsilon = 1e-14 * size);
+    }
+}
+
+fn forces_cancel<const D: usize>(rows: &[Row]) {
+    let particles = cloud::<D>(rows);
+    for (basis, transfer) in methods() {
+        let mut grid = grid::<D>();
+        kernel::<D>(basis, transfer).p2g_internal_force(&particles, &mut grid);
+        let size: f64 =
+            particles.sigma.iter().zip(&particles.vol).map(|(s, vol)| s.norm() * vol / H).sum();
+        let total = grid.force.iter().sum::<Vector<D>>();
+        assert_abs_diff_eq!(total.norm(), 0.0, epsilon = 1e-14 * size);
+    }
+}
+
+fn translation_is_exact<const D: usize>(rows: &[Row]) {
+    let before = cloud::<D>(rows);
+    let velocity = Vector::<D>::from_fn(|i, _| rows[0].1[i]);
+    for (basis, transfer) in methods() {
+        let (kernel, mut grid) = (kernel::<D>(basis, transfer), grid::<D>());
+        grid.velocity.fill(velocity);
+        grid.acceleration.fill(velocity);
+        let mut after = before.clone();
+        kernel.g2p_velocity(&grid, 0.5, &mut after);
+        kernel.g2p_gradient(&grid, &mut after);
+        kernel.g2p_position(&grid, 0.5, &mut after);
+        for p in 0..before.len() {
+            let dv = after.v[p] - before.v[p] - velocity * 0.5;
+            let dx = after.x[p] - before.x[p] - velocity * 0.5;
+            assert_abs_diff_eq!(dv.norm(), 0.0, epsilon = 1e-14 * 20.0);
+            assert_abs_diff_eq!(dx.norm(), 0.0, epsilon = 1e-14 * 20.0);
+            assert_abs_diff_eq!(after.grad_v[p].norm(), 0.0, epsilon = 1e-14 * 20.0 / H);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+
+    #[test]
+    fn p2g_keeps_mass_and_linear_momentum(rows in rows(), dimension in 1..=3_usize) {
+        in_dimension!(dimension, p2g_keeps(&rows));
+    }
+
+    #[test]
+    fn internal_forces_of_any_stress_add_up_to_zero(rows in rows(), dimension in 1..=3_usize) {
+        in_dimension!(dimension, forces_cancel(&rows));
+    }
+
+    #[test]
+    fn g2p_of_a_rigid_translation_is_exact(rows in rows(), dimension in 1..=3_usize) {
+        in_dimension!(dimension, translation_is_exact(&rows));
+    }
+}
