@@ -20,9 +20,18 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         output::complain(&message);
         return BAD_INPUT;
     }
+    if let Err(message) = args.out.as_deref().map_or(Ok(()), prepare) {
+        output::complain(&message);
+        return BAD_INPUT;
+    }
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
     let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
+    if let Some(name) = args.out.as_ref().and_then(|_| twice(&suites)) {
+        let message = "error: --out: two suites are called";
+        output::complain(&format!("{message} `{name}`, and would write the same files"));
+        return BAD_INPUT;
+    }
     let bar = progress_bar(&suites);
     let outcomes: Vec<SuiteOutcome> = suites.iter().map(|suite| one(suite, args, &bar)).collect();
     bar.finish_and_clear();
@@ -76,11 +85,25 @@ fn one(suite: &Suite, args: &RunArgs, bar: &ProgressBar) -> SuiteOutcome {
     outcome
 }
 
+/// Makes the folder of `--out`, before hours are spent on what cannot be written.
+fn prepare(folder: &Path) -> Result<(), String> {
+    fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))
+}
+
+/// The first name that two suites have.
+fn twice(suites: &[Suite]) -> Option<&str> {
+    let names: Vec<&str> = suites.iter().map(|suite| suite.name.as_str()).collect();
+    names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)).map(|(_, name)| *name)
+}
+
+fn unwritable(folder: &Path, error: &io::Error) -> String {
+    format!("error: --out {}: {error}", folder.display())
+}
+
 /// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
 fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
     let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
     let all = || -> io::Result<()> {
-        fs::create_dir_all(folder)?;
         save("report.json", &report::json(outcomes))?;
         for outcome in outcomes {
             save(&format!("{}.txt", outcome.suite), &report::text(outcome))?;
@@ -90,5 +113,5 @@ fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
         }
         Ok(())
     };
-    all().map_err(|error| format!("error: --out {}: {error}", folder.display()))
+    all().map_err(|error| unwritable(folder, &error))
 }

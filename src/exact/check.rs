@@ -9,6 +9,7 @@ impl Problem {
     /// # Errors
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
+        pointwise::presence(self)?;
         pointwise::initial(self)?;
         pointwise::boundary(self)?;
         pointwise::differentiation(self)?;

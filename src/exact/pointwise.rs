@@ -37,7 +37,17 @@ impl Event {
         if (found - expected).abs() <= allowed {
             return Ok(());
         }
-        Err(Violation { condition, label: self.label.clone(), t: self.t, expected, found, unit })
+        Err(self.violation(condition, Some(expected), found, unit))
+    }
+
+    fn violation(
+        &self,
+        condition: String,
+        expected: Option<f64>,
+        found: f64,
+        unit: &'static str,
+    ) -> Violation {
+        Violation { condition, label: self.label.clone(), t: self.t, expected, found, unit }
     }
 }
 
@@ -65,7 +75,23 @@ fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// u(X, 0) = 0 and u_t(X, 0) = v0(X); and the solution is not zero everywhere.
+/// The displacement is a number everywhere inside, and not zero everywhere.
+pub(super) fn presence(problem: &Problem) -> Result<(), Violation> {
+    let points = interior(problem, 1);
+    for (event, now) in &points {
+        if let Some(u) = now.u.iter().find(|u| !u.is_finite()) {
+            let condition = "the demand that the displacement is finite".to_owned();
+            return Err(event.violation(condition, None, *u, "m"));
+        }
+    }
+    if points.iter().any(|(_, now)| largest(&now.u) > 0.0) {
+        return Ok(());
+    }
+    let condition = "the demand that the displacement is not zero everywhere".to_owned();
+    Err(points[0].0.violation(condition, None, 0.0, "m"))
+}
+
+/// u(X, 0) = 0 and u_t(X, 0) = v0(X).
 pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
     let size = scale(problem, |_, d| largest(&d.u));
     let speed = scale(problem, |_, d| largest(&d.velocity));
@@ -81,12 +107,7 @@ pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
             event.judge(allowed, name, (start, now.velocity[i]), "m/s")?;
         }
     }
-    let (event, _) = interior(problem, 1).swap_remove(0);
-    if size > 0.0 {
-        return Ok(());
-    }
-    let name = "the demand that the displacement is finite and not zero everywhere".to_owned();
-    event.judge(-1.0, name, (1.0, size), "m")
+    Ok(())
 }
 
 fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
@@ -193,7 +214,7 @@ fn differences(
     speed: f64,
     acceleration: f64,
 ) -> Result<(), Violation> {
-    let step = 1e-4 * problem.until;
+    let step = 1e-5 * problem.until;
     let all = problem.motion.derivatives(&event.label, event.t);
     for i in 0..problem.dimension() {
         let u = |t: f64| problem.motion.component(i, &event.label, t);

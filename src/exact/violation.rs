@@ -11,8 +11,8 @@ pub struct Violation {
     pub label: Vec<f64>,
     /// Time (s).
     pub t: f64,
-    /// What the condition asks for.
-    pub expected: f64,
+    /// What the condition asks for, where that is one number.
+    pub expected: Option<f64>,
     /// What the solution gives.
     pub found: f64,
     /// Unit of both.
@@ -21,20 +21,25 @@ pub struct Violation {
 
 impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let place: Vec<String> = self.label.iter().map(|c| format!("{c:.6}")).collect();
-        write!(
-            f,
-            "{} is violated at X = ({}), t = {:.6}: expected {:.6e}, found {:.6e} {} \
-             (off by {:.3e})",
-            self.condition,
-            place.join(", "),
-            self.t,
-            self.expected,
-            self.found,
-            self.unit,
-            self.found - self.expected,
-        )
+        let place: Vec<String> = self.label.iter().map(|c| coordinate(*c)).collect();
+        let (place, t) = (place.join(", "), coordinate(self.t));
+        write!(f, "{} is violated at X = ({place}), t = {t}: ", self.condition)?;
+        if let Some(expected) = self.expected {
+            write!(f, "expected {expected:.6e}, ")?;
+        }
+        write!(f, "found {:.6e}", self.found)?;
+        if !self.unit.is_empty() {
+            write!(f, " {}", self.unit)?;
+        }
+        self.expected
+            .map_or(Ok(()), |expected| write!(f, " (off by {:.3e})", self.found - expected))
     }
+}
+
+/// Six decimals where they show something.
+fn coordinate(value: f64) -> String {
+    let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
+    if plain { format!("{value:.6}") } else { format!("{value:.6e}") }
 }
 
 impl std::error::Error for Violation {}

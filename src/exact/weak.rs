@@ -88,7 +88,7 @@ fn balance(problem: &Problem, patch: &Patch, i: usize) -> Result<(), Violation> 
             .to_owned(),
         label: patch.centre[..d].to_vec(),
         t: patch.centre[d],
-        expected: loss / size,
+        expected: Some(loss / size),
         found: gain / size,
         unit: "",
     })

@@ -1,6 +1,6 @@
 //! From what a file says to numbers and formulas, with the place of whatever is wrong.
 
-use super::yaml::{Complaint, NumberText, Ordered, Source, Step};
+use super::yaml::{Complaint, NumberText, Ordered, Source, Step, nearest};
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
 use std::{cell::RefCell, collections::BTreeSet};
 
@@ -71,6 +71,11 @@ impl<'a> Binder<'a> {
                     .with_help("write the name and its arguments: `s(tau)`")
             })?;
         let arguments: Vec<String> = arguments.split(',').map(|a| a.trim().to_owned()).collect();
+        if name.is_empty() || arguments.iter().any(String::is_empty) {
+            let message = format!("`{head}` lacks a name or an argument");
+            let complaint = self.complain_key(&path, &message);
+            return Err(complaint.with_help("write the name and its arguments: `s(tau)`"));
+        }
         let body = Expr::parse(body).map_err(|error| self.in_text(&path, &error))?;
         let declared = self.scope.function(name, &arguments, body);
         declared.map_err(|error| match error.within {
@@ -86,11 +91,30 @@ impl<'a> Binder<'a> {
         text: &NumberText,
         variables: &[&str],
     ) -> Result<Formula, Complaint> {
+        self.refuse_taken(variables)?;
         let bound = Expr::parse(&text.to_string())
             .and_then(|expr| Formula::bind(&expr, &self.scope, variables));
         let formula = bound.map_err(|error| self.in_text(path, &error))?;
         self.used.borrow_mut().extend(formula.uses().iter().cloned());
         Ok(formula)
+    }
+
+    /// Refuses a declared name that formulas need for one of their `variables`.
+    fn refuse_taken(&self, variables: &[&str]) -> Result<(), Complaint> {
+        let complain = |path: &Path, name: &str| {
+            let message = format!("`{name}` is a variable of formulas and cannot be declared");
+            let help = format!("rename it; the variables are {}", variables.join(", "));
+            Err(self.complain_key(path, &message).with_help(&help))
+        };
+        for name in variables {
+            if self.scope.constants().any(|(constant, _)| constant == *name) {
+                return complain(&Path::top("parameters").then(*name), name);
+            }
+            if let Some(head) = self.head_of(name) {
+                return complain(&Path::top("functions").then(head.as_str()), name);
+            }
+        }
+        Ok(())
     }
 
     /// Binds one formula for each of `dimension` components.
@@ -117,7 +141,7 @@ impl<'a> Binder<'a> {
         if value.is_finite() {
             return Ok(value);
         }
-        let message = format!("`{text}` is {value}, which is not finite");
+        let message = format!("`{text}` is {}, which is not finite", shown(value));
         Err(self.complain(path, &message).with_label("expected a finite number"))
     }
 
@@ -132,7 +156,7 @@ impl<'a> Binder<'a> {
         if value > 0.0 {
             return Ok(value);
         }
-        let message = format!("{what} is {value}, and must be above zero");
+        let message = format!("{what} is {}, and must be above zero", shown(value));
         Err(self.complain(path, &message).with_label("expected a positive number"))
     }
 
@@ -147,7 +171,7 @@ impl<'a> Binder<'a> {
         if (1.0..=MOST).contains(&value) && value.fract() == 0.0 {
             return Ok(value as u64);
         }
-        let message = format!("{what} is {value}");
+        let message = format!("{what} is {}", shown(value));
         let label = format!("expected a whole number from 1 to {MOST:e}");
         Err(self.complain(path, &message).with_label(&label))
     }
@@ -174,7 +198,7 @@ impl<'a> Binder<'a> {
             if !used.contains(name) {
                 let path = Path::top("parameters").then(name.as_str());
                 let message = format!("the parameter `{name}` is never used");
-                return Err(self.complain_key(&path, &message));
+                return Err(self.complain_key(&path, &message).with_help("remove it, or use it"));
             }
         }
         for (head, _) in functions.as_slice() {
@@ -182,10 +206,16 @@ impl<'a> Binder<'a> {
             if !used.contains(name) {
                 let path = Path::top("functions").then(head.as_str());
                 let message = format!("the function `{name}` is never used");
-                return Err(self.complain_key(&path, &message));
+                return Err(self.complain_key(&path, &message).with_help("remove it, or use it"));
             }
         }
         Ok(())
+    }
+
+    /// The way to alternative `i` of what is a list or, if there is only one, may stand alone.
+    pub(super) fn alternative(&self, path: &Path, i: usize) -> Path {
+        let member = path.then(i);
+        if self.source.value_at(&member.0).is_some() { member } else { path.clone() }
     }
 
     /// A complaint about the value at `path`.
@@ -230,6 +260,19 @@ fn with_help(complaint: Complaint, error: &FormulaError) -> Complaint {
     match &error.help {
         Some(help) => complaint.with_help(help),
         None => complaint,
+    }
+}
+
+/// A number as an author would write it: 1e300 rather than a one and 300 zeros.
+pub(super) fn shown(value: f64) -> String {
+    NumberText::Number(value).to_string()
+}
+
+/// The name that was most likely meant, or all `known` ones.
+pub(super) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
+    match nearest(name, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known {kind}: {}", known.join(", ")),
     }
 }
 

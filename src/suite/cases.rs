@@ -1,7 +1,7 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
 use super::{
-    binder::{Binder, Path},
+    binder::{Binder, Path, shown},
     dispatch::cell_size,
     expect,
     model::{Against, Case, ConvergencePlan, Method},
@@ -19,14 +19,18 @@ pub(super) fn until(
     words: &OneOrMany<NumberText>,
 ) -> Result<Vec<(String, f64)>, Complaint> {
     let path = Path::top("run").then("until");
-    let texts = words.as_slice().iter().enumerate();
-    texts
-        .map(|(i, text)| {
-            let path = if words.as_slice().len() > 1 { path.then(i) } else { path.clone() };
-            let until = binder.positive(&path, text, "the end of the run")?;
-            Ok((until.to_string(), until))
-        })
-        .collect()
+    let mut ends: Vec<(String, f64)> = Vec::new();
+    for (i, text) in words.as_slice().iter().enumerate() {
+        let path = binder.alternative(&path, i);
+        let until = binder.positive(&path, text, "the end of the run")?;
+        let text = shown(until);
+        if ends.iter().any(|(known, _)| *known == text) {
+            let message = format!("the end {text} s appears twice");
+            return Err(binder.complain(&path, &message).with_label("the second time"));
+        }
+        ends.push((text, until));
+    }
+    Ok(ends)
 }
 
 /// Whether every level has a usable time step.
@@ -36,15 +40,16 @@ pub(super) fn check_steps(
     until: &[(String, f64)],
 ) -> Result<(), Complaint> {
     let path = Path::top("run").then("dt");
-    let fine = plan.reference.iter().map(|fine| (fine.cells, &fine.dt));
-    let levels = plan.cells.iter().map(|cells| (*cells, &plan.dt)).chain(fine);
-    for (cells, dt) in levels {
+    let fine_path = Path::top("reference").then("fem").then("dt");
+    let fine = plan.reference.iter().map(|fine| (&fine_path, fine.cells, &fine.dt));
+    let levels = plan.cells.iter().map(|cells| (&path, *cells, &plan.dt)).chain(fine);
+    for (path, cells, dt) in levels {
         let dt = dt.eval(&[cell_size(&plan.scene, cells)]);
         for (_, until) in until {
             if Clock::new(*until, dt, plan.instants).is_none() {
-                let message = format!("with {cells} cells the time step is {dt}");
+                let message = format!("with {cells} cells the time step is {}", shown(dt));
                 let label = "expected a positive step, and at most 1e9 of them";
-                return Err(binder.complain(&path, &message).with_label(label));
+                return Err(binder.complain(path, &message).with_label(label));
             }
         }
     }
@@ -62,22 +67,23 @@ pub(super) fn cases(
     for (i, method) in words.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         possible(binder, &path, method, plan)?;
+        few(binder, &path, drafts.len(), method, until.len())?;
         for (name, method) in methods(method) {
-            drafts.extend(runs(&name, method, plan, until));
+            for draft in runs(&name, method, plan, until) {
+                if drafts.iter().any(|known: &Draft| known.name == draft.name) {
+                    let message = format!("the case `{}` appears twice", draft.name);
+                    let complaint = binder.complain(&path, &message);
+                    return Err(complaint.with_label("the second time"));
+                }
+                drafts.push(draft);
+            }
         }
     }
-    let path = Path::top("methods");
     if drafts.is_empty() {
+        let path = Path::top("methods");
         return Err(binder.complain(&path, "a suite without methods has no case"));
     }
-    if drafts.len() > MOST_CASES {
-        let message = format!("{} cases, more than {MOST_CASES}", drafts.len());
-        return Err(binder.complain(&path, &message));
-    }
     let names: Vec<&str> = drafts.iter().map(|draft| draft.name.as_str()).collect();
-    if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
-        return Err(binder.complain(&path, &format!("the case `{}` appears twice", twice.1)));
-    }
     let expectations = expect::expectations(binder, &words.expect, &names)?;
     let with = |(draft, expectation): (Draft, _)| Case {
         name: draft.name,
@@ -119,6 +125,39 @@ fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f6
         }
     }
     drafts
+}
+
+/// Refuses a product of lists that is too long, before it is unfolded.
+fn few(
+    binder: &Binder<'_>,
+    path: &Path,
+    already: usize,
+    words: &MethodWords,
+    ends: usize,
+) -> Result<(), Complaint> {
+    let optional = |length: Option<usize>| length.unwrap_or(1);
+    let lengths = match words {
+        MethodWords::Mpm { basis, transfer, scheme, start } => vec![
+            basis.as_slice().len(),
+            transfer.as_slice().len(),
+            scheme.as_slice().len(),
+            optional(start.as_ref().map(|list| list.as_slice().len())),
+        ],
+        MethodWords::Fem { element, mass, law, start, sampling } => vec![
+            element.as_slice().len(),
+            mass.as_slice().len(),
+            optional(law.as_ref().map(|list| list.as_slice().len())),
+            optional(start.as_ref().map(|list| list.as_slice().len())),
+            optional(sampling.as_ref().map(|list| list.as_slice().len())),
+        ],
+    };
+    let more = lengths.into_iter().fold(ends, usize::saturating_mul);
+    if already.saturating_add(more) <= MOST_CASES {
+        return Ok(());
+    }
+    let message = format!("these lists unfold into {more} cases");
+    let label = format!("expected at most {MOST_CASES} in a suite");
+    Err(binder.complain(path, &message).with_label(&label))
 }
 
 /// Refuses combinations that mean nothing before anything runs.

@@ -102,17 +102,18 @@ fn side(face: &SceneFace) -> Side {
 
 /// The grid that the suite asks for, or the body's box with room beyond its free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64) -> Grid<D> {
-    let (mut origin, mut cells) = (Vector::zeros(), [0; D]);
-    for axis in 0..D {
-        let (low, high) = match &scene.grid {
-            Some((from, to)) => (from[axis], to[axis]),
-            None => roomy(scene, axis, h),
-        };
-        origin[axis] = low;
-        // A whole number of cells but for rounding is that number.
-        cells[axis] = libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0) as usize;
-    }
-    Grid::new(origin, h, cells)
+    let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
+    Grid::new(Vector::from_fn(|axis, _| axes[axis].0), h, axes.map(|(_, cells)| cells as usize))
+}
+
+/// Where the grid starts on an axis (m), and its number of cells.
+pub(super) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
+    let (low, high) = match &scene.grid {
+        Some((from, to)) => (from[axis], to[axis]),
+        None => roomy(scene, axis, h),
+    };
+    // A whole number of cells but for rounding is that number.
+    (low, libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0))
 }
 
 fn roomy(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! Which expectation holds for which case: exactly one for each.
 
 use super::{
-    binder::{Binder, Path},
+    binder::{Binder, Path, suggestion},
     words::{CrossingsName, ExpectWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };
@@ -35,9 +35,12 @@ pub(super) fn assign(
     let speaks = |i: usize, name: &str| {
         selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
     };
-    for i in 0..selectors.len() {
-        if !names.iter().any(|name| speaks(i, name)) {
-            let complaint = binder.complain(&path.then(i), "this expectation fits no case");
+    for (i, selector) in selectors.iter().enumerate() {
+        let globs = selector.map_or(&[][..], OneOrMany::as_slice);
+        let idle = |glob: &String| !names.iter().any(|name| matches(glob, name));
+        if let Some(k) = globs.iter().position(idle) {
+            let at = binder.alternative(&path.then(i).then("case"), k);
+            let complaint = binder.complain(&at, &format!("`{}` fits no case", globs[k]));
             return Err(complaint.with_help(&format!("cases: {}", names.join(", "))));
         }
     }
@@ -85,10 +88,7 @@ fn expectation(
             return Err(complaint.with_help("add `order: [1.9, 2.1]` or `verdict: divergent`"));
         }
     };
-    let because = words.because.trim().to_owned();
-    if because.is_empty() {
-        return Err(binder.complain(&path.then("because"), "an expectation needs its reason"));
-    }
+    let because = because(binder, path, &words.because)?;
     let bounds = |key: &str, words: &Option<Vec<NumberText>>| {
         words.as_ref().map(|pair| bounds(binder, &path.then(key), pair)).transpose()
     };
@@ -101,11 +101,22 @@ fn expectation(
     })
 }
 
+/// The reason of an expectation, which must say something.
+pub(super) fn because(binder: &Binder<'_>, path: &Path, text: &str) -> Result<String, Complaint> {
+    let text = text.trim();
+    if !text.is_empty() {
+        return Ok(text.to_owned());
+    }
+    let complaint = binder.complain(&path.then("because"), "an expectation needs its reason");
+    Err(complaint.with_label("expected words"))
+}
+
 fn verdict(binder: &Binder<'_>, path: &Path, word: &str) -> Result<Verdict, Complaint> {
     Verdict::from_str(word).map_err(|_| {
-        let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_")).join(", ");
+        let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
+        let known = known.each_ref().map(String::as_str);
         let complaint = binder.complain(path, &format!("`{word}` is not a verdict"));
-        complaint.with_help(&format!("known verdicts: {known}"))
+        complaint.with_help(&suggestion("verdicts", word, &known))
     })
 }
 
@@ -119,7 +130,8 @@ fn bounds(binder: &Binder<'_>, path: &Path, pair: &[NumberText]) -> Result<(f64,
     if low <= high {
         return Ok((low, high));
     }
-    Err(binder.complain(path, &format!("the interval ends at {high} and starts at {low}")))
+    let message = format!("the interval ends at {high} and starts at {low}");
+    Err(binder.complain(path, &message).with_label("expected [low, high]"))
 }
 
 #[cfg(test)]

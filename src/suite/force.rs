@@ -19,6 +19,9 @@ use crate::{
 /// Cells on either side of the two that matter, so that wide bases see no wall.
 const SPARE: usize = 3;
 
+/// Most particles over all positions: a second of work, and a report that can be read.
+const MOST_SUMMANDS: u64 = 1_000_000;
+
 /// Variables of the predicted force.
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];
 
@@ -42,24 +45,39 @@ pub(super) fn plan(
         prediction: binder.formula(&path.then("prediction"), &force.prediction, &VARIABLES)?,
         cases: Vec::new(),
     };
+    if plan.ppc.saturating_mul(plan.positions) > MOST_SUMMANDS {
+        let (ppc, positions) = (plan.ppc, plan.positions);
+        let message = format!("{positions} positions with {ppc} particles per cell each");
+        let label = format!("expected at most {MOST_SUMMANDS} particles over all positions");
+        return Err(binder.complain(&path.then("positions"), &message).with_label(&label));
+    }
     Ok(ForcePlan { cases: cases(binder, words)?, ..plan })
 }
 
 fn cases(binder: &Binder<'_>, words: &InternalForceWords) -> Result<Vec<ForceCase>, Complaint> {
     let bases = |ForceMethodWords::Mpm { basis }: &ForceMethodWords| basis.as_slice().to_vec();
     let bases: Vec<BasisName> = words.methods.iter().flat_map(bases).collect();
+    if bases.is_empty() {
+        let path = Path::top("methods");
+        return Err(binder.complain(&path, "a suite without methods has no case"));
+    }
     let names: Vec<String> = bases.iter().map(|basis| format!("mpm-{}", basis.name())).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        let message = format!("the case `{}` appears twice", twice.1);
+        return Err(binder.complain(&Path::top("methods"), &message));
+    }
     let selectors: Vec<_> = words.expect.iter().map(|words| words.case.as_ref()).collect();
     let owners = expect::assign(binder, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, &str), usize)| {
-        let path = Path::top("expect").then(owner).then("agrees_within");
+        let path = Path::top("expect").then(owner);
+        let within = path.then("agrees_within");
         let expected = &words.expect[owner];
         Ok(ForceCase {
             name: name.to_owned(),
             basis,
-            agrees_within: binder.positive(&path, &expected.agrees_within, "the agreement")?,
-            because: expected.because.trim().to_owned(),
+            agrees_within: binder.positive(&within, &expected.agrees_within, "the agreement")?,
+            because: expect::because(binder, &path, &expected.because)?,
         })
     };
     bases.into_iter().zip(names).zip(owners).map(case).collect()

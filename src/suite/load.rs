@@ -1,11 +1,14 @@
 //! From words to a suite: every number computed, every name resolved, the truth checked.
 
 use super::{
-    binder::{Binder, Path},
+    binder::{Binder, Path, shown},
     cases, force,
-    model::{ConvergencePlan, ReferencePlan, StudyPlan, Suite},
-    scene, truth,
-    words::{ConvergenceWords, Head, InternalForceWords, ReferenceWords, RefineWords, StudyName},
+    model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
+    scene, size, truth,
+    words::{
+        ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, RefineWords,
+        StudyName,
+    },
     yaml::{Complaint, Source, read},
 };
 
@@ -44,14 +47,14 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let until = cases::until(&binder, &words.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
     let exact = truth::exact(&binder, &words, &scene, latest)?;
-    let reference = words.reference.as_ref().map(|words| reference(&binder, words)).transpose()?;
+    let dimension = scene.dimension();
+    let reference = words.reference.as_ref().map(|words| reference(&binder, words, dimension));
+    let reference = reference.transpose()?;
     if exact.is_none() && reference.is_none() {
         let message = "no truth: a convergence study needs `exact`, `reference` or both";
         return Err(binder.complain_key(&Path::top("suite"), message));
     }
-    let observe = words.observe.as_ref().map(|observe| {
-        binder.point(&Path::top("observe").then("at"), &observe.at, scene.dimension())
-    });
+    let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));
     let mut plan = ConvergencePlan {
         observe: observe.transpose()?,
         scene,
@@ -65,6 +68,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         crossing_levels: words.judge.crossing_levels,
         cases: Vec::new(),
     };
+    size::check(&binder, &words, &plan)?;
     cases::check_steps(&binder, &plan, &until)?;
     plan.cases = cases::cases(&binder, &words, &plan, &until)?;
     binder.refuse_unused(&words.parameters, &words.functions)?;
@@ -112,15 +116,17 @@ fn refine(
     dimension: usize,
 ) -> Result<(Vec<u64>, Option<u64>), Complaint> {
     let path = Path::top("refine");
-    let at = |i: usize| path.then("cells").then(i);
-    let texts = words.cells.as_slice().iter().enumerate();
-    let cells: Result<Vec<u64>, _> =
-        texts.map(|(i, text)| binder.count(&at(i), text, "the number of cells")).collect();
-    let mut cells = cells?;
-    cells.sort_unstable();
-    if cells.windows(2).any(|pair| pair[0] == pair[1]) {
-        return Err(binder.complain(&path.then("cells"), "a number of cells appears twice"));
+    let at = |i: usize| binder.alternative(&path.then("cells"), i);
+    let mut cells = Vec::new();
+    for (i, text) in words.cells.as_slice().iter().enumerate() {
+        let count = binder.count(&at(i), text, "the number of cells")?;
+        if cells.contains(&count) {
+            let message = format!("a level with {count} cells appears twice");
+            return Err(binder.complain(&at(i), &message).with_label("the second time"));
+        }
+        cells.push(count);
     }
+    cells.sort_unstable();
     let ppc_path = path.then("ppc");
     let ppc = words.ppc.as_ref().map(|text| {
         let ppc = binder.count(&ppc_path, text, "the number of particles per cell")?;
@@ -134,7 +140,35 @@ fn refine(
     Ok((cells, ppc.transpose()?))
 }
 
-fn reference(binder: &Binder<'_>, words: &ReferenceWords) -> Result<ReferencePlan, Complaint> {
+/// The place that is watched: one in the body.
+fn observed(
+    binder: &Binder<'_>,
+    words: &ObserveWords,
+    scene: &Scene,
+) -> Result<Vec<f64>, Complaint> {
+    let path = Path::top("observe").then("at");
+    let place = binder.point(&path, &words.at, scene.dimension())?;
+    for (axis, x) in place.iter().enumerate() {
+        let (from, to) = (scene.from[axis], scene.to[axis]);
+        if !(from..=to).contains(x) {
+            let message = format!("{} is outside the body", shown(*x));
+            let label = format!("expected a number from {} to {}", shown(from), shown(to));
+            return Err(binder.complain(&path.then(axis), &message).with_label(&label));
+        }
+    }
+    Ok(place)
+}
+
+fn reference(
+    binder: &Binder<'_>,
+    words: &ReferenceWords,
+    dimension: usize,
+) -> Result<ReferencePlan, Complaint> {
+    if dimension != 1 {
+        let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
+        let complaint = binder.complain_key(&Path::top("reference"), &message);
+        return Err(complaint.with_help("give this scene an `exact` solution"));
+    }
     let path = Path::top("reference").then("fem");
     Ok(ReferencePlan {
         equation: words.equation,

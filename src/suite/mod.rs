@@ -20,6 +20,7 @@ mod load;
 mod model;
 mod reference;
 mod scene;
+mod size;
 pub mod statement;
 mod truth;
 mod words;

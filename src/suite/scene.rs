@@ -1,7 +1,7 @@
 //! The body and what acts on it, from words.
 
 use super::{
-    binder::{Binder, Path},
+    binder::{Binder, Path, shown, suggestion},
     model::{Scene, SceneFace},
     words::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords},
     yaml::{Complaint, NumberText},
@@ -10,6 +10,10 @@ use crate::exact::formula::Formula;
 
 /// Names of the faces: low and high, axis by axis.
 const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+
+/// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
+const SHORTEST: f64 = 1e-30;
+const LONGEST: f64 = 1e30;
 
 /// Names of the coordinates in formulas.
 pub(super) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
@@ -56,7 +60,7 @@ fn dimension(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<usiz
     match [1.0, 2.0, 3.0].iter().position(|d| *d == dimension) {
         Some(index) => Ok(index + 1),
         None => Err(binder
-            .complain(&path, &format!("a scene of dimension {dimension}"))
+            .complain(&path, &format!("a scene of dimension {}", shown(dimension)))
             .with_label("expected 1, 2 or 3")),
     }
 }
@@ -71,9 +75,18 @@ fn corners(
     let to = binder.point(&path.then("to"), &words.to, dimension)?;
     for axis in 0..dimension {
         if !(from[axis] < to[axis]) {
-            let message = format!("the box ends at {} and starts at {}", to[axis], from[axis]);
+            let (from, to) = (shown(from[axis]), shown(to[axis]));
+            let message = format!("the box ends at {to} and starts at {from}");
             let complaint = binder.complain(&path.then("to").then(axis), &message);
             return Err(complaint.with_label("expected a number above that of `from`"));
+        }
+        // Squares of lengths appear in second derivatives, cubes in volumes.
+        let length = to[axis] - from[axis];
+        if !(SHORTEST..=LONGEST).contains(&length) {
+            let message = format!("the box is {} m long", shown(length));
+            let complaint = binder.complain(&path.then("to").then(axis), &message);
+            let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
+            return Err(complaint.with_label(&label));
         }
     }
     Ok((from, to))
@@ -124,7 +137,7 @@ fn face(
         } else {
             binder.complain(path, &message)
         };
-        complaint.with_help(&format!("known faces: {}", known.join(", ")))
+        complaint.with_help(&suggestion("faces", name, known))
     })
 }
 
@@ -193,7 +206,11 @@ fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<()
             } else {
                 format!("the {name} face at {body} is fixed, but the grid ends at {grid}")
             };
-            return Err(binder.complain(&path.then("grid").then(key).then(face.axis), &message));
+            let at = path.then("grid").then(key).then(face.axis);
+            let beyond = if face.high { "at least" } else { "at most" };
+            let label = if apart { "exactly" } else { beyond };
+            let label = format!("expected {label} {}", shown(body));
+            return Err(binder.complain(&at, &message).with_label(&label));
         }
     }
     Ok(())

@@ -12,6 +12,10 @@ use crate::exact::{Condition, Equation, Face, Motion, Problem, formula::Formula}
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 const TOLERANCE: f64 = 1e-8;
 
+/// Longest formula of a solution, which is evaluated some 30000 times with all its derivatives
+/// before anything runs.
+const MOST_OPERATIONS: u64 = 5000;
+
 /// The problem that a suite's formulas solve, if it has formulas.
 ///
 /// # Errors
@@ -58,7 +62,16 @@ fn motion(
 ) -> Result<Motion, Complaint> {
     let variables = coordinates_and_time(dimension);
     let path = path.then("displacement");
-    Ok(Motion::new(binder.vector(&path, &exact.displacement, dimension, &variables)?))
+    let components = binder.vector(&path, &exact.displacement, dimension, &variables)?;
+    for (i, component) in components.iter().enumerate() {
+        let operations = component.operations();
+        if operations > MOST_OPERATIONS {
+            let message = format!("this formula takes {operations} operations");
+            let label = format!("expected at most {MOST_OPERATIONS}: shorten its sums");
+            return Err(binder.complain(&path.then(i), &message).with_label(&label));
+        }
+    }
+    Ok(Motion::new(components))
 }
 
 fn tolerance(

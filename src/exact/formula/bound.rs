@@ -24,6 +24,7 @@ pub struct Formula {
     variables: usize,
     code: Vec<Instruction>,
     registers: usize,
+    operations: u64,
     result: Operand,
 }
 
@@ -49,6 +50,7 @@ impl Formula {
             variables: variables.len(),
             code: binder.code,
             registers: binder.registers,
+            operations: binder.operations,
             result,
         })
     }
@@ -67,6 +69,11 @@ impl Formula {
         } else {
             self.run(variables, &mut vec![zero; self.registers])
         }
+    }
+
+    /// Operations of one evaluation, those in sums as often as they run.
+    pub fn operations(&self) -> u64 {
+        self.operations
     }
 
     /// The text of the formula.

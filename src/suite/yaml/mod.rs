@@ -54,6 +54,7 @@ pub use place::Place;
 pub use read::read;
 pub use refusal::refuse;
 pub use source::{MAX_BYTES, Source};
+pub(in crate::suite) use words::nearest;
 
 /// The most entries that one list or one map may have.
 pub const MAX_ENTRIES: usize = 1000;

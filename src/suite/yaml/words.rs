@@ -64,7 +64,7 @@ pub(super) fn found(serde: &str) -> String {
 }
 
 /// The valid name that a misspelt one was most likely meant to be.
-pub(super) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a str> {
+pub(in crate::suite) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a str> {
     // The distance costs the product of the lengths, and a long name is no slip of the finger.
     if name.len() > 64 {
         return None;

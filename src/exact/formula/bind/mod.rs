@@ -48,7 +48,7 @@ pub(super) struct Binder<'a> {
     nodes: usize,
     /// How often the code under construction runs in one evaluation.
     runs: u64,
-    operations: u64,
+    pub(super) operations: u64,
 }
 
 impl<'a> Binder<'a> {

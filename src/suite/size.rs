@@ -1,0 +1,102 @@
+//! Whether every level fits into a machine, and has nodes where a face is held.
+
+use super::{
+    binder::{Binder, Path, shown},
+    dispatch::{cell_size, grid_axis, per_axis},
+    model::{ConvergencePlan, Scene},
+    words::{ConvergenceWords, MethodWords},
+    yaml::Complaint,
+};
+
+/// Most particles, and most nodes, of one level.
+const MOST: f64 = 5e7;
+
+/// Distance of a held face from the grid's face that is no more than rounding, in cells.
+const ROUNDING: f64 = 1e-6;
+
+/// Refuses a level that is too large, or on which a held face has no nodes.
+pub(super) fn check(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    plan: &ConvergencePlan,
+) -> Result<(), Complaint> {
+    reference(binder, plan)?;
+    if !words.methods.iter().any(|method| matches!(method, MethodWords::Mpm { .. })) {
+        return Ok(());
+    }
+    let path = Path::top("refine").then("cells");
+    for (i, text) in words.refine.cells.as_slice().iter().enumerate() {
+        let path = binder.alternative(&path, i);
+        let cells = binder.count(&path, text, "the number of cells")?;
+        level(binder, &path, plan, cells)?;
+    }
+    Ok(())
+}
+
+fn level(
+    binder: &Binder<'_>,
+    path: &Path,
+    plan: &ConvergencePlan,
+    cells: u64,
+) -> Result<(), Complaint> {
+    let h = cell_size(&plan.scene, cells);
+    let amounts = [("nodes", nodes(&plan.scene, h)), ("particles", particles(plan, h))];
+    for (what, amount) in amounts {
+        if amount > MOST || amount.is_nan() {
+            let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
+            let complaint = binder.complain(path, &message);
+            return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
+        }
+    }
+    held_faces(binder, path, &plan.scene, cells)
+}
+
+fn nodes(scene: &Scene, h: f64) -> f64 {
+    (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
+}
+
+fn particles(plan: &ConvergencePlan, h: f64) -> f64 {
+    let scene = &plan.scene;
+    let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
+    let along = |(from, to): (&f64, &f64)| ((to - from) * per_axis / h).max(1.0);
+    scene.from.iter().zip(&scene.to).map(along).product()
+}
+
+/// The nodes that are held lie on the last face of the grid, which must be that of the body.
+fn held_faces(
+    binder: &Binder<'_>,
+    path: &Path,
+    scene: &Scene,
+    cells: u64,
+) -> Result<(), Complaint> {
+    let h = cell_size(scene, cells);
+    for face in scene.faces.iter().filter(|face| face.fixed && face.high) {
+        let (origin, along) = grid_axis(scene, face.axis, h);
+        let (end, body) = (origin + along * h, scene.to[face.axis]);
+        if (end - body).abs() > ROUNDING * h {
+            let (name, h, end) = (face.name, shown(h), shown(end));
+            let message = format!(
+                "with {cells} cells along the first axis the {name} face, which is fixed, is at \
+                 {}, and the nodes next to it at {end}",
+                shown(body)
+            );
+            let label = format!("expected cells of which a whole number fits, not {h} m");
+            return Err(binder.complain(path, &message).with_label(&label));
+        }
+    }
+    Ok(())
+}
+
+/// A reference keeps its state at every instant.
+fn reference(binder: &Binder<'_>, plan: &ConvergencePlan) -> Result<(), Complaint> {
+    let Some(fine) = &plan.reference else { return Ok(()) };
+    let kept = fine.cells as f64 * plan.instants as f64;
+    if kept <= MOST {
+        return Ok(());
+    }
+    let message =
+        format!("{} elements at {} instants are too many to keep", fine.cells, plan.instants);
+    let path = Path::top("reference").then("fem").then("cells");
+    let label = format!("expected at most {MOST:e} elements times instants");
+    Err(binder.complain(&path, &message).with_label(&label))
+}

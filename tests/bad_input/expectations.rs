@@ -1,0 +1,63 @@
+//! Cases and what is expected of them: exactly one expectation for each.
+
+use super::{Edits, refused, samples::BAR};
+use rstest::rstest;
+
+#[rstest]
+#[case::one_that_fits_no_case(
+    &[("case: \"fem-*\"", "case: ▸\"fme-*\"")],
+    &["`fme-*` fits no case", "cases: mpm-linear-flip-musl, mpm-linear-flip-usl, fem-linear-lumped"]
+)]
+#[case::one_of_several_patterns_that_fits_no_case(
+    &[("case: \"mpm-*\"", "case: [\"mpm-*\", ▸\"mmp-*\"]")],
+    &["`mmp-*` fits no case"]
+)]
+#[case::a_second_one_for_a_case(
+    &[("- case: \"fem-*\"", "- ▸case: \"*\"")],
+    &["a second expectation for the case `mpm-linear-flip-musl`"]
+)]
+#[case::none_for_a_case(
+    &[("expect:", "▸expect:"), ("case: \"mpm-*\"", "case: \"mpm-*-musl\"")],
+    &["nothing is expected of the case `mpm-linear-flip-usl`"]
+)]
+#[case::an_interval_the_wrong_way_round(
+    &[("[1.5, 2.5]", "▸[2.5, 1.5]")],
+    &["the interval ends at 1.5 and starts at 2.5", "expected [low, high]"]
+)]
+#[case::an_interval_with_one_end(&[("[1.5, 2.5]", "▸[2.5]")], &["an interval has two ends", "expected [low, high]"])]
+#[case::no_reason(
+    &[("because: two levels", "because: ▸\"\" # two levels")],
+    &["an expectation needs its reason", "expected words"]
+)]
+#[case::a_blank_reason(
+    &[("because: two levels", "because: ▸\"  \" # two levels")],
+    &["an expectation needs its reason"]
+)]
+#[case::neither_order_nor_verdict(
+    &[("- case: \"mpm-*\"\n    verdict: too_few_levels\n", "- ▸case: \"mpm-*\"\n")],
+    &["this expects neither an order nor a verdict", "add `order: [1.9, 2.1]` or `verdict: divergent`"]
+)]
+fn expectations_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}
+
+#[rstest]
+#[case::a_scheme_twice(
+    &[("- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}", "- ▸mpm: {basis: linear, transfer: flip, scheme: [musl, musl]}")],
+    &["the case `mpm-linear-flip-musl` appears twice", "the second time"]
+)]
+#[case::a_method_twice(
+    &[("  - fem:", "  - ▸mpm: {basis: linear, transfer: flip, scheme: usl}\n  - fem:")],
+    &["the case `mpm-linear-flip-usl` appears twice", "the second time"]
+)]
+#[case::none(
+    &[
+        ("methods:\n", "methods: ▸[]\n"),
+        ("  - mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}\n", ""),
+        ("  - fem: {element: linear, mass: lumped}\n", ""),
+    ],
+    &["a suite without methods has no case"]
+)]
+fn methods_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}

@@ -1,0 +1,95 @@
+//! Suites with one mistake each: what is wrong, where, and what would be right.
+//!
+//! A mistake is written as edits of a sound suite. The sign `▸` in an edit is not part of the
+//! suite: it marks the place, line and column, at which the complaint must point.
+
+mod expectations;
+mod formulas;
+mod grammar;
+mod numbers;
+mod random;
+mod samples;
+mod scenes;
+mod sizes;
+mod truths;
+
+use mpm_verify::suite::{
+    Suite,
+    yaml::{Complaint, Source},
+};
+use rstest::rstest;
+use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED};
+
+/// Where a complaint must point.
+const HERE: char = '▸';
+
+/// Pairs of what a sound suite says and what stands there instead.
+type Edits<'a> = &'a [(&'a str, &'a str)];
+
+fn load(text: &str) -> Result<Suite, Complaint> {
+    Source::from_text("wrong.yaml", text).and_then(|source| Suite::load(&source))
+}
+
+/// Makes the edits in `sound` and demands a complaint that points at the mark and contains all of
+/// `words`.
+fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
+    let mut marked = sound.to_owned();
+    for (right, wrong) in edits {
+        assert!(marked.contains(right), "the suite does not say `{right}`");
+        marked = marked.replacen(right, wrong, 1);
+    }
+    let (before, after) = marked.split_once(HERE).expect("a mark");
+    let text = format!("{before}{after}");
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
+    let shown = match load(&text) {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(complaint) => complaint.to_string(),
+    };
+    let excerpt = text.lines().nth(line - 1).expect("a line");
+    points(&shown, line, column, excerpt);
+    for words in words {
+        assert!(shown.contains(words), "no `{words}` in\n{shown}");
+    }
+}
+
+/// Whether the complaint names the place, shows the line and has a caret under the column.
+fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
+    let lines: Vec<&str> = shown.lines().collect();
+    let place = format!("--> wrong.yaml:{line}:{column}");
+    assert!(lines.iter().any(|line| line.trim() == place), "no `{place}` in\n{shown}");
+    let start = format!("{line} | ");
+    let at = lines.iter().position(|line| line.starts_with(&start)).expect(shown);
+    let quoted = &lines[at][start.len()..];
+    // A long line is cut, and a tab is shown as spaces.
+    let cut = quoted.trim_end_matches('.');
+    let whole = excerpt.replace('\t', "    ");
+    assert!(whole.starts_with(cut), "another line in\n{shown}");
+    let carets = &lines[at + 1][start.len()..];
+    assert_eq!(carets.find('^'), Some(column - 1), "no caret under column {column} in\n{shown}");
+}
+
+#[rstest]
+#[case::bar(BAR)]
+#[case::plate(PLATE)]
+#[case::cube(CUBE)]
+#[case::column(COLUMN)]
+#[case::pulled(PULLED)]
+#[case::force(FORCE)]
+fn without_a_mistake_the_samples_are_sound(#[case] text: &str) {
+    if let Err(complaint) = load(text) {
+        panic!("{complaint}");
+    }
+}
+
+#[test]
+fn a_complaint_reads_like_that_of_a_compiler() {
+    let wrong = BAR.replace("until: 0.5", "until: -0.5");
+    let want = "\
+error: the end of the run is -0.5, and must be above zero
+  --> wrong.yaml:27:14
+   |
+27 | run: {until: -0.5, dt: 1e-3, instants: 50}
+   |              ^^^^ expected a positive number";
+    assert_eq!(load(&wrong).expect_err("a mistake").to_string(), want);
+}

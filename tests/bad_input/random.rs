@@ -1,0 +1,52 @@
+//! Slips of the finger: whatever one character does to a suite, loading it never panics.
+
+use super::{
+    load,
+    samples::{BAR, FORCE, PLATE},
+};
+use proptest::{collection::vec, prelude::*};
+
+/// Characters that mean something to YAML, to formulas or to nobody.
+const KEYS: &str = "09.-+*/^()[]{}:,#'\"%&!|>~ \t\neXtLé\u{0}";
+
+/// `text` without the character at `at`, with `key` in its place, or with `key` before it.
+fn slip(text: &str, at: usize, key: char, kind: u8) -> String {
+    let mut characters: Vec<char> = text.chars().collect();
+    let at = at % characters.len();
+    match kind % 3 {
+        0 => drop(characters.remove(at)),
+        1 => characters[at] = key,
+        _ => characters.insert(at, key),
+    }
+    characters.into_iter().collect()
+}
+
+fn key() -> impl Strategy<Value = char> {
+    prop::sample::select(KEYS.chars().collect::<Vec<_>>())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn one_slip_never_panics(
+        sound in prop::sample::select(vec![BAR, PLATE, FORCE]),
+        at in any::<usize>(),
+        key in key(),
+        kind in any::<u8>(),
+    ) {
+        if let Err(complaint) = load(&slip(sound, at, key, kind)) {
+            prop_assert!(complaint.to_string().contains("wrong.yaml"));
+        }
+    }
+
+    #[test]
+    fn nor_do_several(slips in vec((any::<usize>(), key(), any::<u8>()), 2..6)) {
+        let wrong = slips.into_iter().fold(BAR.to_owned(), |text, (at, key, kind)| {
+            slip(&text, at, key, kind)
+        });
+        if let Err(complaint) = load(&wrong) {
+            prop_assert!(complaint.to_string().contains("wrong.yaml"));
+        }
+    }
+}

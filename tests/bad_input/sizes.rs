@@ -1,0 +1,70 @@
+//! Suites that would take all memory or all time: refused at once, before anything is allocated.
+
+use super::{
+    Edits, refused,
+    samples::{BAR, CUBE, PLATE},
+};
+use rstest::rstest;
+use std::time::{Duration, Instant};
+
+fn refused_at_once(sound: &str, edits: Edits<'_>, words: &[&str]) {
+    let start = Instant::now();
+    refused(sound, edits, words);
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+}
+
+#[rstest]
+#[case::ten_million_cells_along_each_edge(
+    CUBE,
+    &[("[4, 8]", "[▸10000000]")],
+    &["with 10000000 cells along the first axis, 1.6e21 nodes", "expected at most 5e7 nodes"]
+)]
+#[case::more_particles_than_nodes(
+    CUBE,
+    &[("[4, 8]", "[4, ▸200]"), ("ppc: 8", "ppc: 64")],
+    &["with 200 cells along the first axis, 5.1e8 particles", "expected at most 5e7 particles"]
+)]
+#[case::a_plate_as_long_as_an_orbit(
+    PLATE,
+    &[("to: [1, 0.5]", "to: [1, 1e9]"), ("[4, 8]", "[▸4, 8]")],
+    &["with 4 cells along the first axis, ", "expected at most 5e7 nodes"]
+)]
+#[case::a_crumb_on_a_huge_grid(
+    BAR,
+    &[("[L + 5]", "[▸1e300]")],
+    &["the box is 1e300 m long", "expected a length from 1e-30 to 1e30"]
+)]
+fn a_level_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused_at_once(sound, edits, words);
+}
+
+/// A list that says `word` so many times.
+fn list(word: &str, times: usize) -> String {
+    format!("[{}]", vec![word; times].join(","))
+}
+
+#[test]
+fn more_levels_than_a_list_may_have() {
+    let levels = format!("▸{}", list("9", 1001));
+    refused_at_once(BAR, &[("[6, 12]", &levels)], &["this list has more than 1000 entries"]);
+}
+
+#[test]
+fn a_million_levels() {
+    let text = BAR.replace("[6, 12]", &list("9", 1_000_000));
+    let complaint = super::load(&text).expect_err("too long");
+    assert_eq!(complaint.one_line(), "wrong.yaml: the file is too large: 1955 KiB, at most 64 KiB");
+}
+
+#[test]
+fn lists_whose_product_is_a_thousand_million_cases() {
+    let method = format!(
+        "- ▸mpm: {{basis: {}, transfer: {}, scheme: {}}}",
+        list("linear", 1000),
+        list("flip", 1000),
+        list("usl", 1000)
+    );
+    let right = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}";
+    let words = ["these lists unfold into 1000000000 cases", "expected at most 1000 in a suite"];
+    refused_at_once(BAR, &[(right, &method)], &words);
+}

@@ -1,0 +1,107 @@
+//! Solutions that solve another problem: which condition fails, where, and by how much.
+
+use super::{
+    Edits, refused,
+    samples::{BAR, COLUMN, PULLED},
+};
+use rstest::rstest;
+
+/// Refuses, and demands a place, a time and both numbers besides `words`.
+fn violated(sound: &str, edits: Edits<'_>, words: &[&str]) {
+    let figures = [" is violated at X = (", "), t = ", "expected ", ", found ", " (off by "];
+    let label = ["this is not a solution of the problem that the scene states"];
+    refused(sound, edits, &[words, &figures, &label].concat());
+}
+
+#[rstest]
+#[case::a_wrong_coefficient_in_the_formula(
+    &[("[\"v0/omega*mode(X)*sin(omega*t)\"]", "[▸\"v0/omega/1.1*mode(X)*sin(1.1*omega*t)\"]")],
+    &["equation of motion in X, rho0 u_tt = Div P + rho0 b", "N/m3 (off by "]
+)]
+#[case::another_stiffness(
+    &[("young: E", "young: \"1.1*E\""), ("[\"v0/omega*", "[▸\"v0/omega*")],
+    &["equation of motion in X, rho0 u_tt = Div P + rho0 b"]
+)]
+#[case::a_face_that_should_be_fixed(
+    &[("  boundary: {left: fixed}\n", ""), ("[\"v0/omega*", "[▸\"v0/omega*")],
+    &["boundary condition: left is free, traction in X", "X = (0.000000)", "expected 0.000000e0", "Pa (off by "]
+)]
+#[case::a_face_that_should_be_free(
+    &[("{left: fixed}", "{left: fixed, right: fixed}"), ("[L + 5]", "[L]"), ("[\"v0/omega*", "[▸\"v0/omega*")],
+    &["boundary condition: right is fixed, u_X = 0", "X = (25.000000)", "expected 0.000000e0", "m (off by "]
+)]
+#[case::an_initial_displacement(
+    &[("[\"v0/omega*mode(X)*sin(omega*t)\"]", "[▸\"v0/omega*mode(X)*cos(omega*t)\"]")],
+    &["initial condition u_X(X, 0) = 0", "t = 0.000000", "expected 0.000000e0", "m (off by "]
+)]
+#[case::another_initial_velocity(
+    &[("[\"v0*mode(X)\"]", "[\"2*v0*mode(X)\"]"), ("[\"v0/omega*", "[▸\"v0/omega*")],
+    &["initial condition on the velocity in X", "t = 0.000000", "m/s (off by "]
+)]
+#[case::a_division_by_zero_at_the_start(
+    &[("[\"v0/omega*mode(X)*sin(omega*t)\"]", "[▸\"sin(X)/t*v0/omega*mode(X)\"]")],
+    &["initial condition u_X(X, 0) = 0", "t = 0.000000", "found inf m (off by inf)"]
+)]
+fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    violated(BAR, edits, words);
+}
+
+#[rstest]
+#[case::zero_everywhere(
+    &[
+        ("[\"v0/omega*mode(X)*sin(omega*t)\"]", "[▸0]"),
+        ("  initial_velocity: [\"v0*mode(X)\"]\n", ""),
+    ],
+    &["the demand that the displacement is not zero everywhere is violated at X = (", "found 0.000000e0 m"]
+)]
+#[case::no_number_in_the_end(
+    &[("[\"v0/omega*mode(X)*sin(omega*t)\"]", "[▸\"v0/omega*mode(X)*sin(omega*t)*sqrt(0.4 - t)\"]")],
+    &["the demand that the displacement is finite is violated at X = (", "t = 0.4", "found NaN m"]
+)]
+fn a_displacement_that_is(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}
+
+#[rstest]
+#[case::gravity_upwards(
+    &[("[\"-g\"]", "[\"g\"]"), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
+    &["equation of motion in X", "expected 1.962000e4, found 0.000000e0 N/m3"]
+)]
+#[case::a_wave_of_another_speed(
+    &[("\"sqrt(E/rho)\"", "\"1.05*sqrt(E/rho)\""), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
+    &["equation of motion in X", "N/m3 (off by "]
+)]
+#[case::a_blow_that_nothing_explains(
+    // The whole column gets another velocity at once: the equation holds before and after.
+    &[("max(tau, 0)^2\"", "max(tau, 0)^2 - max(tau - 0.2, 0)\""), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
+    &["momentum balance across wave fronts (the equation of motion in weak form"]
+)]
+fn a_column_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    violated(COLUMN, edits, words);
+}
+
+#[rstest]
+#[case::a_front_of_another_speed(
+    // Straight on both sides of the front, so the equation holds point by point.
+    &[("\"sqrt(E/rho)\"", "\"1.05*sqrt(E/rho)\""), ("- \"sum(k, 0, 2", "- ▸\"sum(k, 0, 2")],
+    &["momentum balance across wave fronts (the equation of motion in weak form"]
+)]
+#[case::another_load(
+    &[("\"p0*c/E", "\"1.1*p0*c/E"), ("- \"sum(k, 0, 2", "- ▸\"sum(k, 0, 2")],
+    &["boundary condition: right is loaded, traction in X", "expected 7.000000e-1, found 7.700000e-1 Pa"]
+)]
+#[case::a_pull_for_a_push(
+    &[("value: [p0]", "value: [\"-p0\"]"), ("- \"sum(k, 0, 2", "- ▸\"sum(k, 0, 2")],
+    &["boundary condition: right is loaded, traction in X", "expected -7.000000e-1"]
+)]
+fn a_pulled_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    violated(PULLED, edits, words);
+}
+
+#[test]
+fn a_bar_that_swings_a_hundred_times_is_sound() {
+    let long = BAR.replace("until: 0.5, dt: 1e-3", "until: 1000, dt: 1e-2");
+    if let Err(complaint) = super::load(&long) {
+        panic!("{complaint}");
+    }
+}

@@ -1,0 +1,46 @@
+//! Files meant to do harm, or that would by accident: refused at once, in words.
+
+use super::{BAD_INPUT, Folder};
+use rstest::rstest;
+use std::time::{Duration, Instant};
+
+#[rstest]
+#[case::fifty_megabytes("a".repeat(50_000_000).into_bytes(), "the file is too large: 48829 KiB, at most 64 KiB")]
+#[case::deep_nesting("[".repeat(60_000).into_bytes(), "lists and maps nest more than 64 deep")]
+#[case::an_alias_bomb(
+    b"a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n".to_vec(),
+    "anchors and aliases are not supported"
+)]
+#[case::not_text(b"suite: \xff\xfe\n".to_vec(), "the file is not UTF-8 text: byte 7 does not fit")]
+#[case::nothing(Vec::new(), "the file is empty; a suite starts with `suite: NAME`")]
+fn a_file_of(#[case] bytes: Vec<u8>, #[case] message: &str) {
+    let folder = Folder::new();
+    folder.write("bad.yaml", bytes);
+    for command in ["check", "run", "list", "explain"] {
+        refused(&folder, &[command, "bad.yaml"], &[message, "bad.yaml"]);
+    }
+}
+
+#[test]
+fn a_folder_in_the_place_of_a_file() {
+    let folder = Folder::new();
+    folder.write("suites/bad.yaml/notes.txt", "");
+    refused(&folder, &["check", "suites"], &["this is a folder, not a suite file", "bad.yaml"]);
+}
+
+#[test]
+fn a_file_that_is_not_there() {
+    let words = ["there is no such file", "missing.yaml"];
+    refused(&Folder::new(), &["run", "missing.yaml"], &words);
+}
+
+/// Exit status 2, words on standard error, nothing on standard output, and no delay.
+fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
+    let start = Instant::now();
+    let found = folder.call(arguments);
+    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    for words in words {
+        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    }
+}

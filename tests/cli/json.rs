@@ -1,0 +1,157 @@
+//! `--format json`: one document, with the keys that the documentation promises.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
+use serde_json::Value;
+
+const CASE: [&str; 11] = [
+    "case",
+    "subject",
+    "formal_order",
+    "observed_order",
+    "verdict",
+    "expected",
+    "passed",
+    "reason",
+    "unmet",
+    "levels",
+    "forces",
+];
+
+const LEVEL: [&str; 13] = [
+    "cells",
+    "h",
+    "dt",
+    "ppc",
+    "particles",
+    "steps",
+    "transfers",
+    "crossings",
+    "left_domain",
+    "min_j",
+    "errors",
+    "order",
+    "failure",
+];
+
+fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<&str> =
+        value.as_object().expect("a map").keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    keys
+}
+
+fn has(value: &Value, wanted: &[&str]) {
+    let mut wanted = wanted.to_vec();
+    wanted.sort_unstable();
+    assert_eq!(keys(value), wanted);
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
+fn document(folder: &Folder, targets: &[&str], code: i32) -> Value {
+    let found = folder.call(&[&["run", "--format", "json"], targets].concat());
+    assert_eq!(found.code, code, "{}", found.errors);
+    serde_json::from_str(&found.out).expect("one document")
+}
+
+#[test]
+fn every_key_is_there_and_no_other() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
+    has(&document, &["suites"]);
+    for suite in list(&document["suites"]) {
+        has(suite, &["suite", "passed", "cases"]);
+        for case in list(&suite["cases"]) {
+            has(case, &CASE);
+            for level in list(&case["levels"]) {
+                has(level, &LEVEL);
+                has(&level["errors"], &["rms", "l1", "l2", "linf", "max_rms"]);
+            }
+            for force in case["forces"].as_array().into_iter().flatten() {
+                has(force, &["position", "n_left", "n_right", "force", "predicted"]);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_case_that_converges_has_its_figures() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml"], SOUND);
+    let suite = &document["suites"][0];
+    assert_eq!((&suite["suite"], &suite["passed"]), (&"short-bar".into(), &true.into()));
+    let case = &suite["cases"][0];
+    assert_eq!(case["case"], "mpm-linear-flip-musl");
+    assert_eq!((&case["subject"], &case["verdict"]), (&"mpm".into(), &"converging".into()));
+    assert_eq!((&case["passed"], &case["unmet"]), (&true.into(), &Value::Array(Vec::new())));
+    assert_eq!((&case["formal_order"], &case["forces"]), (&2.0.into(), &Value::Null));
+    let order = |key: &str| case["observed_order"][key].as_f64().expect("a number");
+    has(&case["observed_order"], &["value", "low", "high"]);
+    assert!(order("low") <= order("value") && order("value") <= order("high"));
+    let levels = list(&case["levels"]);
+    let cells: Vec<u64> = levels.iter().filter_map(|level| level["cells"].as_u64()).collect();
+    assert_eq!(cells, [4, 6, 8, 12]);
+    assert_eq!((&levels[0]["order"], levels[1]["order"].is_number()), (&Value::Null, true));
+    assert_eq!((&levels[0]["ppc"], &levels[0]["particles"]), (&4.into(), &16.into()));
+    assert_eq!((&levels[0]["crossings"], &levels[0]["failure"]), (&0.into(), &Value::Null));
+}
+
+#[test]
+fn null_stands_for_what_finite_elements_do_not_have() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml"], SOUND);
+    let case = &document["suites"][0]["cases"][1];
+    assert_eq!(case["subject"], "fem");
+    for level in list(&case["levels"]) {
+        for key in ["ppc", "particles", "crossings", "left_domain"] {
+            assert_eq!(level[key], Value::Null, "{key}");
+        }
+        assert!(level["transfers"].is_u64() && level["errors"]["rms"].is_f64());
+    }
+}
+
+#[test]
+fn an_internal_force_study_has_forces_and_no_levels() {
+    let document = document(&Folder::new(), &["grid-crossing"], SOUND);
+    let case = &document["suites"][0]["cases"][0];
+    assert_eq!(list(&case["forces"]).len(), 16);
+    assert_eq!((&case["levels"], &case["formal_order"]), (&Value::Array(Vec::new()), &Value::Null));
+}
+
+#[test]
+fn what_is_not_finite_is_a_string() {
+    let document = document(&Folder::new(), &["steffen-bar"], SOUND);
+    let cases = list(&document["suites"][0]["cases"]);
+    let broken = cases.iter().find(|case| case["verdict"] == "failed").expect("a failure");
+    assert_eq!(broken["observed_order"], Value::Null);
+    let levels = list(&broken["levels"]);
+    let level = levels.iter().find(|level| level["failure"].is_string()).expect("a failed level");
+    for norm in ["rms", "l1", "l2", "linf", "max_rms"] {
+        assert_eq!(level["errors"][norm], "nan");
+    }
+}
+
+#[test]
+fn what_was_not_met_is_listed() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", ambitious());
+    let document = document(&folder, &["bar.yaml"], FAILED);
+    let suite = &document["suites"][0];
+    assert_eq!(suite["passed"], false);
+    let unmet = list(&suite["cases"][0]["unmet"]);
+    assert!(unmet.iter().all(Value::is_string) && !unmet.is_empty());
+}
+
+#[test]
+fn a_bad_file_leaves_one_document_of_the_good_ones() {
+    let folder = Folder::new();
+    folder.write("bad.yaml", mistaken());
+    let document = document(&folder, &["bad.yaml", "grid-crossing"], BAD_INPUT);
+    let suites = list(&document["suites"]);
+    assert_eq!((suites.len(), &suites[0]["suite"]), (1, &"grid-crossing".into()));
+}

@@ -1,0 +1,157 @@
+//! The command line as its user meets it: what is printed where, and with which exit status.
+
+mod explain;
+mod folder;
+mod hostile;
+mod json;
+mod run;
+
+use folder::Folder;
+
+/// Exit status of a run on which everything came as expected.
+const SOUND: i32 = 0;
+
+/// Exit status if some expectation was not met.
+const FAILED: i32 = 1;
+
+/// Exit status if something that was given cannot be used.
+const BAD_INPUT: i32 = 2;
+
+/// A suite of two subjects that runs in milliseconds.
+const BAR: &str = r#"suite: short-bar
+title: Short bar
+source: a textbook
+
+parameters:
+  omega: "5*pi"
+
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  material: {linear_elastic: {young: 100, poisson: 0, density: 1}}
+  boundary: {left: fixed}
+  initial_velocity: ["1e-3*sin(pi*X/2)"]
+
+exact:
+  equation: small_strain
+  displacement: ["1e-3*sin(pi*X/2)*sin(omega*t)/omega"]
+
+run: {until: 0.05, dt: 1e-3}
+refine: {cells: [4, 6, 8, 12], ppc: 4}
+
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+  - fem: {element: linear, mass: lumped}
+
+observe: {at: [0.5]}
+
+expect:
+  - order: [1.7, 2.3]
+    because: linear basis functions have order 2
+"#;
+
+/// The same suite, which expects too much.
+fn ambitious() -> String {
+    BAR.replace("short-bar", "ambitious-bar").replace("[1.7, 2.3]", "[2.9, 3.1]")
+}
+
+/// The same suite with a mistake in its ninth line.
+fn mistaken() -> String {
+    BAR.replace("short-bar", "mistaken-bar").replace("dimension:", "dimensions:")
+}
+
+#[test]
+fn without_a_folder_of_suites_the_ones_built_in_are_listed() {
+    let folder = Folder::new();
+    let listed = folder.call(&["list"]);
+    assert_eq!((listed.code, listed.errors.as_str()), (SOUND, ""));
+    for line in ["oedometer: Oedometer at large strain", "  mpm-linear-flip-usl-vs-exact"] {
+        assert!(listed.out.lines().any(|found| found == line), "{}", listed.out);
+    }
+}
+
+#[test]
+fn a_folder_of_suites_takes_the_place_of_the_ones_built_in() {
+    let folder = Folder::new();
+    folder.write("verification/short-bar.yaml", BAR);
+    folder.write("verification/notes.txt", "not a suite");
+    let wanted = "short-bar: Short bar\n  mpm-linear-flip-musl\n  fem-linear-lumped\n";
+    assert_eq!(folder.call(&["list"]).out, wanted);
+    assert_eq!(folder.call(&["list", "short-bar"]).out, wanted);
+    assert_eq!(folder.call(&["list", "verification"]).out, wanted);
+    // What is built in can still be named.
+    assert!(folder.call(&["list", "oedometer"]).out.starts_with("oedometer: "));
+}
+
+#[test]
+fn a_suite_may_lie_anywhere() {
+    let folder = Folder::new();
+    let path = folder.write("some where/bar.yaml", BAR);
+    for target in ["some where/bar.yaml", "some where", path.to_str().expect("a name")] {
+        let found = folder.call(&["check", target]);
+        assert_eq!((found.code, found.out.as_str()), (SOUND, "short-bar: sound, 2 cases\n"));
+    }
+}
+
+#[test]
+fn check_says_what_is_sound_and_what_is_not() {
+    let folder = Folder::new();
+    folder.write("a.yaml", BAR);
+    folder.write("b.yaml", mistaken());
+    folder
+        .write("c.yaml", BAR.replace("short-bar", "c-bar").replace("sin(omega*t)", "cos(omega*t)"));
+    assert_eq!(folder.call(&["check", "a.yaml"]).code, SOUND);
+    let found = folder.call(&["check", "."]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, "short-bar: sound, 2 cases\n"));
+    for words in [
+        "unknown key `dimensions`",
+        "b.yaml:9:3",
+        "did you mean `dimension`?",
+        "initial condition u_X(X, 0) = 0 is violated at X = ",
+        "c.yaml:17:18",
+    ] {
+        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    }
+}
+
+#[test]
+fn every_suite_that_is_built_in_is_sound() {
+    let found = Folder::new().call(&["check"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    assert!(found.out.lines().all(|line| line.contains(": sound, ")), "{}", found.out);
+}
+
+#[test]
+fn a_misspelt_name_is_answered_with_the_right_one() {
+    for command in ["list", "check", "explain", "run"] {
+        let found = Folder::new().call(&[command, "odometer"]);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        assert!(found.errors.contains("there is no suite called `odometer`"), "{}", found.errors);
+        assert!(found.errors.contains("did you mean `oedometer`?"), "{}", found.errors);
+    }
+}
+
+#[test]
+fn a_name_like_no_other_is_answered_with_all_of_them() {
+    let found = Folder::new().call(&["check", "zzz"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains("known suites: fem-oedometer"), "{}", found.errors);
+}
+
+#[test]
+fn a_folder_without_a_suite_is_an_error() {
+    let folder = Folder::new();
+    folder.write("empty/notes.txt", "nothing");
+    for command in ["list", "check", "explain", "run"] {
+        let found = folder.call(&[command, "empty"]);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        assert!(found.errors.contains("this folder holds no suite"), "{}", found.errors);
+    }
+}
+
+#[test]
+fn an_unknown_option_is_an_error() {
+    let found = Folder::new().call(&["run", "--colour"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains("--colour"), "{}", found.errors);
+}

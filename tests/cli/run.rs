@@ -1,0 +1,182 @@
+//! `run`: reports, verdicts, files, and the exit status that a machine looks at.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
+use std::{
+    io::{BufRead, BufReader, Read},
+    process::Stdio,
+};
+
+#[test]
+fn a_run_prints_the_report_and_the_table_of_verdicts() {
+    let found = Folder::new().call(&["run", "vibrating-bar-crossing"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    for words in [
+        "vibrating-bar-crossing: Vibrating bar, with and without grid crossing\n",
+        "== mpm-linear-flip-musl-until-10 ==",
+        "result            as expected",
+        "  pass  vibrating-bar-crossing::mpm-linear-flip-musl-until-0.5  too few levels",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
+fn run_is_what_happens_without_a_command() {
+    let folder = Folder::new();
+    assert_eq!(folder.call(&["grid-crossing"]).out, folder.call(&["run", "grid-crossing"]).out);
+}
+
+#[test]
+fn brief_leaves_the_reports_out() {
+    let found = Folder::new().call(&["run", "--brief", "grid-crossing"]);
+    assert_eq!((found.code, found.out.lines().count()), (SOUND, 2));
+    assert!(found.out.contains("  pass  grid-crossing::mpm-linear  agrees"), "{}", found.out);
+}
+
+#[test]
+fn an_expectation_that_is_not_met_says_what_was_expected_and_what_came() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", ambitious());
+    let found = folder.call(&["run", "bar.yaml"]);
+    assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
+    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "expected converging, order within [2.90, 3.10]",
+        "result NOT AS EXPECTED: ",
+        "too low",
+        "FAIL ambitious-bar::mpm-linear-flip-musl too low",
+    ] {
+        assert!(flat.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
+fn a_bad_file_does_not_hide_the_report_of_a_good_one() {
+    let folder = Folder::new();
+    folder.write("bad.yaml", mistaken());
+    folder.write("good.yaml", BAR);
+    let found = folder.call(&["run", "bad.yaml", "good.yaml", "odometer"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.out.contains("== fem-linear-lumped =="), "{}", found.out);
+    assert!(found.out.contains("  pass  short-bar::mpm-linear-flip-musl"), "{}", found.out);
+    assert!(found.errors.contains("bad.yaml:9:3"), "{}", found.errors);
+    assert!(found.errors.contains("did you mean `oedometer`?"), "{}", found.errors);
+}
+
+#[test]
+fn a_subject_that_breaks_half_way_leaves_the_other_cases_alone() {
+    let found = Folder::new().call(&["run", "steffen-bar"]);
+    assert_eq!(found.code, SOUND, "the suite expects the failure");
+    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "pass steffen-bar::mpm-linear-flip-musl-at-zero pre-asymptotic",
+        "pass steffen-bar::mpm-linear-flip-usl-at-zero failed",
+        "is inverted, J = -",
+        "(step ",
+    ] {
+        assert!(flat.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
+fn out_writes_the_report_the_figures_and_the_json() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let found = folder.call(&["run", "bar.yaml", "grid-crossing", "--out", "new/results"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let files = folder.files("new/results");
+    for file in [
+        "report.json",
+        "short-bar.txt",
+        "short-bar.svg",
+        "short-bar-mpm-linear-flip-musl-velocity.svg",
+        "short-bar-fem-linear-lumped-velocity.svg",
+        "grid-crossing.txt",
+        "grid-crossing.svg",
+    ] {
+        assert!(files.iter().any(|found| found == file), "no {file} among {files:?}");
+    }
+    let report = folder.read("new/results/short-bar.txt");
+    assert!(found.out.contains(&report), "the file is what was printed");
+    let json = folder.call(&["run", "bar.yaml", "grid-crossing", "--format", "json"]);
+    assert_eq!(folder.read("new/results/report.json"), json.out);
+    let figure = folder.read("new/results/short-bar.svg");
+    assert!(figure.contains("<svg") && figure.trim_end().ends_with("</svg>"));
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_bytes() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let run = |jobs: &str, format: &str| {
+        let arguments = ["run", "bar.yaml", "steffen-bar", "--jobs", jobs];
+        let out = ["--out", jobs, "--format", format];
+        let found = folder.call(&[&arguments[..], &out[..]].concat());
+        assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+        found.out
+    };
+    assert_eq!(run("1", "text"), run("2", "text"));
+    assert_eq!(run("1", "json"), run("2", "json"));
+    let files = folder.files("1");
+    assert_eq!(files, folder.files("2"));
+    for file in files {
+        let read = |jobs: &str| folder.read(&format!("{jobs}/{file}"));
+        assert!(read("1") == read("2"), "{file}");
+    }
+}
+
+#[test]
+fn zero_threads_are_too_few() {
+    for jobs in ["0", "1000000", "-1", "two"] {
+        let found = Folder::new().call(&["run", "grid-crossing", &format!("--jobs={jobs}")]);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        assert!(found.errors.contains("--jobs"), "{}", found.errors);
+    }
+}
+
+#[test]
+fn out_below_a_file_is_refused_before_anything_runs() {
+    let folder = Folder::new();
+    folder.write("file", "in the way");
+    let found = folder.call(&["run", "grid-crossing", "--out", "file/results"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.starts_with("error: --out file/results: "), "{}", found.errors);
+}
+
+#[test]
+fn two_suites_of_one_name_cannot_write_into_one_folder() {
+    let folder = Folder::new();
+    folder.write("a.yaml", BAR);
+    folder.write("b.yaml", BAR);
+    let found = folder.call(&["run", "a.yaml", "b.yaml", "--out", "results"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains("two suites are called `short-bar`"), "{}", found.errors);
+    assert_eq!(folder.call(&["run", "a.yaml", "b.yaml"]).code, SOUND);
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_reason_to_panic() {
+    let folder = Folder::new();
+    for arguments in [&["run", "steffen-bar"][..], &["list"], &["explain"], &["check"]] {
+        let mut command = folder.command(arguments);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().expect("the program starts");
+        let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
+        lines.read_line(&mut String::new()).expect("a first line");
+        drop(lines);
+        let mut errors = String::new();
+        child.stderr.take().expect("a pipe").read_to_string(&mut errors).expect("UTF-8");
+        let status = child.wait().expect("an end");
+        assert_eq!((status.code(), errors.as_str()), (Some(SOUND), ""), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_reader_that_never_came_is_no_reason_either() {
+    let folder = Folder::new();
+    let mut command = folder.command(&["run", "grid-crossing", "--format", "json"]);
+    let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("an end").code(), Some(SOUND));
+    assert!(folder.path().is_dir());
+}
