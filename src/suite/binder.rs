@@ -1,28 +1,18 @@
 //! From what a file says to numbers and formulas, with the place of whatever is wrong.
 
-use super::yaml::{Complaint, NumberText, Ordered, Source, Step, nearest};
+use super::{
+    path::Path,
+    wording::shown,
+    yaml::{Complaint, NumberText, Ordered, Source},
+};
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
 use std::{cell::RefCell, collections::BTreeSet};
 
 /// Largest count that a suite may ask for (cells, particles per cell, instants).
 const MOST: f64 = 1e7;
 
-/// The way to a value in a file.
-#[derive(Debug, Clone)]
-pub(super) struct Path(Vec<Step>);
-
-impl Path {
-    pub(super) fn top(key: &str) -> Self {
-        Self(vec![Step::from(key)])
-    }
-
-    /// One step further down.
-    pub(super) fn then(&self, step: impl Into<Step>) -> Self {
-        let mut longer = self.0.clone();
-        longer.push(step.into());
-        Self(longer)
-    }
-}
+/// A parameter: its name, what the file says, its value.
+pub(super) type Parameter = (String, String, f64);
 
 /// What a declared quantity is, for complaints: `the density`.
 type What<'a> = &'a str;
@@ -42,7 +32,7 @@ impl<'a> Binder<'a> {
         source: &'a Source,
         parameters: &Ordered<NumberText>,
         functions: &Ordered<String>,
-    ) -> Result<(Self, Vec<(String, String, f64)>), Complaint> {
+    ) -> Result<(Self, Vec<Parameter>), Complaint> {
         let scope = Scope::new();
         let heads = functions.as_slice().iter().map(|(head, _)| head.clone()).collect();
         let mut binder = Self { source, scope, used: RefCell::default(), heads };
@@ -215,12 +205,12 @@ impl<'a> Binder<'a> {
     /// The way to alternative `i` of what is a list or, if there is only one, may stand alone.
     pub(super) fn alternative(&self, path: &Path, i: usize) -> Path {
         let member = path.then(i);
-        if self.source.value_at(&member.0).is_some() { member } else { path.clone() }
+        if self.source.value_at(member.steps()).is_some() { member } else { path.clone() }
     }
 
     /// A complaint about the value at `path`.
     pub(super) fn complain(&self, path: &Path, message: &str) -> Complaint {
-        match self.source.value_at(&path.0) {
+        match self.source.value_at(path.steps()) {
             Some(place) => self.source.complain(place, message),
             None => Complaint::about(self.source.name(), message),
         }
@@ -228,7 +218,7 @@ impl<'a> Binder<'a> {
 
     /// A complaint about the key at `path`.
     pub(super) fn complain_key(&self, path: &Path, message: &str) -> Complaint {
-        match self.source.key_at(&path.0) {
+        match self.source.key_at(path.steps()) {
             Some(place) => self.source.complain(place, message),
             None => self.complain(path, message),
         }
@@ -239,7 +229,7 @@ impl<'a> Binder<'a> {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
         let path = function
             .map_or_else(|| path.clone(), |head| Path::top("functions").then(head.as_str()));
-        let complaint = match self.source.within(&path.0, error.span.clone()) {
+        let complaint = match self.source.within(path.steps(), error.span.clone()) {
             Some(place) => self.source.complain(place, &error.message),
             None => self.complain(&path, &error.message),
         };
@@ -260,19 +250,6 @@ fn with_help(complaint: Complaint, error: &FormulaError) -> Complaint {
     match &error.help {
         Some(help) => complaint.with_help(help),
         None => complaint,
-    }
-}
-
-/// A number as an author would write it: 1e300 rather than a one and 300 zeros.
-pub(super) fn shown(value: f64) -> String {
-    NumberText::Number(value).to_string()
-}
-
-/// The name that was most likely meant, or all `known` ones.
-pub(super) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
-    match nearest(name, known) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known {kind}: {}", known.join(", ")),
     }
 }
 

@@ -1,10 +1,13 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
 use super::{
-    binder::{Binder, Path, shown},
+    binder::Binder,
     dispatch::cell_size,
     expect,
-    model::{Against, Case, ConvergencePlan, Method},
+    method::Method,
+    model::{Against, Case, ConvergencePlan},
+    path::Path,
+    wording::shown,
     words::{ConvergenceWords, EquationName, MethodWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };

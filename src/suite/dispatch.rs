@@ -2,7 +2,8 @@
 //! 1, 2 and 3 dimensions.
 
 use super::{
-    model::{ConvergencePlan, Method, Scene, SceneFace},
+    method::Method,
+    model::{ConvergencePlan, Scene, SceneFace},
     words::EquationName,
 };
 use crate::{

@@ -1,7 +1,9 @@
 //! Which expectation holds for which case: exactly one for each.
 
 use super::{
-    binder::{Binder, Path, suggestion},
+    binder::Binder,
+    path::Path,
+    wording::suggestion,
     words::{CrossingsName, ExpectWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };

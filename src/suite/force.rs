@@ -5,9 +5,10 @@
 //! solver's own P2G.
 
 use super::{
-    binder::{Binder, Path},
+    binder::Binder,
     expect,
     model::{ForceCase, ForcePlan},
+    path::Path,
     words::{ForceMethodWords, InternalForceWords},
     yaml::Complaint,
 };

@@ -1,10 +1,12 @@
 //! From words to a suite: every number computed, every name resolved, the truth checked.
 
 use super::{
-    binder::{Binder, Path, shown},
+    binder::Binder,
     cases, force,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
+    path::Path,
     scene, size, truth,
+    wording::shown,
     words::{
         ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, RefineWords,
         StudyName,

@@ -16,19 +16,24 @@ pub mod embedded;
 mod execute;
 mod expect;
 mod force;
+mod judged;
 mod load;
+mod method;
 mod model;
+mod path;
 mod reference;
 mod scene;
 mod size;
 pub mod statement;
 mod truth;
+mod wording;
 mod words;
 pub mod yaml;
 
 pub use execute::{Progress, Runner};
+pub use method::Method;
 pub use model::{
-    Against, Case, ConvergencePlan, ForceCase, ForcePlan, Method, ReferencePlan, Scene, SceneFace,
+    Against, Case, ConvergencePlan, ForceCase, ForcePlan, ReferencePlan, Scene, SceneFace,
     StudyPlan, Suite,
 };
 pub use words::{CrossingLevels, EquationName, NormName};

@@ -1,11 +1,13 @@
 //! A suite whose every word has been checked and every number computed.
 
-use super::words::{CrossingLevels, EquationName, NormName};
+use super::{
+    method::Method,
+    words::{CrossingLevels, EquationName, NormName},
+};
 use crate::{
     exact::{Problem, formula::Formula},
-    fem::{Element, Mass, Sampling},
-    mpm::{BasisName, SchemeName, TransferName},
-    subject::Start,
+    fem::{Element, Mass},
+    mpm::BasisName,
     verify::Expectation,
 };
 
@@ -86,35 +88,6 @@ pub enum Against {
     Exact,
     /// The fine computation.
     Reference,
-}
-
-/// A subject, by the names of its parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// The reference MPM.
-    Mpm {
-        /// Basis functions.
-        basis: BasisName,
-        /// Velocity transfer.
-        transfer: TransferName,
-        /// Time scheme.
-        scheme: SchemeName,
-        /// Treatment of the initial velocity.
-        start: Start,
-    },
-    /// The reference FEM.
-    Fem {
-        /// Shape functions.
-        element: Element,
-        /// Mass matrix.
-        mass: Mass,
-        /// Law between stress and strain.
-        law: EquationName,
-        /// Treatment of the initial velocity.
-        start: Start,
-        /// Where the error is taken.
-        sampling: Sampling,
-    },
 }
 
 /// The body and what acts on it.
@@ -216,48 +189,5 @@ impl Scene {
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.from.len()
-    }
-}
-
-impl Method {
-    /// `mpm` or `fem`.
-    pub fn subject(&self) -> &'static str {
-        match self {
-            Self::Mpm { .. } => "mpm",
-            Self::Fem { .. } => "fem",
-        }
-    }
-
-    /// The order of the displacement error that theory gives the method on a smooth solution:
-    /// p + 1 for a basis of degree p, 2p for the nodal values of elements that superconverge
-    /// (Strang & Fix 1973, section 1.6).
-    pub fn formal_order(&self) -> f64 {
-        match self {
-            Self::Mpm { basis, .. } => basis.formal_order(),
-            Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
-            Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
-        }
-    }
-
-    /// What makes the method, as rows of name and value.
-    pub fn settings(&self) -> Vec<(String, String)> {
-        let rows = match self {
-            Self::Mpm { basis, transfer, scheme, start } => vec![
-                ("basis", basis.name()),
-                ("transfer", transfer.name()),
-                ("scheme", scheme.name()),
-                ("mass matrix", "lumped (row sum)"),
-                ("walls", "nodes on a fixed face are held"),
-                ("start", start.name()),
-            ],
-            Self::Fem { element, mass, law, start, sampling } => vec![
-                ("element", element.name()),
-                ("mass matrix", mass.name()),
-                ("law", law.name()),
-                ("start", start.name()),
-                ("error taken", sampling.name()),
-            ],
-        };
-        rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
     }
 }

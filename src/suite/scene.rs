@@ -1,8 +1,10 @@
 //! The body and what acts on it, from words.
 
 use super::{
-    binder::{Binder, Path, shown, suggestion},
+    binder::Binder,
     model::{Scene, SceneFace},
+    path::Path,
+    wording::{shown, suggestion},
     words::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords},
     yaml::{Complaint, NumberText},
 };

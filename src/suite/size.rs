@@ -1,9 +1,11 @@
 //! Whether every level fits into a machine, and has nodes where a face is held.
 
 use super::{
-    binder::{Binder, Path, shown},
+    binder::Binder,
     dispatch::{cell_size, grid_axis, per_axis},
     model::{ConvergencePlan, Scene},
+    path::Path,
+    wording::shown,
     words::{ConvergenceWords, MethodWords},
     yaml::Complaint,
 };

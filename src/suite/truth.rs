@@ -1,8 +1,9 @@
 //! The exact solution of a suite, checked before it is used.
 
 use super::{
-    binder::{Binder, Path},
+    binder::Binder,
     model::{Scene, SceneFace},
+    path::Path,
     scene::coordinates_and_time,
     words::{ConvergenceWords, EquationName, ExactWords, LoadWords},
     yaml::{Complaint, NumberText},

@@ -1,0 +1,80 @@
+//! The methods that a suite can put to the test.
+
+use super::words::EquationName;
+use crate::{
+    fem::{Element, Mass, Sampling},
+    mpm::{BasisName, SchemeName, TransferName},
+    subject::Start,
+};
+
+/// A subject, by the names of its parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The reference MPM.
+    Mpm {
+        /// Basis functions.
+        basis: BasisName,
+        /// Velocity transfer.
+        transfer: TransferName,
+        /// Time scheme.
+        scheme: SchemeName,
+        /// Treatment of the initial velocity.
+        start: Start,
+    },
+    /// The reference FEM.
+    Fem {
+        /// Shape functions.
+        element: Element,
+        /// Mass matrix.
+        mass: Mass,
+        /// Law between stress and strain.
+        law: EquationName,
+        /// Treatment of the initial velocity.
+        start: Start,
+        /// Where the error is taken.
+        sampling: Sampling,
+    },
+}
+
+impl Method {
+    /// `mpm` or `fem`.
+    pub fn subject(&self) -> &'static str {
+        match self {
+            Self::Mpm { .. } => "mpm",
+            Self::Fem { .. } => "fem",
+        }
+    }
+
+    /// The order of the displacement error that theory gives the method on a smooth solution:
+    /// p + 1 for a basis of degree p, 2p for the nodal values of elements that superconverge
+    /// (Strang & Fix 1973, section 1.6).
+    pub fn formal_order(&self) -> f64 {
+        match self {
+            Self::Mpm { basis, .. } => basis.formal_order(),
+            Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
+            Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
+        }
+    }
+
+    /// What makes the method, as rows of name and value.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let rows = match self {
+            Self::Mpm { basis, transfer, scheme, start } => vec![
+                ("basis", basis.name()),
+                ("transfer", transfer.name()),
+                ("scheme", scheme.name()),
+                ("mass matrix", "lumped (row sum)"),
+                ("walls", "nodes on a fixed face are held"),
+                ("start", start.name()),
+            ],
+            Self::Fem { element, mass, law, start, sampling } => vec![
+                ("element", element.name()),
+                ("mass matrix", mass.name()),
+                ("law", law.name()),
+                ("start", start.name()),
+                ("error taken", sampling.name()),
+            ],
+        };
+        rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+    }
+}

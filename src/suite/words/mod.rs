@@ -1,0 +1,202 @@
+//! The grammar of a suite: what may stand in a YAML file, before any number is known.
+//!
+//! Every map refuses keys that it does not know. A number may be a formula of declared parameters;
+//! a method's entries may be lists, whose product gives the cases.
+
+mod force;
+mod scene;
+
+pub(in crate::suite) use force::{ForceMethodWords, InternalForceWords};
+pub(in crate::suite) use scene::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords};
+
+use super::yaml::{NumberText, OneOrMany, Ordered};
+use crate::{
+    fem::{Element, Mass, Sampling},
+    mpm::{BasisName, SchemeName, TransferName},
+    named::named,
+    subject::Start,
+};
+use serde::Deserialize;
+
+/// What every suite has, whatever it studies.
+#[derive(Debug, Clone, Deserialize)]
+pub(in crate::suite) struct Head {
+    #[serde(default = "StudyName::default_study")]
+    pub(in crate::suite) study: StudyName,
+}
+
+/// Kinds of study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::suite) enum StudyName {
+    /// Errors over a refinement plan.
+    Convergence,
+    /// Internal force on a node while a particle moves through it.
+    InternalForce,
+}
+
+impl StudyName {
+    fn default_study() -> Self {
+        Self::Convergence
+    }
+}
+
+/// A convergence study.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ConvergenceWords {
+    pub(in crate::suite) suite: String,
+    #[serde(rename = "study")]
+    pub(in crate::suite) _study: Option<StudyName>,
+    pub(in crate::suite) title: String,
+    pub(in crate::suite) source: String,
+    #[serde(default)]
+    pub(in crate::suite) about: String,
+    #[serde(default)]
+    pub(in crate::suite) parameters: Ordered<NumberText>,
+    #[serde(default)]
+    pub(in crate::suite) functions: Ordered<String>,
+    pub(in crate::suite) scene: SceneWords,
+    pub(in crate::suite) exact: Option<ExactWords>,
+    pub(in crate::suite) reference: Option<ReferenceWords>,
+    pub(in crate::suite) run: RunWords,
+    pub(in crate::suite) refine: RefineWords,
+    pub(in crate::suite) methods: Vec<MethodWords>,
+    #[serde(default)]
+    pub(in crate::suite) judge: JudgeWords,
+    pub(in crate::suite) observe: Option<ObserveWords>,
+    pub(in crate::suite) expect: Vec<ExpectWords>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ExactWords {
+    pub(in crate::suite) equation: EquationName,
+    pub(in crate::suite) displacement: Vec<NumberText>,
+    pub(in crate::suite) tolerance: Option<NumberText>,
+}
+
+named! {
+    /// Equations of motion, by their law between stress and strain.
+    pub enum EquationName {
+        /// `P = E u_X`: the linear problem of the talk.
+        SmallStrain = "small_strain",
+        /// `P = E ln F`: what the rate form of the original MPM integrates to in 1-D.
+        LogStrain = "log_strain",
+    }
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ReferenceWords {
+    pub(in crate::suite) equation: EquationName,
+    pub(in crate::suite) fem: ReferenceFemWords,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ReferenceFemWords {
+    pub(in crate::suite) element: Element,
+    pub(in crate::suite) mass: Mass,
+    pub(in crate::suite) cells: NumberText,
+    pub(in crate::suite) dt: NumberText,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct RunWords {
+    pub(in crate::suite) until: OneOrMany<NumberText>,
+    pub(in crate::suite) dt: NumberText,
+    pub(in crate::suite) instants: Option<NumberText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct RefineWords {
+    pub(in crate::suite) cells: OneOrMany<NumberText>,
+    pub(in crate::suite) ppc: Option<NumberText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(in crate::suite) enum MethodWords {
+    Mpm {
+        basis: OneOrMany<BasisName>,
+        transfer: OneOrMany<TransferName>,
+        scheme: OneOrMany<SchemeName>,
+        start: Option<OneOrMany<Start>>,
+    },
+    Fem {
+        element: OneOrMany<Element>,
+        mass: OneOrMany<Mass>,
+        law: Option<OneOrMany<EquationName>>,
+        start: Option<OneOrMany<Start>>,
+        sampling: Option<OneOrMany<Sampling>>,
+    },
+}
+
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct JudgeWords {
+    #[serde(default)]
+    pub(in crate::suite) norm: NormName,
+    #[serde(default)]
+    pub(in crate::suite) crossing_levels: CrossingLevels,
+}
+
+named! {
+    /// The error that is judged.
+    #[derive(Default)]
+    pub enum NormName {
+        /// RMS over labels at the end: the measure of the talk.
+        #[default]
+        Rms = "rms",
+        /// Mean, weighted by volume, at the end.
+        L1 = "l1",
+        /// RMS, weighted by volume, at the end.
+        L2 = "l2",
+        /// Largest at the end.
+        Linf = "linf",
+        /// Largest RMS over the instants.
+        MaxRms = "max_rms",
+    }
+}
+
+named! {
+    /// Whether levels on which particles changed their cell may count.
+    #[derive(Default)]
+    pub enum CrossingLevels {
+        /// They count like others.
+        #[default]
+        Counted = "counted",
+        /// They are shown and do not count.
+        Excluded = "excluded",
+    }
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ObserveWords {
+    pub(in crate::suite) at: Vec<NumberText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ExpectWords {
+    pub(in crate::suite) case: Option<OneOrMany<String>>,
+    pub(in crate::suite) verdict: Option<String>,
+    pub(in crate::suite) order: Option<Vec<NumberText>>,
+    pub(in crate::suite) finest_pair: Option<Vec<NumberText>>,
+    pub(in crate::suite) crossings: Option<CrossingsName>,
+    pub(in crate::suite) because: String,
+}
+
+/// Whether particles change their cell on the finest level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::suite) enum CrossingsName {
+    /// None does.
+    None,
+    /// At least one does.
+    Some,
+}

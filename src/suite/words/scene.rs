@@ -1,0 +1,54 @@
+//! The words of a scene.
+
+use crate::suite::yaml::{NumberText, Ordered};
+use serde::Deserialize;
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct SceneWords {
+    pub(in crate::suite) dimension: NumberText,
+    pub(in crate::suite) body: BodyWords,
+    pub(in crate::suite) grid: Option<BoxWords>,
+    pub(in crate::suite) material: MaterialWords,
+    #[serde(default)]
+    pub(in crate::suite) boundary: Ordered<BoundaryName>,
+    pub(in crate::suite) initial_velocity: Option<Vec<NumberText>>,
+    #[serde(default)]
+    pub(in crate::suite) loads: Vec<LoadWords>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::suite) enum BodyWords {
+    Box(BoxWords),
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct BoxWords {
+    pub(in crate::suite) from: Vec<NumberText>,
+    pub(in crate::suite) to: Vec<NumberText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(in crate::suite) enum MaterialWords {
+    LinearElastic { young: NumberText, poisson: NumberText, density: NumberText },
+}
+
+/// Boundary conditions on a face; a face that is not named is free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::suite) enum BoundaryName {
+    /// No displacement.
+    Fixed,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(in crate::suite) enum LoadWords {
+    /// Uniform acceleration (m/s2), formulas of t.
+    Gravity(Vec<NumberText>),
+    /// Force per reference area on one face (Pa), formulas of t.
+    Traction { on: String, value: Vec<NumberText> },
+}
