@@ -14,6 +14,7 @@ use mpm_verify::{
     suite::{Runner, Suite, yaml::Source},
     verify::CaseOutcome,
 };
+use rayon::prelude::*;
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
@@ -25,7 +26,7 @@ fn main() -> ExitCode {
     // A snapshot that differs ends in a panic, whose backtrace tells nobody anything.
     std::panic::set_hook(Box::new(|panic| eprintln!("{panic}")));
     let arguments = Arguments::from_args();
-    let trials = files().iter().flat_map(|file| trials(file)).collect::<Vec<_>>();
+    let trials = files().par_iter().flat_map_iter(|file| trials(file)).collect::<Vec<_>>();
     let trials = if trials.is_empty() { vec![nothing_found()] } else { trials };
     libtest_mimic::run(&arguments, trials).exit_code()
 }

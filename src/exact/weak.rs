@@ -8,11 +8,14 @@
 use super::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
 
 /// Patches per problem.
-const PATCHES: usize = 6;
+const PATCHES: usize = 12;
 
-/// Largest imbalance, relative to the sum of the magnitudes of the terms. The quadrature of a
-/// jump on the grid of points below is good to about one part in its points per axis.
-const TOLERANCE: f64 = 0.02;
+/// Largest imbalance, relative to the sum of the magnitudes of the terms. The quadrature of a jump
+/// that runs obliquely through the grid of points below is good to about a thousandth.
+const TOLERANCE: f64 = 0.005;
+
+/// Longest patch, in times that a wave takes through the body: the points below must resolve it.
+const WAVES: f64 = 4.0;
 
 /// A box in space and time with the bump `phi = prod (1 - xi^2)^2` on it.
 struct Patch {
@@ -24,9 +27,10 @@ impl Patch {
     fn draw(random: &mut Random, problem: &Problem) -> Self {
         let low = problem.from.iter().chain([&0.0]);
         let high = problem.to.iter().chain([&problem.until]);
+        let longest = problem.to.iter().map(|_| f64::INFINITY).chain([WAVES * crossing(problem)]);
         let (mut centre, mut half) = (Vec::new(), Vec::new());
-        for (low, high) in low.zip(high) {
-            let width = (high - low) * random.between(0.4, 0.9);
+        for ((low, high), longest) in low.zip(high).zip(longest) {
+            let width = (high - low).min(longest) * random.between(0.2, 1.0);
             let start = low + (high - low - width) * random.unit();
             centre.push(start + 0.5 * width);
             half.push(0.5 * width);
@@ -44,6 +48,13 @@ impl Patch {
         });
         (value, slope.collect())
     }
+}
+
+/// Time that a wave takes through the body, on its longest axis.
+fn crossing(problem: &Problem) -> f64 {
+    let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
+    let longest = lengths.fold(0.0, f64::max);
+    longest / (problem.equation.modulus() / problem.density).sqrt()
 }
 
 /// Checks the balance of momentum on [`PATCHES`] patches.
