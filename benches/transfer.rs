@@ -52,10 +52,14 @@ impl Random {
 }
 
 /// A cube of about `count` particles in random motion, one empty cell inside the walls.
-fn scene<const D: usize>(count: usize, order: Order) -> (Grid<D>, Particles<D>) {
+fn scene<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    count: usize,
+    order: Order,
+) -> (Grid<D>, Particles<D>) {
     let per_cell = PER_AXIS.pow(D as u32) as f64;
     let side = libm::round(libm::pow(count as f64 / per_cell, 1.0 / D as f64)).max(1.0) as usize;
-    let grid = Grid::new(Vector::zeros(), H, [side + 2; D]);
+    let grid = kernel.grid(Vector::zeros(), H, [side + 2; D], [false; D]);
     let (from, to) = (Vector::from_element(H), Vector::from_element(H * (side + 1) as f64));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, H, PER_AXIS);
     match order {
@@ -172,7 +176,11 @@ fn compare<const D: usize>(
     let names = format!("{}/{}/{order_name}/{count_name}", basis.name(), transfer.name());
     let id = format!("transfer/{D}d/{names}");
     let mut group = criterion.benchmark_group(&id);
-    let make = || (kernel::<D>(basis, transfer), scene::<D>(count, order));
+    let make = || {
+        let kernel = kernel::<D>(basis, transfer);
+        let scene = scene::<D>(&*kernel, count, order);
+        (kernel, scene)
+    };
     group.throughput(Throughput::Elements(make().1.1.len() as u64));
 
     group.bench_function(BenchmarkId::from_parameter("p2g"), |bencher| {

@@ -22,7 +22,7 @@ impl Fixed {
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
         let index = match side {
             Side::Low => 0,
-            Side::High => grid.cells[axis],
+            Side::High => grid.counts[axis] - 1,
         };
         let nodes = (0..grid.nodes()).filter(|&i| grid.index_on_axis(i, axis) == index).collect();
         Self { nodes }

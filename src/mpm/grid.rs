@@ -12,6 +12,10 @@ pub struct Grid<const D: usize> {
     pub h: f64,
     /// Cells along each axis.
     pub cells: [usize; D],
+    /// Axes whose ends are one and the same.
+    pub periodic: [bool; D],
+    /// Basis functions ("nodes") along each axis.
+    pub counts: [usize; D],
     /// Nodal mass m_i (kg).
     pub mass: Vec<f64>,
     /// Nodal momentum, then velocity, v_i (kg m/s, then m/s).
@@ -24,13 +28,22 @@ pub struct Grid<const D: usize> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// A grid of `cells` cells of size `h` from `origin` on.
-    pub fn new(origin: Vector<D>, h: f64, cells: [usize; D]) -> Self {
-        let nodes = cells.iter().map(|n| n + 1).product();
+    /// A grid of `cells` cells of size `h` from `origin` on, with `counts` basis functions along
+    /// the axes ([`Basis::count`](super::Basis::count)).
+    pub fn new(
+        origin: Vector<D>,
+        h: f64,
+        cells: [usize; D],
+        periodic: [bool; D],
+        counts: [usize; D],
+    ) -> Self {
+        let nodes = counts.iter().product();
         Self {
             origin,
             h,
             cells,
+            periodic,
+            counts,
             mass: vec![0.0; nodes],
             velocity: vec![Vector::zeros(); nodes],
             force: vec![Vector::zeros(); nodes],
@@ -50,20 +63,45 @@ impl<const D: usize> Grid<D> {
     pub fn cell(&self, x: &Vector<D>) -> Option<[usize; D]> {
         let mut cell = [0; D];
         for axis in 0..D {
-            let offset = self.local(x, axis);
+            let s = self.wrapped(x, axis);
             let n = self.cells[axis];
-            if !(offset >= 0.0 && offset <= n as f64) {
+            if !(s >= 0.0 && s <= n as f64) {
                 return None;
             }
-            cell[axis] = (offset as usize).min(n - 1);
+            cell[axis] = (s as usize).min(n - 1);
         }
         Some(cell)
     }
 
-    /// Position along `axis` in units of h, counted from the first node.
+    /// Position along `axis` in units of h, counted from the first wall.
     #[inline]
     pub fn local(&self, x: &Vector<D>, axis: usize) -> f64 {
         (x[axis] - self.origin[axis]) * self.inverse_h
+    }
+
+    /// The same, brought back into the grid on a periodic axis.
+    #[inline]
+    pub fn wrapped(&self, x: &Vector<D>, axis: usize) -> f64 {
+        let s = self.local(x, axis);
+        if !self.periodic[axis] {
+            return s;
+        }
+        let n = self.cells[axis] as f64;
+        s - n * libm::floor(s / n)
+    }
+
+    /// Index of a function on `axis`, brought back into the grid on a periodic axis.
+    #[inline]
+    pub fn wrap(&self, index: usize, axis: usize) -> usize {
+        if self.periodic[axis] { index % self.counts[axis] } else { index }
+    }
+
+    /// [`Grid::wrap`] for a whole number that may lie before the first wall.
+    #[inline]
+    pub fn wrap_signed(&self, index: f64, axis: usize) -> usize {
+        let n = self.counts[axis] as f64;
+        let index = if self.periodic[axis] { index - n * libm::floor(index / n) } else { index };
+        index as usize
     }
 
     /// 1/h (1/m).
@@ -77,15 +115,15 @@ impl<const D: usize> Grid<D> {
     pub fn node(&self, index: &[usize; D]) -> usize {
         let mut number = 0;
         for axis in (0..D).rev() {
-            number = number * (self.cells[axis] + 1) + index[axis];
+            number = number * self.counts[axis] + index[axis];
         }
         number
     }
 
     /// Index of a node on one axis.
     pub fn index_on_axis(&self, node: usize, axis: usize) -> usize {
-        let stride: usize = self.cells[..axis].iter().map(|n| n + 1).product();
-        node / stride % (self.cells[axis] + 1)
+        let stride: usize = self.counts[..axis].iter().product();
+        node / stride % self.counts[axis]
     }
 }
 
@@ -95,7 +133,7 @@ mod tests {
 
     #[test]
     fn numbers_and_indices_agree() {
-        let grid = Grid::<3>::new(Vector::zeros(), 0.5, [2, 3, 4]);
+        let grid = Grid::<3>::new(Vector::zeros(), 0.5, [2, 3, 4], [false; 3], [3, 4, 5]);
         for node in 0..grid.nodes() {
             let index = std::array::from_fn(|axis| grid.index_on_axis(node, axis));
             assert_eq!(grid.node(&index), node);
@@ -104,9 +142,18 @@ mod tests {
 
     #[test]
     fn outside_and_not_a_number_have_no_cell() {
-        let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [4]);
+        let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [4], [false], [5]);
         for (x, cell) in [(1.0, Some([0])), (3.0, Some([3])), (3.001, None), (f64::NAN, None)] {
             assert_eq!(grid.cell(&Vector::<1>::new(x)), cell, "x = {x}");
         }
+    }
+
+    #[test]
+    fn a_periodic_axis_has_no_outside() {
+        let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [4], [true], [4]);
+        for (x, cell) in [(1.0, 0), (3.0, 0), (0.9, 3), (-7.4, 3), (3.3, 0)] {
+            assert_eq!(grid.cell(&Vector::<1>::new(x)), Some([cell]), "x = {x}");
+        }
+        assert_eq!((grid.wrap(5, 0), grid.wrap_signed(-1.0, 0)), (1, 3));
     }
 }

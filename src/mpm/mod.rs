@@ -25,7 +25,10 @@ mod stage;
 mod transfer;
 
 pub use algebra::{Matrix, Vector, det, dyad};
-pub use basis::{Basis, BasisName, Linear, Stencil};
+pub use basis::{
+    Basis, BasisName, ContiguousGimp, CubicBSpline, Domain, Linear, QuadraticBSpline, Seen,
+    UniformGimp,
+};
 pub use boundary::{Fixed, Side};
 pub use effect::{Effect, Gravity, Traction};
 pub use grid::Grid;

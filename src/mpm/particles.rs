@@ -21,6 +21,12 @@ pub struct Particles<const D: usize> {
     pub vol: Vec<f64>,
     /// Cauchy stresses (Pa).
     pub sigma: Vec<Matrix<D>>,
+    /// Deformation gradients F; empty unless a basis or a material reads them.
+    pub def_grad: Vec<Matrix<D>>,
+    /// Half-lengths of the particles' domains along the axes (m) at the start of the step; empty
+    /// unless a basis reads them. They follow F when positions move, not before: a domain that
+    /// changed within a step would put forces on nodes that have no mass.
+    pub half: Vec<Vector<D>>,
     /// Velocity gradients of the present step (1/s), where the material meets the kernel.
     pub grad_v: Vec<Matrix<D>>,
     /// Reference spacing of the particles on each axis (m).
@@ -58,9 +64,25 @@ impl<const D: usize> Particles<D> {
             vol0: vec![volume; total],
             vol: vec![volume; total],
             sigma: vec![Matrix::zeros(); total],
+            def_grad: Vec::new(),
+            half: Vec::new(),
             grad_v: vec![Matrix::zeros(); total],
             x0,
             spacing,
+        }
+    }
+
+    /// Adds the column of deformation gradients, F = I, if it is not there yet.
+    pub fn track_deformation(&mut self) {
+        self.def_grad.resize(self.len(), Matrix::identity());
+    }
+
+    /// Adds the column of domains, or brings it up to date with F.
+    pub fn track_domains(&mut self) {
+        self.track_deformation();
+        self.half.resize(self.len(), Vector::zeros());
+        for (half, f) in self.half.iter_mut().zip(&self.def_grad) {
+            *half = Vector::from_fn(|axis, _| 0.5 * self.spacing[axis] * f[(axis, axis)].abs());
         }
     }
 

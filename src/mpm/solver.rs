@@ -1,8 +1,16 @@
 //! The solver: runs the stages of a scheme and keeps the census.
 
 use super::{
-    algebra::Vector, boundary::Fixed, effect::Effect, grid::Grid, kernel::Kernel,
-    material::Material, particles::Particles, scheme::SchemeName, stage::Stage,
+    algebra::{Matrix, Vector},
+    basis::Domain,
+    boundary::Fixed,
+    effect::Effect,
+    grid::Grid,
+    kernel::Kernel,
+    material::Material,
+    particles::Particles,
+    scheme::SchemeName,
+    stage::Stage,
 };
 use crate::subject::{Census, Failure, Samples, Site, Start, Subject};
 
@@ -44,7 +52,10 @@ impl<const D: usize> Solver<D> {
     /// # Errors
     /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
     /// starts outside the grid.
-    pub fn new(setup: Setup<D>) -> Result<Self, Failure> {
+    pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
+        if setup.kernel.domain() == Domain::Follows {
+            setup.particles.track_domains();
+        }
         setup.particles.all_finite()?;
         let cells = setup.particles.x.iter().enumerate().map(|(p, x)| {
             setup.grid.cell(x).ok_or_else(|| Failure::LeftDomain {
@@ -133,6 +144,9 @@ impl<const D: usize> Solver<D> {
     fn stress(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, material, .. } = &mut self.setup;
         kernel.g2p_gradient(grid, particles);
+        for (f, grad_v) in particles.def_grad.iter_mut().zip(&particles.grad_v) {
+            *f = (Matrix::identity() + grad_v * dt) * *f;
+        }
         material.update(dt, particles);
         self.count_pass();
         for (p, (vol, vol0)) in
@@ -153,6 +167,9 @@ impl<const D: usize> Solver<D> {
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, .. } = &mut self.setup;
         kernel.g2p_position(grid, dt, particles);
+        if kernel.domain() == Domain::Follows {
+            particles.track_domains();
+        }
         self.count_pass();
         self.track_cells()
     }

@@ -10,8 +10,8 @@ use crate::{
     exact::formula::Formula,
     fem::{self, Bar, Sampling},
     mpm::{
-        Block, Effect, Fixed, Gravity, Grid, LinearElastic, Particles, Side, Solver, Traction,
-        Vector, kernel,
+        Block, Effect, Fixed, Gravity, Grid, Kernel, LinearElastic, Particles, Side, Solver,
+        Traction, Vector, kernel,
     },
     subject::{Start, Subject},
 };
@@ -63,14 +63,15 @@ fn mpm<const D: usize>(
     let scene = &plan.scene;
     let h = cell_size(scene, cells);
     let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
-    let grid = grid::<D>(scene, h);
+    let kernel = kernel::<D>(basis, transfer);
+    let grid = grid(scene, h, kernel.as_ref());
     let (from, to) = (vector(&scene.from), vector(&scene.to));
     let mut particles = Particles::fill(&Block { from, to, density: scene.density }, h, per_axis);
     for (v, x0) in particles.v.iter_mut().zip(&particles.x0) {
         *v = at(&scene.initial_velocity, x0);
     }
     let setup = crate::mpm::Setup {
-        kernel: kernel::<D>(basis, transfer),
+        kernel,
         material: Box::new(LinearElastic::new(scene.young, scene.poisson)),
         effects: effects(scene, &particles),
         fixed: held(scene).map(|face| Fixed::face(&grid, face.axis, side(face))).collect(),
@@ -102,9 +103,10 @@ fn side(face: &SceneFace) -> Side {
 }
 
 /// The grid that the suite asks for, or the body's box with room beyond its free faces.
-fn grid<const D: usize>(scene: &Scene, h: f64) -> Grid<D> {
+fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
-    Grid::new(Vector::from_fn(|axis, _| axes[axis].0), h, axes.map(|(_, cells)| cells as usize))
+    let origin = Vector::from_fn(|axis, _| axes[axis].0);
+    kernel.grid(origin, h, axes.map(|(_, cells)| cells as usize), [false; D])
 }
 
 /// Where the grid starts on an axis (m), and its number of cells.

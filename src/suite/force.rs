@@ -13,7 +13,7 @@ use super::{
     yaml::Complaint,
 };
 use crate::{
-    mpm::{BasisName, Block, Grid, Matrix, Particles, TransferName, Vector, kernel},
+    mpm::{BasisName, Block, Matrix, Particles, TransferName, Vector, kernel},
     verify::ForceRow,
 };
 
@@ -106,7 +106,9 @@ fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
 fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     let h = plan.cell;
     let cells = 2 * (SPARE + 1);
-    let mut grid = Grid::<1>::new(Vector::<1>::new(-h * (SPARE + 1) as f64), h, [cells]);
+    let kernel = kernel::<1>(basis, TransferName::Flip);
+    let start = Vector::<1>::new(-h * (SPARE + 1) as f64);
+    let mut grid = kernel.grid(start, h, [cells], [false]);
     let (from, to) = (Vector::<1>::new(-h), Vector::<1>::new(h));
     let block = Block { from, to, density: 1.0 };
     let mut particles = Particles::fill(&block, h, plan.ppc as usize);
@@ -114,6 +116,6 @@ fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     particles.sigma.fill(Matrix::<1>::new(plan.stress));
     // The last particle of the left cell is the one that moves.
     particles.x[plan.ppc as usize - 1][0] = position * h;
-    kernel::<1>(basis, TransferName::Flip).p2g_internal_force(&particles, &mut grid);
+    kernel.p2g_internal_force(&particles, &mut grid);
     grid.force[SPARE + 1][0]
 }

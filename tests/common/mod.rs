@@ -2,7 +2,7 @@
 
 use mpm_verify::{
     mpm::{
-        BasisName, Block, Grid, LinearElastic, Matrix, Particles, SchemeName, Setup, TransferName,
+        BasisName, Block, LinearElastic, Matrix, Particles, SchemeName, Setup, TransferName,
         Vector, kernel,
     },
     subject::Start,
@@ -48,10 +48,11 @@ pub(crate) fn free_body<const D: usize>(
         let stress = Matrix::<D>::from_fn(|i, j| libm::cos(k + (3 * i + j) as f64));
         particles.sigma[p] = (stress + stress.transpose()) * 0.005;
     }
+    let kernel = kernel::<D>(basis, transfer);
     Setup {
-        grid: Grid::new(Vector::zeros(), H, [7; D]),
+        grid: kernel.grid(Vector::zeros(), H, [7; D], [false; D]),
         particles,
-        kernel: kernel(basis, transfer),
+        kernel,
         material: Box::new(LinearElastic::new(1.0, 0.3)),
         effects: Vec::new(),
         fixed: Vec::new(),

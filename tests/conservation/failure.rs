@@ -3,8 +3,8 @@
 use crate::common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
-        BasisName, Block, Fixed, Grid, LinearElastic, Matrix, Particles, SchemeName, Setup, Side,
-        Solver, TransferName, Vector, kernel,
+        BasisName, Block, Fixed, LinearElastic, Matrix, Particles, SchemeName, Setup, Side, Solver,
+        TransferName, Vector, kernel,
     },
     subject::{Failure, Samples, Site, Subject},
 };
@@ -39,11 +39,12 @@ fn scene<const D: usize>(scheme: SchemeName, x: f64, v: f64) -> Setup<D> {
     }
     particles.sigma = vec![Matrix::zeros(); 4];
     particles.grad_v = vec![Matrix::zeros(); 4];
+    let kernel = kernel::<D>(METHOD.0, METHOD.1);
     Setup {
-        grid: Grid::new(Vector::zeros(), 1.0, [8; D]),
+        grid: kernel.grid(Vector::zeros(), 1.0, [8; D], [false; D]),
         particles,
         material: Box::new(LinearElastic::new(1.0, 0.0)),
-        kernel: kernel(METHOD.0, METHOD.1),
+        kernel,
         ..free_body(METHOD, scheme)
     }
 }
@@ -141,7 +142,7 @@ fn a_state_that_is_no_number_is_traced_to_its_particle(#[values(1, 2, 3)] dimens
 #[test]
 fn fixed_nodes_do_not_hide_a_velocity_that_is_no_number() {
     let mut setup = scene::<1>(SchemeName::Usl, 0.5, NAN);
-    setup.grid = Grid::new(Vector::zeros(), 8.0, [1]);
+    setup.grid = setup.kernel.grid(Vector::zeros(), 8.0, [1], [false]);
     setup.fixed = [Side::Low, Side::High].map(|side| Fixed::face(&setup.grid, 0, side)).to_vec();
     assert!(Solver::new(setup).and_then(|mut solver| solver.step(0.1)).is_err());
 }

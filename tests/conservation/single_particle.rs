@@ -7,7 +7,7 @@
 use crate::common::H;
 use mpm_verify::{
     mpm::{
-        BasisName, Block, Grid, LinearElastic, Particles, SchemeName, Setup, Solver, TransferName,
+        BasisName, Block, LinearElastic, Particles, SchemeName, Setup, Solver, TransferName,
         Vector, kernel,
     },
     subject::{Start, Subject},
@@ -23,10 +23,11 @@ fn particle(scheme: SchemeName, xi: f64, sigma: f64) -> Solver<1> {
     let mut particles = Particles::fill(&Block { from, to, density: DENSITY }, H, 1);
     particles.x[0][0] = (1.0 + xi) * H;
     particles.sigma[0][(0, 0)] = sigma;
+    let kernel = kernel(BasisName::Linear, TransferName::Flip);
     let setup = Setup {
-        grid: Grid::new(Vector::zeros(), H, [3]),
+        grid: kernel.grid(Vector::zeros(), H, [3], [false]),
         particles,
-        kernel: kernel(BasisName::Linear, TransferName::Flip),
+        kernel,
         material: Box::new(LinearElastic::new(YOUNG, 0.0)),
         effects: Vec::new(),
         fixed: Vec::new(),

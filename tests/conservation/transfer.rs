@@ -2,7 +2,7 @@
 
 use crate::common::{H, in_dimension, methods};
 use approx::assert_abs_diff_eq;
-use mpm_verify::mpm::{Grid, Matrix, Particles, Vector, kernel};
+use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Vector, kernel};
 use proptest::{array::uniform3, collection::vec, prelude::*};
 
 const CELLS: usize = 4;
@@ -18,8 +18,8 @@ fn rows() -> impl Strategy<Value = Vec<Row>> {
     vec(row.prop_map(|((x, v, sigma), mass, vol)| (x, v, sigma, mass, vol)), 1..40)
 }
 
-fn grid<const D: usize>() -> Grid<D> {
-    Grid::new(Vector::zeros(), H, [CELLS; D])
+fn grid<const D: usize>(kernel: &dyn Kernel<D>) -> Grid<D> {
+    kernel.grid(Vector::zeros(), H, [CELLS; D], [false; D])
 }
 
 fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
@@ -34,6 +34,8 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
         vol0: vol.clone(),
         vol,
         sigma: rows.iter().map(|row| Matrix::from_fn(|i, j| row.2[i.min(j)][i.max(j)])).collect(),
+        def_grad: vec![Matrix::identity(); rows.len()],
+        half: vec![Vector::from_element(0.5 * H); rows.len()],
         grad_v: vec![Matrix::zeros(); rows.len()],
         spacing: Vector::from_element(H),
     }
@@ -42,7 +44,8 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
 fn p2g_keeps<const D: usize>(rows: &[Row]) {
     let particles = cloud::<D>(rows);
     for (basis, transfer) in methods() {
-        let (kernel, mut grid) = (kernel::<D>(basis, transfer), grid::<D>());
+        let kernel = kernel::<D>(basis, transfer);
+        let mut grid = grid(kernel.as_ref());
         kernel.p2g_mass(&particles, &mut grid);
         kernel.p2g_momentum(&particles, &mut grid);
         let (before, after): (f64, f64) = (particles.mass.iter().sum(), grid.mass.iter().sum());
@@ -58,8 +61,9 @@ fn p2g_keeps<const D: usize>(rows: &[Row]) {
 fn forces_cancel<const D: usize>(rows: &[Row]) {
     let particles = cloud::<D>(rows);
     for (basis, transfer) in methods() {
-        let mut grid = grid::<D>();
-        kernel::<D>(basis, transfer).p2g_internal_force(&particles, &mut grid);
+        let kernel = kernel::<D>(basis, transfer);
+        let mut grid = grid(kernel.as_ref());
+        kernel.p2g_internal_force(&particles, &mut grid);
         let size: f64 =
             particles.sigma.iter().zip(&particles.vol).map(|(s, vol)| s.norm() * vol / H).sum();
         let total = grid.force.iter().sum::<Vector<D>>();
@@ -71,7 +75,8 @@ fn translation_is_exact<const D: usize>(rows: &[Row]) {
     let before = cloud::<D>(rows);
     let velocity = Vector::<D>::from_fn(|i, _| rows[0].1[i]);
     for (basis, transfer) in methods() {
-        let (kernel, mut grid) = (kernel::<D>(basis, transfer), grid::<D>());
+        let kernel = kernel::<D>(basis, transfer);
+        let mut grid = grid(kernel.as_ref());
         grid.velocity.fill(velocity);
         grid.acceleration.fill(velocity);
         let mut after = before.clone();

@@ -1,64 +1,53 @@
 //! What a basis is to the rest of the solver.
 
-use crate::mpm::{algebra::Vector, grid::Grid};
+use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
 
-/// Weights and gradients of the K nodes per axis that a point sees, as factors per axis: the
-/// tensor product is formed where it is used.
+/// What a basis must know of a particle besides its position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Domain {
+    /// Nothing: the particle is a point.
+    Point,
+    /// Its domain, which keeps its reference size.
+    Fixed,
+    /// Its domain, which deforms with it.
+    Follows,
+}
+
+/// One node as a particle sees it.
 #[derive(Debug, Clone, Copy)]
-pub struct Stencil<const D: usize, const K: usize> {
-    /// Index of the first node on each axis.
-    pub first: [usize; D],
-    /// One-dimensional weights N, per axis.
-    pub weight: [[f64; K]; D],
-    /// One-dimensional gradients dN/dx (1/m), per axis.
-    pub slope: [[f64; K]; D],
+pub struct Seen<'a, const D: usize> {
+    /// Number of the node.
+    pub node: usize,
+    /// N_i at the particle.
+    pub weight: f64,
+    /// grad N_i at the particle (1/m).
+    pub gradient: &'a Vector<D>,
 }
 
 /// A family of basis functions N_i on the grid.
 pub trait Basis: Sized + Sync + Send + 'static {
-    /// Degree p of the polynomials that the basis reproduces.
+    /// Degree p of the polynomials that the basis reproduces on a smooth field.
     const DEGREE: u8;
 
-    /// Whether sum N_i x_i = x holds (linear completeness); the law tests hold a basis to it.
-    const REPRODUCES_LINEAR: bool;
+    /// What the basis must know of a particle.
+    const DOMAIN: Domain;
 
-    /// Calls `visit(node, N_i(x), grad N_i(x))` for every node that `x` sees, in the order of the
-    /// node numbers. Does nothing where `x` is outside the grid: the solver reports that when it
-    /// moves particles, not here.
+    /// Functions along an axis of `cells` cells.
+    fn count(cells: usize, periodic: bool) -> usize;
+
+    /// Where function `index` along an axis of `cells` cells sits, in cells from the wall: the
+    /// positions x_i for which sum N_i x_i = x (Greville abscissae).
+    fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
+
+    /// Calls `visit` for every node that particle `p` sees. Does nothing where the particle is
+    /// outside the grid: the solver reports that when it moves particles, not here.
     fn visit<const D: usize>(
         grid: &Grid<D>,
-        x: &Vector<D>,
-        visit: impl FnMut(usize, f64, &Vector<D>),
+        particles: &Particles<D>,
+        p: usize,
+        visit: impl FnMut(Seen<'_, D>),
     );
 
-    /// Nodes visited per particle in D dimensions: the unit of the work counter.
+    /// Most nodes that a particle sees in D dimensions: the unit of the work counter.
     fn support(dimension: usize) -> u64;
-}
-
-impl<const D: usize, const K: usize> Stencil<D, K> {
-    /// Forms the tensor product, the first axis running fastest.
-    #[inline]
-    pub fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(usize, f64, &Vector<D>)) {
-        for k in 0..K.pow(D as u32) {
-            let (mut rest, mut index, mut at) = (k, [0; D], [0; D]);
-            let mut weight = 1.0;
-            for axis in 0..D {
-                at[axis] = rest % K;
-                rest /= K;
-                index[axis] = self.first[axis] + at[axis];
-                weight *= self.weight[axis][at[axis]];
-            }
-            let gradient = Vector::from_fn(|axis, _| self.gradient(axis, &at));
-            visit(grid.node(&index), weight, &gradient);
-        }
-    }
-
-    #[inline]
-    fn gradient(&self, along: usize, at: &[usize; D]) -> f64 {
-        let mut product = self.slope[along][at[along]];
-        for axis in (0..D).filter(|&axis| axis != along) {
-            product *= self.weight[axis][at[axis]];
-        }
-        product
-    }
 }

@@ -4,8 +4,11 @@
 //! The gradient jumps at nodes: a particle that changes its cell changes the force there and then
 //! (grid crossing).
 
-use super::contract::{Basis, Stencil};
-use crate::mpm::{algebra::Vector, grid::Grid};
+use super::{
+    contract::{Basis, Domain, Seen},
+    tensor::{self, Along},
+};
+use crate::mpm::{grid::Grid, particles::Particles};
 
 /// Piecewise linear basis functions, tensor products of hats.
 #[derive(Debug, Clone, Copy)]
@@ -13,21 +16,35 @@ pub struct Linear;
 
 impl Basis for Linear {
     const DEGREE: u8 = 1;
-    const REPRODUCES_LINEAR: bool = true;
+    const DOMAIN: Domain = Domain::Point;
+
+    fn count(cells: usize, periodic: bool) -> usize {
+        cells + usize::from(!periodic)
+    }
+
+    fn abscissa(index: usize, _: usize, _: bool) -> f64 {
+        index as f64
+    }
 
     #[inline]
     fn visit<const D: usize>(
         grid: &Grid<D>,
-        x: &Vector<D>,
-        visit: impl FnMut(usize, f64, &Vector<D>),
+        particles: &Particles<D>,
+        p: usize,
+        visit: impl FnMut(Seen<'_, D>),
     ) {
-        if let Some(first) = grid.cell(x) {
-            let slope = [[-grid.inverse_h(), grid.inverse_h()]; D];
-            let weight = std::array::from_fn(|axis| {
-                let xi = grid.local(x, axis) - first[axis] as f64;
-                [1.0 - xi, xi]
+        let x = &particles.x[p];
+        if let Some(cell) = grid.cell(x) {
+            let axes: [Along<2>; D] = std::array::from_fn(|axis| {
+                let xi = grid.wrapped(x, axis) - cell[axis] as f64;
+                Along {
+                    count: 2,
+                    index: [cell[axis], grid.wrap(cell[axis] + 1, axis)],
+                    weight: [1.0 - xi, xi],
+                    slope: [-grid.inverse_h(), grid.inverse_h()],
+                }
             });
-            Stencil { first, weight, slope }.visit(grid, visit);
+            tensor::visit(grid, &axes, visit);
         }
     }
 

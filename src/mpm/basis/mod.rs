@@ -1,11 +1,16 @@
 //! Basis functions: the family. A member is one file and one line below.
 
+mod bspline;
 mod contract;
+mod gimp;
 #[cfg(test)]
 mod laws;
 mod linear;
+mod tensor;
 
-pub use contract::{Basis, Stencil};
+pub use bspline::{CubicBSpline, QuadraticBSpline};
+pub use contract::{Basis, Domain, Seen};
+pub use gimp::{ContiguousGimp, UniformGimp};
 pub use linear::Linear;
 
 use super::family::family;
@@ -14,6 +19,10 @@ family! {
     /// Names of the basis functions that suites may choose.
     pub enum BasisName; with_basis;
     "linear" => Linear,
+    "ugimp" => UniformGimp,
+    "cpgimp" => ContiguousGimp,
+    "quadratic_bspline" => QuadraticBSpline,
+    "cubic_bspline" => CubicBSpline,
 }
 
 impl BasisName {

@@ -47,7 +47,7 @@ impl<const D: usize> Effect<D> for Traction<D> {
     ) -> u64 {
         let force = (self.value)(t) * self.area;
         for &p in &self.layer {
-            kernel.p2g_point_force(&particles.x[p], &force, grid);
+            kernel.p2g_point_force(particles, p, &force, grid);
         }
         self.layer.len() as u64 * kernel.support()
     }
@@ -67,10 +67,10 @@ mod tests {
             density: 1.0,
         };
         let particles = Particles::fill(&block, 0.25, 2);
-        let mut grid = Grid::new(Vector::zeros(), 0.25, [6, 8]);
+        let kernel = kernel::<2>(BasisName::Linear, TransferName::Flip);
+        let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
         let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
         let pull = Traction::on(&particles, 0, Side::High, value);
-        let kernel = kernel::<2>(BasisName::Linear, TransferName::Flip);
         assert_eq!(pull.add_force(2.0, &particles, kernel.as_ref(), &mut grid), 16 * 4);
         let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
         assert_relative_eq!(total, Vector::<2>::new(12.0, 1.0), max_relative = 1e-14);
