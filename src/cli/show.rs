@@ -70,8 +70,7 @@ fn expectations(suite: &Suite) -> Vec<(String, String, String)> {
             .cases
             .iter()
             .map(|case| {
-                let expected =
-                    format!("agrees with the prediction within {:e}", case.agrees_within);
+                let expected = case.expected.summary();
                 (case.name.clone(), expected, case.because.clone())
             })
             .collect(),

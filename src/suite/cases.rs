@@ -191,7 +191,8 @@ fn methods(words: &MethodWords) -> Vec<(String, Method)> {
                 for &transfer in transfer.as_slice() {
                     for &scheme in scheme.as_slice() {
                         for (suffix, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
-                            let parts = [basis.name(), transfer.name(), scheme.name()].join("-");
+                            let parts = [basis.name(), transfer.name(), scheme.name()];
+                            let parts = parts.join("-").replace('_', "-");
                             let method = Method::Mpm { basis, transfer, scheme, start };
                             all.push((format!("mpm-{parts}{suffix}"), method));
                         }

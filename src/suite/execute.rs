@@ -4,7 +4,9 @@ use super::{
     dispatch::{cell_size, subject},
     force,
     judged::{judged, refused},
-    model::{Against, Case, ConvergencePlan, ForceCase, ForcePlan, StudyPlan, Suite},
+    model::{
+        Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, StudyPlan, Suite,
+    },
     reference::Reference,
     statement,
     words::CrossingLevels,
@@ -133,34 +135,51 @@ impl<'a> Runner<'a> {
 fn internal_force(plan: &ForcePlan, case: &ForceCase, progress: Progress<'_>) -> CaseOutcome {
     let rows = force::rows(plan, case);
     progress();
-    let deviation = deviation(&rows);
-    let agrees = deviation <= case.agrees_within;
-    let reason = format!(
-        "largest deviation from the prediction {deviation:.1e} of the largest predicted force, \
-         over {} positions",
-        rows.len()
-    );
-    let wanted = format!("agrees with the prediction within {:e}", case.agrees_within);
-    let unmet = if agrees { Vec::new() } else { vec![format!("expected: {wanted}; {reason}")] };
+    let (met, verdict, reason) = judged_force(&rows, case.expected);
+    let expected = case.expected.summary();
+    let unmet = if met { Vec::new() } else { vec![format!("expected: {expected}; {reason}")] };
     CaseOutcome {
         case: case.name.clone(),
         subject: "mpm",
         settings: vec![("basis".to_owned(), case.basis.name().to_owned())],
-        expected: wanted,
+        expected,
         because: case.because.clone(),
-        verdict: if agrees { "agrees" } else { "differs" }.to_owned(),
+        verdict: verdict.to_owned(),
         reason,
         unmet,
         study: Study::InternalForce(rows),
     }
 }
 
-/// Largest deviation relative to the largest prediction; NaN if any force is.
-fn deviation(rows: &[ForceRow]) -> f64 {
-    let largest = |value: &dyn Fn(&ForceRow) -> f64| {
-        rows.iter()
-            .map(value)
-            .fold(0.0, |a: f64, b| if (a + b).is_nan() { f64::NAN } else { a.max(b.abs()) })
-    };
-    largest(&|row| row.force - row.predicted) / largest(&|row| row.predicted)
+/// Whether the force is as expected, the verdict, and the figure that led to it.
+fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'static str, String) {
+    let largest = largest(rows.iter().map(|row| row.predicted));
+    match expected {
+        ForceExpectation::AgreesWithin(share) => {
+            let worst = self::largest(rows.iter().map(|row| row.force - row.predicted)) / largest;
+            let met = worst <= share;
+            let reason = format!(
+                "largest deviation from the prediction {worst:.1e} of the largest predicted \
+                 force, over {} positions",
+                rows.len()
+            );
+            (met, if met { "agrees" } else { "differs" }, reason)
+        }
+        ForceExpectation::StepsBelow(share) => {
+            let steps = rows.windows(2).map(|pair| pair[1].force - pair[0].force);
+            let worst = self::largest(steps) / largest;
+            let met = worst <= share;
+            let reason = format!(
+                "largest change between neighbouring positions {worst:.3} of the largest \
+                 predicted force, over {} positions",
+                rows.len()
+            );
+            (met, if met { "smooth" } else { "jumps" }, reason)
+        }
+    }
+}
+
+/// Largest magnitude; NaN if any value is.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a: f64, b| if (a + b).is_nan() { f64::NAN } else { a.max(b.abs()) })
 }

@@ -1,24 +1,25 @@
 //! The internal-force study: the mechanism of grid crossing, without a run.
 //!
-//! Two cells meet at a node; both hold equal particles under one uniform stress. One particle of
-//! the left cell is moved through the node, and the internal force on the node is read from the
+//! Two cells meet at a node; like all others, they hold equal particles under one uniform stress. One
+//! particle of the left cell is moved through the node, and the internal force on the node is read from the
 //! solver's own P2G.
 
 use super::{
     binder::Binder,
     expect,
-    model::{ForceCase, ForcePlan},
+    model::{ForceCase, ForceExpectation, ForcePlan},
     path::Path,
-    words::{ForceMethodWords, InternalForceWords},
+    words::{ForceExpectWords, ForceMethodWords, InternalForceWords},
     yaml::Complaint,
 };
 use crate::{
-    mpm::{BasisName, Block, Matrix, Particles, TransferName, Vector, kernel},
+    mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, TransferName, Vector, kernel},
     verify::ForceRow,
 };
 
-/// Cells on either side of the two that matter, so that wide bases see no wall.
-const SPARE: usize = 3;
+/// Cells on either side of the node, all of them full. The axis is periodic: no wall, and no end of
+/// the body that a wide basis could see.
+const SIDE: usize = 4;
 
 /// Most particles over all positions: a second of work, and a report that can be read.
 const MOST_SUMMANDS: u64 = 1_000_000;
@@ -62,7 +63,8 @@ fn cases(binder: &Binder<'_>, words: &InternalForceWords) -> Result<Vec<ForceCas
         let path = Path::top("methods");
         return Err(binder.complain(&path, "a suite without methods has no case"));
     }
-    let names: Vec<String> = bases.iter().map(|basis| format!("mpm-{}", basis.name())).collect();
+    let names: Vec<String> =
+        bases.iter().map(|basis| format!("mpm-{}", basis.name().replace('_', "-"))).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
         let message = format!("the case `{}` appears twice", twice.1);
@@ -72,16 +74,30 @@ fn cases(binder: &Binder<'_>, words: &InternalForceWords) -> Result<Vec<ForceCas
     let owners = expect::assign(binder, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, &str), usize)| {
         let path = Path::top("expect").then(owner);
-        let within = path.then("agrees_within");
         let expected = &words.expect[owner];
         Ok(ForceCase {
             name: name.to_owned(),
             basis,
-            agrees_within: binder.positive(&within, &expected.agrees_within, "the agreement")?,
+            expected: expectation(binder, &path, expected)?,
             because: expect::because(binder, &path, &expected.because)?,
         })
     };
     bases.into_iter().zip(names).zip(owners).map(case).collect()
+}
+
+fn expectation(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ForceExpectWords,
+) -> Result<ForceExpectation, Complaint> {
+    let share = |key: &str, text| binder.positive(&path.then(key), text, "the share");
+    match (&words.agrees_within, &words.steps_below) {
+        (Some(text), None) => share("agrees_within", text).map(ForceExpectation::AgreesWithin),
+        (None, Some(text)) => share("steps_below", text).map(ForceExpectation::StepsBelow),
+        _ => Err(binder
+            .complain(path, "one thing can be expected of a force")
+            .with_label("expected either `agrees_within` or `steps_below`")),
+    }
 }
 
 /// The force on the node for every position of the moving particle.
@@ -105,17 +121,24 @@ fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
 
 fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     let h = plan.cell;
-    let cells = 2 * (SPARE + 1);
     let kernel = kernel::<1>(basis, TransferName::Flip);
-    let start = Vector::<1>::new(-h * (SPARE + 1) as f64);
-    let mut grid = kernel.grid(start, h, [cells], [false]);
-    let (from, to) = (Vector::<1>::new(-h), Vector::<1>::new(h));
+    let (from, to) = (Vector::<1>::new(-h * SIDE as f64), Vector::<1>::new(h * SIDE as f64));
+    let mut grid = kernel.grid(from, h, [2 * SIDE], [true]);
     let block = Block { from, to, density: 1.0 };
     let mut particles = Particles::fill(&block, h, plan.ppc as usize);
     particles.vol.fill(plan.volume);
     particles.sigma.fill(Matrix::<1>::new(plan.stress));
-    // The last particle of the left cell is the one that moves.
-    particles.x[plan.ppc as usize - 1][0] = position * h;
+    // The last particle of the left half is the one that moves.
+    particles.x[SIDE * plan.ppc as usize - 1][0] = position * h;
     kernel.p2g_internal_force(&particles, &mut grid);
-    grid.force[SPARE + 1][0]
+    let node = node_at(kernel.as_ref(), &mut grid, h);
+    grid.force[node][0]
+}
+
+/// The function that a particle at x = 0 sees most of; of two, the one on the right.
+fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
+    let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
+    let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);
+    kernel.p2g_mass(&alone, grid);
+    (0..grid.nodes()).max_by(|a, b| grid.mass[*a].total_cmp(&grid.mass[*b])).unwrap_or(0)
 }

@@ -169,10 +169,31 @@ pub struct ForceCase {
     pub name: String,
     /// Basis functions.
     pub basis: BasisName,
-    /// Largest relative deviation from the prediction.
-    pub agrees_within: f64,
+    /// What is expected of the force.
+    pub expected: ForceExpectation,
     /// The reason for expecting it.
     pub because: String,
+}
+
+/// What is expected of the force on a node while a particle moves through it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ForceExpectation {
+    /// It deviates from the prediction by at most this share of the largest prediction.
+    AgreesWithin(f64),
+    /// It changes between neighbouring positions by at most this share.
+    StepsBelow(f64),
+}
+
+impl ForceExpectation {
+    /// In one line, for reports.
+    pub fn summary(self) -> String {
+        match self {
+            Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),
+            Self::StepsBelow(share) => {
+                format!("no step above {share} of the largest predicted force")
+            }
+        }
+    }
 }
 
 impl Suite {

@@ -84,10 +84,17 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &["an expectation needs its reason"]
 )]
 #[case::a_basis_twice(
-    &[("- mpm: {basis: linear}", "▸- mpm: {basis: [linear, linear]}")],
+    &[("- mpm: {basis: [linear, ugimp, cpgimp, quadratic_bspline, cubic_bspline]}", "▸- mpm: {basis: [linear, linear]}")],
     &["the case `mpm-linear` appears twice"]
 )]
-#[case::no_method(&[("\n  - mpm: {basis: linear}", " ▸[]")], &["a suite without methods has no case"])]
+#[case::no_method(
+    &[("\n  - mpm: {basis: [linear, ugimp, cpgimp, quadratic_bspline, cubic_bspline]}", " ▸[]")],
+    &["a suite without methods has no case"]
+)]
+#[case::two_expectations_at_once(
+    &[("  - case: mpm-linear\n    agrees_within: 1e-14", "  - ▸case: mpm-linear\n    agrees_within: 1e-14\n    steps_below: 1")],
+    &["expected either `agrees_within` or `steps_below`"]
+)]
 #[case::endless_work(
     &[("positions: 16", "positions: ▸1e7")],
     &["10000000 positions with 4 particles per cell each", "expected at most 1000000"]

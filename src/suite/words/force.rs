@@ -52,6 +52,8 @@ pub(in crate::suite) enum ForceMethodWords {
 pub(in crate::suite) struct ForceExpectWords {
     pub(in crate::suite) case: Option<OneOrMany<String>>,
     /// Largest deviation from the prediction, relative to the largest prediction.
-    pub(in crate::suite) agrees_within: NumberText,
+    pub(in crate::suite) agrees_within: Option<NumberText>,
+    /// Largest change between neighbouring positions, relative to the largest prediction.
+    pub(in crate::suite) steps_below: Option<NumberText>,
     pub(in crate::suite) because: String,
 }

@@ -6,7 +6,7 @@
 mod force;
 mod scene;
 
-pub(in crate::suite) use force::{ForceMethodWords, InternalForceWords};
+pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
 pub(in crate::suite) use scene::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
