@@ -1,6 +1,6 @@
 //! Every condition that a problem puts on its motion.
 
-use super::{pointwise, problem::Problem, violation::Violation, weak};
+use super::{differences, pointwise, problem::Problem, violation::Violation, weak};
 
 impl Problem {
     /// Holds the motion against the equation (point by point and in weak form), the boundary and
@@ -12,7 +12,7 @@ impl Problem {
         pointwise::presence(self)?;
         pointwise::initial(self)?;
         pointwise::boundary(self)?;
-        pointwise::differentiation(self)?;
+        differences::differentiation(self)?;
         pointwise::equation(self)?;
         weak::momentum(self)
     }

@@ -1,60 +1,111 @@
-//! Continuum problems that a formula can claim to solve.
+//! Continuum problems that a motion can claim to solve.
+//!
+//! `rho0 u_tt = Div P(grad u) + rho0 b`, with the stress P by one of two laws. Written over any
+//! [`Number`]: over jets, the divergence of P follows from its formula by automatic
+//! differentiation.
 
-/// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b`, by its stress P.
+use super::formula::{Jet, Number};
+
+/// Stress or gradient in three dimensions; what lies beyond the problem's dimension is zero, so a
+/// motion in fewer dimensions is one of plane or uniaxial strain.
+type Tensor<T> = [[T; 3]; 3];
+
+/// Lame parameters and the law that uses them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Equation {
-    /// Small-strain elasticity, `P = lambda tr(eps) I + 2 mu eps`, `eps = sym(grad u)` (Pa).
-    SmallStrain {
-        /// First Lame parameter (Pa).
-        lambda: f64,
-        /// Shear modulus (Pa).
-        mu: f64,
-    },
+pub struct Equation {
+    law: Law,
+    lambda: f64,
+    mu: f64,
+}
+
+/// A law between stress and strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Law {
+    SmallStrain,
+    NeoHookean,
 }
 
 impl Equation {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Small-strain elasticity, `P = lambda tr(eps) I + 2 mu eps`, `eps = sym(grad u)`, from
+    /// Young's modulus (Pa) and Poisson's ratio.
     pub fn small_strain(young: f64, poisson: f64) -> Self {
-        Self::SmallStrain {
-            lambda: young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)),
-            mu: young / (2.0 * (1.0 + poisson)),
+        Self::new(Law::SmallStrain, young, poisson)
+    }
+
+    /// Neo-Hookean elasticity, `P = lambda ln(J) F^-T + mu (F - F^-T)`, `F = I + grad u`
+    /// (Wallstedt & Guilkey 2008; Kamojjala et al. 2015), from Young's modulus (Pa) and Poisson's
+    /// ratio.
+    pub fn neo_hookean(young: f64, poisson: f64) -> Self {
+        Self::new(Law::NeoHookean, young, poisson)
+    }
+
+    fn new(law: Law, young: f64, poisson: f64) -> Self {
+        let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+        Self { law, lambda, mu: young / (2.0 * (1.0 + poisson)) }
+    }
+
+    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
+    pub fn piola<T: Number>(&self, grad: &Tensor<T>) -> Tensor<T> {
+        let (lambda, mu) = (T::from(self.lambda), T::from(self.mu));
+        match self.law {
+            Law::SmallStrain => {
+                let pressure = lambda * (grad[0][0] + grad[1][1] + grad[2][2]);
+                tensor(|i, j| {
+                    let shear = mu * (grad[i][j] + grad[j][i]);
+                    if i == j { pressure + shear } else { shear }
+                })
+            }
+            Law::NeoHookean => {
+                let f = tensor(|i, j| grad[i][j] + T::from(f64::from(u8::from(i == j))));
+                let cofactor = tensor(|i, j| cofactor(&f, i, j));
+                let det =
+                    f[0][0] * cofactor[0][0] + f[0][1] * cofactor[0][1] + f[0][2] * cofactor[0][2];
+                let pressure = lambda * Number::ln(det) - mu;
+                tensor(|i, j| pressure * cofactor[i][j] / det + mu * f[i][j])
+            }
         }
     }
 
-    /// Component P_ij (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
-    pub fn piola(&self, grad: &[[f64; 3]; 3], i: usize, j: usize) -> f64 {
-        let Self::SmallStrain { lambda, mu } = *self;
-        let trace = grad[0][0] + grad[1][1] + grad[2][2];
-        let volumetric = if i == j { lambda * trace } else { 0.0 };
-        volumetric + mu * (grad[i][j] + grad[j][i])
-    }
-
-    /// Component i of Div P (N/m3) for second derivatives `second[k][a][b] = d2 u_k/dX_a dX_b`.
-    pub fn divergence(&self, second: &[[[f64; 3]; 3]; 3], i: usize) -> f64 {
-        let Self::SmallStrain { lambda, mu } = *self;
-        let along: f64 = (0..3).map(|k| second[k][k][i]).sum();
-        let laplacian: f64 = (0..3).map(|k| second[i][k][k]).sum();
-        (lambda + mu) * along + mu * laplacian
+    /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`.
+    pub fn divergence(&self, grad: &Tensor<f64>, second: &[Tensor<f64>; 3]) -> [f64; 3] {
+        let along: [Jet<3>; 3] = std::array::from_fn(|axis| Jet::variable(0.0, axis));
+        let jets = tensor(|i, j| {
+            let slope = |axis: usize| along[axis] * Jet::from(second[i][j][axis]);
+            Jet::from(grad[i][j]) + slope(0) + slope(1) + slope(2)
+        });
+        let stress = self.piola(&jets);
+        std::array::from_fn(|i| (0..3).map(|j| stress[i][j].d(j)).sum())
     }
 
     /// Stiffest modulus, `lambda + 2 mu` (Pa): a bound for stresses of a given strain.
     pub fn modulus(&self) -> f64 {
-        let Self::SmallStrain { lambda, mu } = *self;
-        lambda + 2.0 * mu
+        self.lambda + 2.0 * self.mu
     }
+}
+
+fn tensor<T>(component: impl Fn(usize, usize) -> T) -> Tensor<T> {
+    std::array::from_fn(|i| std::array::from_fn(|j| component(i, j)))
+}
+
+/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`.
+fn cofactor<T: Number>(f: &Tensor<T>, i: usize, j: usize) -> T {
+    let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+    let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+    f[a][c] * f[b][d] - f[a][d] * f[b][c]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+    use rstest::rstest;
 
     #[test]
     fn a_bar_without_poisson_effect_has_youngs_modulus() {
         let bar = Equation::small_strain(100.0, 0.0);
         let mut grad = [[0.0; 3]; 3];
         grad[0][0] = 0.01;
-        assert_relative_eq!(bar.piola(&grad, 0, 0), 1.0);
+        assert_relative_eq!(bar.piola(&grad)[0][0], 1.0);
         assert_relative_eq!(bar.modulus(), 100.0);
     }
 
@@ -62,15 +113,32 @@ mod tests {
     #[test]
     fn the_divergence_agrees_with_a_hand_calculation() {
         let (x, y) = (0.3, 0.7);
-        let solid = Equation::SmallStrain { lambda: 2.0, mu: 3.0 };
+        let solid = Equation { law: Law::SmallStrain, lambda: 2.0, mu: 3.0 };
         let mut second = [[[0.0; 3]; 3]; 3];
-        second[0][0][0] = 2.0 * y;
-        second[0][0][1] = 2.0 * x;
-        second[0][1][0] = 2.0 * x;
-        second[1][1][1] = 2.0 * x;
-        second[1][0][1] = 2.0 * y;
-        second[1][1][0] = 2.0 * y;
-        assert_relative_eq!(solid.divergence(&second, 0), 5.0 * 4.0 * y + 3.0 * 2.0 * y);
-        assert_relative_eq!(solid.divergence(&second, 1), 5.0 * 4.0 * x + 3.0 * 2.0 * x);
+        second[0] = [[2.0 * y, 2.0 * x, 0.0], [2.0 * x, 0.0, 0.0], [0.0; 3]];
+        second[1] = [[0.0, 2.0 * y, 0.0], [2.0 * y, 2.0 * x, 0.0], [0.0; 3]];
+        let found = solid.divergence(&[[0.0; 3]; 3], &second);
+        assert_relative_eq!(found[0], 5.0 * 4.0 * y + 3.0 * 2.0 * y);
+        assert_relative_eq!(found[1], 5.0 * 4.0 * x + 3.0 * 2.0 * x);
+    }
+
+    /// P is the derivative of `W = lambda/2 ln(J)^2 + mu/2 (tr(F^T F) - 3) - mu ln J`.
+    #[rstest]
+    fn neo_hookean_stress_is_the_derivative_of_its_energy(
+        #[values(0, 1, 2)] i: usize,
+        #[values(0, 1, 2)] j: usize,
+    ) {
+        let solid = Equation::neo_hookean(50.0, 0.3);
+        let grad = [[0.2, -0.1, 0.05], [0.3, -0.2, 0.1], [0.0, 0.15, 0.1]];
+        let energy = |step: f64| {
+            let mut f = tensor(|a, b| grad[a][b] + f64::from(u8::from(a == b)));
+            f[i][j] += step;
+            let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
+            let square: f64 = f.iter().flatten().map(|c| c * c).sum();
+            let log = libm::log(det);
+            0.5 * solid.lambda * log * log + 0.5 * solid.mu * (square - 3.0) - solid.mu * log
+        };
+        let slope = (energy(1e-6) - energy(-1e-6)) / 2e-6;
+        assert_relative_eq!(solid.piola(&grad)[i][j], slope, max_relative = 1e-7, epsilon = 1e-7);
     }
 }

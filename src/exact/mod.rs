@@ -5,6 +5,7 @@
 //! runs. Knows no solver.
 
 mod check;
+mod differences;
 mod equation;
 pub mod formula;
 mod motion;

@@ -37,6 +37,11 @@ impl Motion {
         Self { components }
     }
 
+    /// The formulas, as the suite gives them.
+    pub fn source(&self) -> String {
+        self.components.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
+    }
+
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.components.len()

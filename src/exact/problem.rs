@@ -40,6 +40,9 @@ pub struct Problem {
     /// Body force per unit mass (m/s2), formulas of (X, Y, Z, t) as far as there are dimensions;
     /// empty where there is none.
     pub body_force: Vec<Formula>,
+    /// Whether a further body force is added that makes the motion a solution: the method of
+    /// manufactured solutions (Roache 2002).
+    pub manufactured: bool,
     /// Every face of the body.
     pub faces: Vec<Face>,
     /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty: at rest.
@@ -58,8 +61,21 @@ impl Problem {
         self.from.len()
     }
 
-    /// Component i of the body force (m/s2).
+    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what the scene declares.
+    pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
+        let all = self.motion.derivatives(label, t);
+        let stress = self.equation.divergence(&all.grad, &all.second);
+        let declared = |i| self.declared_force(i, label, t);
+        std::array::from_fn(|i| all.acceleration[i] - stress[i] / self.density - declared(i))
+    }
+
+    /// Component i of the whole body force (m/s2).
     pub(super) fn force(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        let made = if self.manufactured { self.manufactured_force(label, t)[i] } else { 0.0 };
+        self.declared_force(i, label, t) + made
+    }
+
+    fn declared_force(&self, i: usize, label: &[f64], t: f64) -> f64 {
         let variables = super::motion::variables(label, t);
         self.body_force.get(i).map_or(0.0, |f| f.eval(&variables[..=label.len()]))
     }

@@ -116,6 +116,7 @@ fn integrand(
 ) -> (f64, f64, f64) {
     let d = label.len();
     let inertia = problem.density * now.velocity[i] * slope[d];
-    let stress = (0..d).map(|j| problem.equation.piola(&now.grad, i, j) * slope[j]).sum();
+    let piola = problem.equation.piola(&now.grad);
+    let stress = (0..d).map(|j| piola[i][j] * slope[j]).sum();
     (inertia, stress, problem.density * problem.force(i, label, t) * phi)
 }

@@ -30,10 +30,10 @@ pub use basis::{
     UniformGimp,
 };
 pub use boundary::{Fixed, Side};
-pub use effect::{Effect, Gravity, Traction};
+pub use effect::{BodyForce, Effect, Field, Gravity, Traction};
 pub use grid::Grid;
 pub use kernel::{Kernel, Pair};
-pub use material::{LinearElastic, Material};
+pub use material::{LinearElastic, Material, NeoHookean};
 pub use particles::{Block, Particles};
 pub use scheme::SchemeName;
 pub use solver::{Setup, Solver};

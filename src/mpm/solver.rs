@@ -56,6 +56,9 @@ impl<const D: usize> Solver<D> {
         if setup.kernel.domain() == Domain::Follows {
             setup.particles.track_domains();
         }
+        if setup.material.reads_deformation() {
+            setup.particles.track_deformation();
+        }
         setup.particles.all_finite()?;
         let cells = setup.particles.x.iter().enumerate().map(|(p, x)| {
             setup.grid.cell(x).ok_or_else(|| Failure::LeftDomain {

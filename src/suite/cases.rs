@@ -5,7 +5,7 @@ use super::{
     dispatch::cell_size,
     expect,
     method::Method,
-    model::{Against, Case, ConvergencePlan},
+    model::{Against, Case, ConvergencePlan, MaterialName},
     path::Path,
     wording::shown,
     words::{ConvergenceWords, EquationName, MethodWords},
@@ -71,7 +71,7 @@ pub(super) fn cases(
         let path = Path::top("methods").then(i);
         possible(binder, &path, method, plan)?;
         few(binder, &path, drafts.len(), method, until.len())?;
-        for (name, method) in methods(method) {
+        for (name, method) in methods(method, own_law(plan)) {
             for draft in runs(&name, method, plan, until) {
                 if drafts.iter().any(|known: &Draft| known.name == draft.name) {
                     let message = format!("the case `{}` appears twice", draft.name);
@@ -182,8 +182,16 @@ fn possible(
     }
 }
 
+/// The law of an FEM case that names none: that of the scene's material.
+fn own_law(plan: &ConvergencePlan) -> EquationName {
+    match plan.scene.law {
+        MaterialName::LinearElastic => EquationName::SmallStrain,
+        MaterialName::NeoHookean => EquationName::NeoHookean,
+    }
+}
+
 /// The product of one entry of `methods`, with names.
-fn methods(words: &MethodWords) -> Vec<(String, Method)> {
+fn methods(words: &MethodWords, own_law: EquationName) -> Vec<(String, Method)> {
     match words {
         MethodWords::Mpm { basis, transfer, scheme, start } => {
             let mut all = Vec::new();
@@ -205,9 +213,7 @@ fn methods(words: &MethodWords) -> Vec<(String, Method)> {
             let mut all = Vec::new();
             for &element in element.as_slice() {
                 for &mass in mass.as_slice() {
-                    for (a, law) in
-                        choices(law.as_ref(), EquationName::SmallStrain, EquationName::name)
-                    {
+                    for (a, law) in choices(law.as_ref(), own_law, EquationName::name) {
                         for (b, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
                             for (c, sampling) in
                                 choices(sampling.as_ref(), Sampling::Inside, Sampling::name)

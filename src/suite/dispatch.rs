@@ -3,15 +3,15 @@
 
 use super::{
     method::Method,
-    model::{ConvergencePlan, Scene, SceneFace},
+    model::{ConvergencePlan, MaterialName, Scene, SceneFace},
     words::EquationName,
 };
 use crate::{
-    exact::formula::Formula,
+    exact::{Problem, formula::Formula},
     fem::{self, Bar, Sampling},
     mpm::{
-        Block, Effect, Fixed, Gravity, Grid, Kernel, LinearElastic, Particles, Side, Solver,
-        Traction, Vector, kernel,
+        Block, BodyForce, Effect, Fixed, Gravity, Grid, Kernel, LinearElastic, Material,
+        NeoHookean, Particles, Side, Solver, Traction, Vector, kernel,
     },
     subject::{Start, Subject},
 };
@@ -30,7 +30,7 @@ pub(super) fn subject(
     cells: u64,
 ) -> Result<Box<dyn Subject>, String> {
     match (method, plan.scene.dimension()) {
-        (Method::Fem { .. }, 1) => fem(&plan.scene, method, cells),
+        (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
         (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, cells),
         (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, cells),
@@ -67,13 +67,16 @@ fn mpm<const D: usize>(
     let grid = grid(scene, h, kernel.as_ref());
     let (from, to) = (vector(&scene.from), vector(&scene.to));
     let mut particles = Particles::fill(&Block { from, to, density: scene.density }, h, per_axis);
+    let made = manufactured(plan);
     for (v, x0) in particles.v.iter_mut().zip(&particles.x0) {
-        *v = at(&scene.initial_velocity, x0);
+        *v = made.map_or_else(|| at(&scene.initial_velocity, x0), |made| velocity(made, x0));
     }
+    let mut effects = effects(scene, &particles);
+    effects.extend(made.map(manufactured_force));
     let setup = crate::mpm::Setup {
         kernel,
-        material: Box::new(LinearElastic::new(scene.young, scene.poisson)),
-        effects: effects(scene, &particles),
+        material: material(scene),
+        effects,
         fixed: held(scene).map(|face| Fixed::face(&grid, face.axis, side(face))).collect(),
         grid,
         particles,
@@ -92,6 +95,32 @@ fn at<const D: usize>(formulas: &[Formula], x0: &Vector<D>) -> Vector<D> {
     let mut variables = [0.0; 4];
     variables[..D].copy_from_slice(x0.as_slice());
     Vector::from_fn(|i, _| formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=D])))
+}
+
+/// The problem whose force is manufactured, if it is.
+fn manufactured(plan: &ConvergencePlan) -> Option<&Problem> {
+    plan.exact.as_ref().filter(|problem| problem.manufactured)
+}
+
+/// The motion's velocity at the start.
+fn velocity<const D: usize>(made: &Problem, x0: &Vector<D>) -> Vector<D> {
+    let now = made.motion.derivatives(x0.as_slice(), 0.0);
+    Vector::from_fn(|i, _| now.velocity[i])
+}
+
+fn manufactured_force<const D: usize>(made: &Problem) -> Box<dyn Effect<D>> {
+    let made = made.clone();
+    Box::new(BodyForce(Box::new(move |x0: &Vector<D>, t| {
+        let force = made.manufactured_force(x0.as_slice(), t);
+        Vector::from_fn(|i, _| force[i])
+    })))
+}
+
+fn material<const D: usize>(scene: &Scene) -> Box<dyn Material<D>> {
+    match scene.law {
+        MaterialName::LinearElastic => Box::new(LinearElastic::new(scene.young, scene.poisson)),
+        MaterialName::NeoHookean => Box::new(NeoHookean::new(scene.young, scene.poisson)),
+    }
 }
 
 fn held(scene: &Scene) -> impl Iterator<Item = &SceneFace> {
@@ -145,18 +174,15 @@ fn of_time<const D: usize>(formulas: &[Formula]) -> Box<dyn Fn(f64) -> Vector<D>
     Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
 }
 
-fn fem(scene: &Scene, method: Method, cells: u64) -> Result<Box<dyn Subject>, String> {
-    Ok(Box::new(bar(scene, method, cells)?))
-}
-
 /// The FEM bar of `method`; also what references are made of.
-pub(super) fn bar(scene: &Scene, method: Method, cells: u64) -> Result<Bar, String> {
+pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".to_owned());
     };
+    let scene = &plan.scene;
     let (from, to) = (scene.from[0], scene.to[0]);
     let elements = libm::round((to - from) / cell_size(scene, cells)).max(1.0);
-    let velocity = scene.initial_velocity.clone();
+    let (start_velocity, made) = (scene.initial_velocity.clone(), manufactured(plan).cloned());
     let setup = fem::Setup {
         from,
         to,
@@ -166,17 +192,29 @@ pub(super) fn bar(scene: &Scene, method: Method, cells: u64) -> Result<Bar, Stri
         density: scene.density,
         law: piola(law, scene.young, scene.poisson),
         fixed: [scene.faces[0].fixed, scene.faces[1].fixed],
-        body_force: scene
-            .gravity
-            .clone()
-            .map(|b| -> fem::Load { Box::new(move |_, t| b[0].eval(&[t])) }),
+        body_force: body_force(scene, made.clone()),
         traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
         initial_displacement: Box::new(|_| 0.0),
-        initial_velocity: Box::new(move |x| at(&velocity, &Vector::<1>::new(x))[0]),
+        initial_velocity: Box::new(move |x| {
+            let x = Vector::<1>::new(x);
+            made.as_ref().map_or_else(|| at(&start_velocity, &x), |made| velocity(made, &x))[0]
+        }),
         start,
         sampling,
     };
     Bar::new(setup).map_err(|error| error.to_string())
+}
+
+/// Gravity and manufactured force of a bar, if it has either.
+fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
+    let gravity = scene.gravity.clone();
+    if gravity.is_none() && made.is_none() {
+        return None;
+    }
+    Some(Box::new(move |x, t| {
+        let made = made.as_ref().map_or(0.0, |made| made.manufactured_force(&[x], t)[0]);
+        made + gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t]))
+    }))
 }
 
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
@@ -193,6 +231,10 @@ fn piola(law: EquationName, young: f64, poisson: f64) -> fem::Field {
     match law {
         EquationName::SmallStrain => Box::new(move |f| modulus * (f - 1.0)),
         EquationName::LogStrain => Box::new(move |f| modulus * libm::log(f)),
+        EquationName::NeoHookean => {
+            let LinearElastic { lambda, mu } = material;
+            Box::new(move |f| lambda * libm::log(f) / f + mu * (f - 1.0 / f))
+        }
     }
 }
 

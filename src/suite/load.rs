@@ -53,7 +53,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let reference = words.reference.as_ref().map(|words| reference(&binder, words, dimension));
     let reference = reference.transpose()?;
     if exact.is_none() && reference.is_none() {
-        let message = "no truth: a convergence study needs `exact`, `reference` or both";
+        let message = "no truth: a convergence study needs `exact`, `manufactured` or `reference`";
         return Err(binder.complain_key(&Path::top("suite"), message));
     }
     let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));

@@ -33,7 +33,7 @@ pub mod yaml;
 pub use execute::{Progress, Runner};
 pub use method::Method;
 pub use model::{
-    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,
-    SceneFace, StudyPlan, Suite,
+    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, MaterialName,
+    ReferencePlan, Scene, SceneFace, StudyPlan, Suite,
 };
 pub use words::{CrossingLevels, EquationName, NormName};

@@ -8,6 +8,7 @@ use crate::{
     exact::{Problem, formula::Formula},
     fem::{Element, Mass},
     mpm::BasisName,
+    named::named,
     verify::Expectation,
 };
 
@@ -90,6 +91,16 @@ pub enum Against {
     Reference,
 }
 
+named! {
+    /// Names of the materials that suites may choose.
+    pub enum MaterialName {
+        /// Linear elasticity, integrated in rate form.
+        LinearElastic = "linear_elastic",
+        /// Compressible neo-Hookean elasticity.
+        NeoHookean = "neo_hookean",
+    }
+}
+
 /// The body and what acts on it.
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -99,6 +110,8 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Grid that the suite asks for, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
+    /// Constitutive law.
+    pub law: MaterialName,
     /// Young's modulus (Pa).
     pub young: f64,
     /// Poisson's ratio.

@@ -24,7 +24,7 @@ impl Reference {
     pub(super) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, String> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
-        let mut bar = bar(&plan.scene, method, fine.cells)?;
+        let mut bar = bar(plan, method, fine.cells)?;
         let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
         let clock = Clock::new(until, dt, plan.instants).ok_or("dt makes no sense")?;
         let mut kept = vec![state(&bar)];

@@ -2,10 +2,10 @@
 
 use super::{
     binder::Binder,
-    model::{Scene, SceneFace},
+    model::{MaterialName, Scene, SceneFace},
     path::Path,
     wording::{shown, suggestion},
-    words::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords},
+    words::{BodyWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords},
     yaml::{Complaint, NumberText},
 };
 use crate::exact::formula::Formula;
@@ -36,12 +36,16 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         .as_ref()
         .map(|grid| corners(binder, &path.then("grid"), grid, dimension))
         .transpose()?;
-    let MaterialWords::LinearElastic { young, poisson, density } = &words.material;
-    let at = path.then("material").then("linear_elastic");
+    let (law, ElasticWords { young, poisson, density }) = match &words.material {
+        MaterialWords::LinearElastic(words) => (MaterialName::LinearElastic, words),
+        MaterialWords::NeoHookean(words) => (MaterialName::NeoHookean, words),
+    };
+    let at = path.then("material").then(law.name());
     let mut scene = Scene {
         from,
         to,
         grid,
+        law,
         young: binder.positive(&at.then("young"), young, "Young's modulus")?,
         poisson: poissons_ratio(binder, &at.then("poisson"), poisson)?,
         density: binder.positive(&at.then("density"), density, "the density")?,

@@ -3,6 +3,10 @@
 use super::model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite};
 use crate::exact::{Problem, formula::Formula};
 
+const SMALL_STRAIN: &str = "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)";
+const NEO_HOOKEAN: &str =
+    "neo-Hookean, rho0 u_tt = Div P + rho0 b, P = lambda ln(J) F^-T + mu (F - F^-T)";
+
 /// Rows for the whole suite.
 pub fn rows(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
@@ -45,7 +49,13 @@ fn push(rows: &mut Rows, key: &str, value: &str) {
 fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
     scene(&plan.scene, rows);
     if let Some(problem) = &plan.exact {
-        push(rows, "equation", "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)");
+        if problem.manufactured {
+            push(rows, "motion", &problem.motion.source());
+            push(rows, "body force", "manufactured, b = u_tt - Div P / rho0");
+            push(rows, "equation", NEO_HOOKEAN);
+        } else {
+            push(rows, "equation", SMALL_STRAIN);
+        }
         push(rows, "amplitude", &amplitude(problem));
     }
     if let Some(fine) = &plan.reference {
@@ -71,7 +81,8 @@ fn scene(scene: &Scene, rows: &mut Rows) {
         push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
     }
     let (young, poisson) = (scene.young, scene.poisson);
-    push(rows, "material", &format!("linear elastic, E = {young} Pa, nu = {poisson}"));
+    let law = scene.law.name().replace('_', " ");
+    push(rows, "material", &format!("{law}, E = {young} Pa, nu = {poisson}"));
     for face in &scene.faces {
         let state = match (&face.traction, face.fixed) {
             (Some(value), _) => format!("traction {} Pa", sources(value)),

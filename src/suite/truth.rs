@@ -2,10 +2,10 @@
 
 use super::{
     binder::Binder,
-    model::{Scene, SceneFace},
+    model::{MaterialName, Scene, SceneFace},
     path::Path,
     scene::coordinates_and_time,
-    words::{ConvergenceWords, EquationName, ExactWords, LoadWords},
+    words::{ConvergenceWords, EquationName, LoadWords},
     yaml::{Complaint, NumberText},
 };
 use crate::exact::{Condition, Equation, Face, Motion, Problem, formula::Formula};
@@ -27,8 +27,17 @@ pub(super) fn exact(
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Complaint> {
-    let Some(exact) = &words.exact else { return Ok(None) };
+    let Some(exact) = &words.exact else { return manufactured(binder, words, scene, until) };
     let path = Path::top("exact");
+    if words.manufactured.is_some() {
+        let message = "a solution is either exact or manufactured";
+        return Err(binder.complain_key(&Path::top("manufactured"), message));
+    }
+    if scene.law != MaterialName::LinearElastic {
+        let message = "`small_strain` is the problem of a linear elastic material";
+        let complaint = binder.complain(&path.then("equation"), message);
+        return Err(complaint.with_help("state the motion under `manufactured`"));
+    }
     if exact.equation != EquationName::SmallStrain {
         let message = "a formula is checked against `small_strain` only";
         let complaint = binder.complain(&path.then("equation"), message);
@@ -40,30 +49,73 @@ pub(super) fn exact(
         density: scene.density,
         equation: Equation::small_strain(scene.young, scene.poisson),
         body_force: body_force(binder, words, scene)?,
+        manufactured: false,
         faces: scene.faces.iter().map(face).collect(),
         initial_velocity: scene.initial_velocity.clone(),
         until,
-        motion: motion(binder, &path, exact, scene.dimension())?,
+        motion: motion(binder, &path, &exact.displacement, scene.dimension())?,
         tolerance: tolerance(binder, &path, exact.tolerance.as_ref())?,
     };
+    check(binder, &path, &problem)?;
+    Ok(Some(problem))
+}
+
+/// The problem whose body force follows from the motion that the suite states.
+fn manufactured(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Problem>, Complaint> {
+    let Some(made) = &words.manufactured else { return Ok(None) };
+    let path = Path::top("manufactured");
+    if scene.law != MaterialName::NeoHookean {
+        let message = "a force is manufactured for a `neo_hookean` material";
+        let complaint = binder.complain_key(&path, message);
+        return Err(
+            complaint.with_help("a law in rate form has no stress of the deformation alone")
+        );
+    }
+    if !scene.initial_velocity.is_empty() {
+        let message = "the initial velocity follows from the motion";
+        let at = Path::top("scene").then("initial_velocity");
+        return Err(binder.complain_key(&at, message).with_help("remove it"));
+    }
+    let problem = Problem {
+        from: scene.from.clone(),
+        to: scene.to.clone(),
+        density: scene.density,
+        equation: Equation::neo_hookean(scene.young, scene.poisson),
+        body_force: body_force(binder, words, scene)?,
+        manufactured: true,
+        faces: scene.faces.iter().map(face).collect(),
+        initial_velocity: Vec::new(),
+        until,
+        motion: motion(binder, &path, &made.displacement, scene.dimension())?,
+        tolerance: TOLERANCE,
+    };
+    check(binder, &path, &problem)?;
+    Ok(Some(problem))
+}
+
+fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Complaint> {
     problem.check().map_err(|violation| {
         let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
         complaint
             .with_label("this is not a solution of the problem that the scene states")
             .with_help("correct the formula, or the scene: loads, boundary, initial velocity")
-    })?;
-    Ok(Some(problem))
+    })
 }
 
 fn motion(
     binder: &Binder<'_>,
     path: &Path,
-    exact: &ExactWords,
+    displacement: &[NumberText],
     dimension: usize,
 ) -> Result<Motion, Complaint> {
     let variables = coordinates_and_time(dimension);
     let path = path.then("displacement");
-    let components = binder.vector(&path, &exact.displacement, dimension, &variables)?;
+    let components = binder.vector(&path, displacement, dimension, &variables)?;
     for (i, component) in components.iter().enumerate() {
         let operations = component.operations();
         if operations > MOST_OPERATIONS {

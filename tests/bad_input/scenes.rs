@@ -51,7 +51,7 @@ use rstest::rstest;
         ("suite: bar", "▸suite: bar"),
         ("exact:\n  equation: small_strain\n  displacement: [\"v0/omega*mode(X)*sin(omega*t)\"]\n", ""),
     ],
-    &["no truth: a convergence study needs `exact`, `reference` or both"]
+    &["no truth: a convergence study needs `exact`, `manufactured` or `reference`"]
 )]
 #[case::a_formula_for_another_equation(
     &[("small_strain", "▸log_strain")],

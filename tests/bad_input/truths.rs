@@ -105,3 +105,35 @@ fn a_bar_that_swings_a_hundred_times_is_sound() {
         panic!("{complaint}");
     }
 }
+
+const FORCED: &str = include_str!("../../verification/mms-fixed-bar-small.yaml");
+
+#[rstest]
+#[case::a_motion_that_moves_a_fixed_end(
+    &[("[\"G*sin(pi*X)*sin(c*pi*t)\"]", "[▸\"G*cos(pi*X)*sin(c*pi*t)\"]")],
+    &["boundary condition: left is fixed, u_X = 0"]
+)]
+#[case::a_motion_that_starts_displaced(
+    &[("[\"G*sin(pi*X)*sin(c*pi*t)\"]", "[▸\"G*sin(pi*X)*cos(c*pi*t)\"]")],
+    &["initial condition u_X(X, 0) = 0"]
+)]
+fn a_manufactured_motion_must_fit_the_scene(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    violated(FORCED, edits, words);
+}
+
+#[rstest]
+#[case::a_law_in_rate_form(
+    &[("neo_hookean: {young", "linear_elastic: {young"), ("manufactured:  #", "▸manufactured:  #")],
+    &["a force is manufactured for a `neo_hookean` material"]
+)]
+#[case::an_initial_velocity(
+    &[("\nmanufactured:", "  ▸initial_velocity: [0]\n\nmanufactured:")],
+    &["the initial velocity follows from the motion"]
+)]
+#[case::two_truths(
+    &[("\nmanufactured:", "\nexact: {equation: small_strain, displacement: [0]}\n▸manufactured:")],
+    &["a solution is either exact or manufactured"]
+)]
+fn a_manufactured_motion_is_refused_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(FORCED, edits, words);
+}

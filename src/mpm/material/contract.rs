@@ -4,6 +4,9 @@ use crate::mpm::particles::Particles;
 
 /// A constitutive law. It meets the solver between stages: one virtual call per step.
 pub trait Material<const D: usize>: Send {
+    /// Whether the law reads F: the column exists only then, or if the basis asks for it.
+    fn reads_deformation(&self) -> bool;
+
     /// New stresses and volumes of all particles from their velocity gradients over `dt` (s).
     fn update(&self, dt: f64, particles: &mut Particles<D>);
 }

@@ -36,6 +36,10 @@ impl LinearElastic {
 }
 
 impl<const D: usize> Material<D> for LinearElastic {
+    fn reads_deformation(&self) -> bool {
+        false
+    }
+
     fn update(&self, dt: f64, particles: &mut Particles<D>) {
         for p in 0..particles.len() {
             let step = particles.grad_v[p] * dt;

@@ -7,7 +7,9 @@ mod force;
 mod scene;
 
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
-pub(in crate::suite) use scene::{BodyWords, BoxWords, LoadWords, MaterialWords, SceneWords};
+pub(in crate::suite) use scene::{
+    BodyWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords,
+};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::{
@@ -58,6 +60,7 @@ pub(in crate::suite) struct ConvergenceWords {
     pub(in crate::suite) functions: Ordered<String>,
     pub(in crate::suite) scene: SceneWords,
     pub(in crate::suite) exact: Option<ExactWords>,
+    pub(in crate::suite) manufactured: Option<ManufacturedWords>,
     pub(in crate::suite) reference: Option<ReferenceWords>,
     pub(in crate::suite) run: RunWords,
     pub(in crate::suite) refine: RefineWords,
@@ -76,6 +79,12 @@ pub(in crate::suite) struct ExactWords {
     pub(in crate::suite) tolerance: Option<NumberText>,
 }
 
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ManufacturedWords {
+    pub(in crate::suite) displacement: Vec<NumberText>,
+}
+
 named! {
     /// Equations of motion, by their law between stress and strain.
     pub enum EquationName {
@@ -83,6 +92,8 @@ named! {
         SmallStrain = "small_strain",
         /// `P = E ln F`: what the rate form of the original MPM integrates to in 1-D.
         LogStrain = "log_strain",
+        /// `P = lambda ln(J) F^-T + mu (F - F^-T)`.
+        NeoHookean = "neo_hookean",
     }
 }
 

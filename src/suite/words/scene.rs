@@ -33,7 +33,16 @@ pub(in crate::suite) struct BoxWords {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(in crate::suite) enum MaterialWords {
-    LinearElastic { young: NumberText, poisson: NumberText, density: NumberText },
+    LinearElastic(ElasticWords),
+    NeoHookean(ElasticWords),
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ElasticWords {
+    pub(in crate::suite) young: NumberText,
+    pub(in crate::suite) poisson: NumberText,
+    pub(in crate::suite) density: NumberText,
 }
 
 /// Boundary conditions on a face; a face that is not named is free.
