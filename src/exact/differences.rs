@@ -65,7 +65,7 @@ fn stress_differences(
     all: &Derivatives,
 ) -> Result<(), Violation> {
     let d = problem.dimension();
-    let exact = problem.equation.divergence(&all.grad, &all.second);
+    let exact = problem.equation.divergence(d, &all.grad, &all.second);
     let (mut divergence, mut size) = ([0.0; 3], 0.0);
     for axis in 0..d {
         let step = 1e-5 * (problem.to[axis] - problem.from[axis]);

@@ -66,15 +66,24 @@ impl Equation {
         }
     }
 
-    /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`.
-    pub fn divergence(&self, grad: &Tensor<f64>, second: &[Tensor<f64>; 3]) -> [f64; 3] {
-        let along: [Jet<3>; 3] = std::array::from_fn(|axis| Jet::variable(0.0, axis));
-        let jets = tensor(|i, j| {
-            let slope = |axis: usize| along[axis] * Jet::from(second[i][j][axis]);
-            Jet::from(grad[i][j]) + slope(0) + slope(1) + slope(2)
-        });
-        let stress = self.piola(&jets);
-        std::array::from_fn(|i| (0..3).map(|j| stress[i][j].d(j)).sum())
+    /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`:
+    /// one jet along each of the `dimension` axes on which anything varies.
+    pub fn divergence(
+        &self,
+        dimension: usize,
+        grad: &Tensor<f64>,
+        second: &[Tensor<f64>; 3],
+    ) -> [f64; 3] {
+        let along: Jet<1> = Jet::variable(0.0, 0);
+        let mut divergence = [0.0; 3];
+        for axis in 0..dimension {
+            let jets = tensor(|i, j| Jet::from(grad[i][j]) + along * Jet::from(second[i][j][axis]));
+            let stress = self.piola(&jets);
+            for (i, component) in divergence.iter_mut().enumerate() {
+                *component += stress[i][axis].d(0);
+            }
+        }
+        divergence
     }
 
     /// Stiffest modulus, `lambda + 2 mu` (Pa): a bound for stresses of a given strain.
@@ -117,7 +126,7 @@ mod tests {
         let mut second = [[[0.0; 3]; 3]; 3];
         second[0] = [[2.0 * y, 2.0 * x, 0.0], [2.0 * x, 0.0, 0.0], [0.0; 3]];
         second[1] = [[0.0, 2.0 * y, 0.0], [2.0 * y, 2.0 * x, 0.0], [0.0; 3]];
-        let found = solid.divergence(&[[0.0; 3]; 3], &second);
+        let found = solid.divergence(2, &[[0.0; 3]; 3], &second);
         assert_relative_eq!(found[0], 5.0 * 4.0 * y + 3.0 * 2.0 * y);
         assert_relative_eq!(found[1], 5.0 * 4.0 * x + 3.0 * 2.0 * x);
     }

@@ -5,9 +5,6 @@ use super::{
     truth::Truth,
 };
 
-/// Place of time among the four variables (X, Y, Z, t) of a jet.
-const T: usize = 3;
-
 /// A displacement field u(X, t) with one formula for each component, each a function of the
 /// reference coordinates (as many as there are components) and of t, in this order.
 #[derive(Debug, Clone)]
@@ -52,19 +49,32 @@ impl Motion {
         self.components[i].eval(&variables(label, t)[..=label.len()])
     }
 
-    /// All derivatives, by automatic differentiation.
+    /// All derivatives, by automatic differentiation over as many variables as there are.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
-        let mut seeds: [Jet<4>; 4] =
-            std::array::from_fn(|a| Jet::variable(label.get(a).copied().unwrap_or(0.0), a));
-        seeds[self.dimension()] = Jet::variable(t, T);
+        match self.dimension() {
+            1 => self.over_jets::<2>(label, t),
+            2 => self.over_jets::<3>(label, t),
+            _ => self.over_jets::<4>(label, t),
+        }
+    }
+
+    /// The derivatives over jets of N variables: N - 1 coordinates, and time as the last.
+    fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Derivatives {
+        let time = N - 1;
+        let seeds: [Jet<N>; N] =
+            std::array::from_fn(|a| Jet::variable(if a == time { t } else { label[a] }, a));
         let mut all = Derivatives::default();
         for (i, formula) in self.components.iter().enumerate() {
-            let jet = formula.eval(&seeds[..=self.dimension()]);
+            let jet = formula.eval(&seeds);
             all.u[i] = jet.value();
-            all.velocity[i] = jet.d(T);
-            all.acceleration[i] = jet.dd(T, T);
-            all.grad[i] = std::array::from_fn(|a| jet.d(a));
-            all.second[i] = std::array::from_fn(|a| std::array::from_fn(|b| jet.dd(a, b)));
+            all.velocity[i] = jet.d(time);
+            all.acceleration[i] = jet.dd(time, time);
+            for a in 0..time {
+                all.grad[i][a] = jet.d(a);
+                for b in 0..time {
+                    all.second[i][a][b] = jet.dd(a, b);
+                }
+            }
         }
         all
     }

@@ -165,7 +165,7 @@ pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
     let points = interior(problem, 4);
     let terms = |event: &Event, d: &Derivatives, i: usize| {
         let inertia = problem.density * d.acceleration[i];
-        let stress = problem.equation.divergence(&d.grad, &d.second)[i];
+        let stress = problem.equation.divergence(problem.dimension(), &d.grad, &d.second)[i];
         (inertia, stress, problem.density * problem.force(i, &event.label, event.t))
     };
     let size = scale(problem, |event, d| {

@@ -64,7 +64,7 @@ impl Problem {
     /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what the scene declares.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let all = self.motion.derivatives(label, t);
-        let stress = self.equation.divergence(&all.grad, &all.second);
+        let stress = self.equation.divergence(self.dimension(), &all.grad, &all.second);
         let declared = |i| self.declared_force(i, label, t);
         std::array::from_fn(|i| all.acceleration[i] - stress[i] / self.density - declared(i))
     }
