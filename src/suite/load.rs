@@ -1,7 +1,7 @@
 //! From words to a suite: every number computed, every name resolved, the truth checked.
 
 use super::{
-    binder::Binder,
+    binder::{Binder, Parameter},
     cases, force,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
@@ -11,7 +11,7 @@ use super::{
         ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, RefineWords,
         StudyName,
     },
-    yaml::{Complaint, Source, read},
+    yaml::{Complaint, Ordered, Source, read},
 };
 
 /// Instants at which the error is taken unless a suite says otherwise.
@@ -74,15 +74,8 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     cases::check_steps(&binder, &plan, &until)?;
     plan.cases = cases::cases(&binder, &words, &plan, &until)?;
     binder.refuse_unused(&words.parameters, &words.functions)?;
-    Ok(Suite {
-        name: words.suite,
-        title: words.title,
-        source: words.source,
-        about: words.about,
-        parameters,
-        functions: words.functions.as_slice().to_vec(),
-        study: StudyPlan::Convergence(Box::new(plan)),
-    })
+    let head = [words.suite, words.title, words.source, words.about];
+    Ok(assemble(head, parameters, &words.functions, StudyPlan::Convergence(Box::new(plan))))
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Complaint> {
@@ -91,15 +84,18 @@ fn internal_force(source: &Source) -> Result<Suite, Complaint> {
     name(&binder, &words.suite)?;
     let plan = force::plan(&binder, &words)?;
     binder.refuse_unused(&words.parameters, &words.functions)?;
-    Ok(Suite {
-        name: words.suite,
-        title: words.title,
-        source: words.source,
-        about: words.about,
-        parameters,
-        functions: words.functions.as_slice().to_vec(),
-        study: StudyPlan::InternalForce(Box::new(plan)),
-    })
+    let head = [words.suite, words.title, words.source, words.about];
+    Ok(assemble(head, parameters, &words.functions, StudyPlan::InternalForce(Box::new(plan))))
+}
+
+fn assemble(
+    [name, title, source, about]: [String; 4],
+    parameters: Vec<Parameter>,
+    functions: &Ordered<String>,
+    study: StudyPlan,
+) -> Suite {
+    let functions = functions.as_slice().to_vec();
+    Suite { name, title, source, about, parameters, functions, study }
 }
 
 /// A name becomes part of test and file names.
