@@ -166,7 +166,7 @@ pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
     let terms = |event: &Event, d: &Derivatives, i: usize| {
         let inertia = problem.density * d.acceleration[i];
         let stress = problem.equation.divergence(problem.dimension(), &d.grad, &d.second)[i];
-        (inertia, stress, problem.density * problem.force(i, &event.label, event.t))
+        (inertia, stress, problem.density * problem.force(d, event.t)[i])
     };
     let size = scale(problem, |event, d| {
         (0..problem.dimension())

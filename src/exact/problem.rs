@@ -1,6 +1,10 @@
 //! The continuum problem that an exact solution is held to.
 
-use super::{equation::Equation, formula::Formula, motion::Motion};
+use super::{
+    equation::Equation,
+    formula::Formula,
+    motion::{Derivatives, Motion},
+};
 
 /// A boundary condition on one face of the body.
 #[derive(Debug, Clone)]
@@ -37,9 +41,9 @@ pub struct Problem {
     pub density: f64,
     /// The equation of motion.
     pub equation: Equation,
-    /// Body force per unit mass (m/s2), formulas of (X, Y, Z, t) as far as there are dimensions;
-    /// empty where there is none.
-    pub body_force: Vec<Formula>,
+    /// Uniform body force per unit mass (m/s2), one formula of t for each component; empty where
+    /// there is none.
+    pub gravity: Vec<Formula>,
     /// Whether a further body force is added that makes the motion a solution: the method of
     /// manufactured solutions (Roache 2002).
     pub manufactured: bool,
@@ -61,22 +65,28 @@ impl Problem {
         self.from.len()
     }
 
-    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what the scene declares.
+    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less gravity.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
-        let all = self.motion.derivatives(label, t);
-        let stress = self.equation.divergence(self.dimension(), &all.grad, &all.second);
-        let declared = |i| self.declared_force(i, label, t);
-        std::array::from_fn(|i| all.acceleration[i] - stress[i] / self.density - declared(i))
+        let balance = self.balance(&self.motion.derivatives(label, t));
+        std::array::from_fn(|i| balance[i] - self.gravity(i, t))
     }
 
-    /// Component i of the whole body force (m/s2).
-    pub(super) fn force(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        let made = if self.manufactured { self.manufactured_force(label, t)[i] } else { 0.0 };
-        self.declared_force(i, label, t) + made
+    /// The whole body force (m/s2) where the motion's derivatives are `now`.
+    pub(super) fn force(&self, now: &Derivatives, t: f64) -> [f64; 3] {
+        if self.manufactured {
+            self.balance(now)
+        } else {
+            std::array::from_fn(|i| self.gravity(i, t))
+        }
     }
 
-    fn declared_force(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        let variables = super::motion::variables(label, t);
-        self.body_force.get(i).map_or(0.0, |f| f.eval(&variables[..=label.len()]))
+    /// The body force that the motion needs, `u_tt - Div P / rho0`.
+    fn balance(&self, now: &Derivatives) -> [f64; 3] {
+        let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
+        std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
+    }
+
+    fn gravity(&self, i: usize, t: f64) -> f64 {
+        self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]))
     }
 }

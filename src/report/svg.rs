@@ -80,13 +80,7 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
     } else {
         Mark::Shown
     };
-    let error = match study.norm {
-        "l1" => level.run.errors.l1,
-        "l2" => level.run.errors.l2,
-        "linf" => level.run.errors.linf,
-        "max_rms" => level.run.max_rms,
-        _ => level.run.errors.rms,
-    };
+    let error = study.judgement.levels.get(index).map_or(f64::NAN, |judged| judged.error);
     Point { h: level.h, error, mark }
 }
 

@@ -30,8 +30,7 @@ impl Suite {
     }
 }
 
-/// The kind of study decides which keys are known. A file whose head cannot be read is read as a
-/// convergence study, which then tells what is wrong with it.
+/// The kind of study, which decides what other keys are known.
 fn study_of(source: &Source) -> Result<StudyName, Complaint> {
     read::<Head>(source).map(|head| head.study)
 }

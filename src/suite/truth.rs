@@ -5,10 +5,10 @@ use super::{
     model::{MaterialName, Scene, SceneFace},
     path::Path,
     scene::coordinates_and_time,
-    words::{ConvergenceWords, EquationName, LoadWords},
+    words::{ConvergenceWords, EquationName},
     yaml::{Complaint, NumberText},
 };
-use crate::exact::{Condition, Equation, Face, Motion, Problem, formula::Formula};
+use crate::exact::{Condition, Equation, Face, Motion, Problem};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 const TOLERANCE: f64 = 1e-8;
@@ -44,17 +44,13 @@ pub(super) fn exact(
         return Err(complaint.with_help("give other equations a `reference`"));
     }
     let problem = Problem {
-        from: scene.from.clone(),
-        to: scene.to.clone(),
-        density: scene.density,
-        equation: Equation::small_strain(scene.young, scene.poisson),
-        body_force: body_force(binder, words, scene)?,
-        manufactured: false,
-        faces: scene.faces.iter().map(face).collect(),
-        initial_velocity: scene.initial_velocity.clone(),
-        until,
-        motion: motion(binder, &path, &exact.displacement, scene.dimension())?,
         tolerance: tolerance(binder, &path, exact.tolerance.as_ref())?,
+        ..problem(
+            scene,
+            Equation::small_strain(scene.young, scene.poisson),
+            motion(binder, &path, &exact.displacement, scene.dimension())?,
+            until,
+        )
     };
     check(binder, &path, &problem)?;
     Ok(Some(problem))
@@ -82,20 +78,33 @@ fn manufactured(
         return Err(binder.complain_key(&at, message).with_help("remove it"));
     }
     let problem = Problem {
-        from: scene.from.clone(),
-        to: scene.to.clone(),
-        density: scene.density,
-        equation: Equation::neo_hookean(scene.young, scene.poisson),
-        body_force: body_force(binder, words, scene)?,
         manufactured: true,
-        faces: scene.faces.iter().map(face).collect(),
-        initial_velocity: Vec::new(),
-        until,
-        motion: motion(binder, &path, &made.displacement, scene.dimension())?,
-        tolerance: TOLERANCE,
+        ..problem(
+            scene,
+            Equation::neo_hookean(scene.young, scene.poisson),
+            motion(binder, &path, &made.displacement, scene.dimension())?,
+            until,
+        )
     };
     check(binder, &path, &problem)?;
     Ok(Some(problem))
+}
+
+/// The scene as a continuum problem, with the motion that is to solve it.
+fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
+    Problem {
+        from: scene.from.clone(),
+        to: scene.to.clone(),
+        density: scene.density,
+        equation,
+        gravity: scene.gravity.clone().unwrap_or_default(),
+        manufactured: false,
+        faces: scene.faces.iter().map(face).collect(),
+        initial_velocity: scene.initial_velocity.clone(),
+        until,
+        motion,
+        tolerance: TOLERANCE,
+    }
 }
 
 fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Complaint> {
@@ -140,22 +149,6 @@ fn tolerance(
     }
     let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
     Err(binder.complain(&path, &message).with_label("expected at most 1e-2"))
-}
-
-/// Gravity once more, as formulas of the coordinates and t.
-fn body_force(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
-    scene: &Scene,
-) -> Result<Vec<Formula>, Complaint> {
-    let variables = coordinates_and_time(scene.dimension());
-    for (i, load) in words.scene.loads.iter().enumerate() {
-        if let LoadWords::Gravity(texts) = load {
-            let path = Path::top("scene").then("loads").then(i).then("gravity");
-            return binder.vector(&path, texts, scene.dimension(), &variables);
-        }
-    }
-    Ok(Vec::new())
 }
 
 fn face(face: &SceneFace) -> Face {
