@@ -28,6 +28,11 @@ impl Fixed {
         Self { nodes }
     }
 
+    /// The nodes of the face.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
     /// Sets a nodal field to zero on the face.
     pub fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
         for &i in &self.nodes {

@@ -35,3 +35,32 @@ macro_rules! family {
     };
 }
 pub(in crate::mpm) use family;
+
+/// Declares a family of objects that suites choose by name.
+///
+/// `objects! { /// docs  pub enum Names; /// docs  pub fn make -> Trait; "flip" => Flip: Flip, }`
+/// makes the enum of names and a function that builds the object a name stands for, in any
+/// dimension.
+macro_rules! objects {
+    ($(#[$meta:meta])* pub enum $names:ident; $(#[$fn_meta:meta])* pub fn $make:ident -> $contract:ident;
+        $($text:literal => $member:ident: $build:expr,)+
+    ) => {
+        $crate::named::named! {
+            $(#[$meta])*
+            pub enum $names {
+                $(
+                    #[doc = concat!("`", $text, "`: `", stringify!($build), "`.")]
+                    $member = $text,
+                )+
+            }
+        }
+
+        $(#[$fn_meta])*
+        pub fn $make<const D: usize>(name: $names) -> Box<dyn $contract<D>> {
+            match name {
+                $($names::$member => Box::new($build),)+
+            }
+        }
+    };
+}
+pub(in crate::mpm) use objects;

@@ -57,6 +57,13 @@ impl<const D: usize> Grid<D> {
         self.mass.len()
     }
 
+    /// Divides each value by the mass of its node; zero where no particle gives the node any mass.
+    pub fn divide_by_mass(&self, field: &mut [Vector<D>]) {
+        for (value, m) in field.iter_mut().zip(&self.mass) {
+            *value = if *m > 0.0 { *value / *m } else { Vector::zeros() };
+        }
+    }
+
     /// The cell that holds `x`, or `None` outside the grid (or where `x` is not a number). A
     /// point on the last face belongs to the last cell.
     #[inline]

@@ -2,9 +2,10 @@
 //! Wobbes & Tielen (2015) use it, for any number of dimensions.
 //!
 //! One step is a list of named stages ([`SchemeName::stages`]); each stage is a pass over particles or nodes.
-//! Only basis x transfer meets inside the particle-node loop, so only these are type parameters,
-//! hidden behind the object-safe [`Kernel`]; [`Material`] and [`Effect`] meet the solver between
-//! stages and are trait objects. An effect that a scene does not list is not there.
+//! Only the basis meets particles and nodes inside a loop, so only dimension and basis are type
+//! parameters, hidden behind the object-safe [`Kernel`], whose passes [`Transfer`], [`MassMatrix`]
+//! and [`Effect`] are made of; these and [`Material`] meet the solver between stages and are trait
+//! objects. An effect that a scene does not list is not there.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
@@ -13,16 +14,22 @@
 mod algebra;
 mod basis;
 mod boundary;
+mod combination;
 mod effect;
 mod family;
+mod frame;
 mod grid;
 mod kernel;
+mod loops;
+mod mass;
 mod material;
+mod moments;
 mod particles;
 mod scheme;
 mod solver;
 mod stage;
 mod transfer;
+mod whereabouts;
 
 pub use algebra::{Matrix, Vector, det, dyad};
 pub use basis::{
@@ -30,18 +37,19 @@ pub use basis::{
     UniformGimp,
 };
 pub use boundary::{Fixed, Side};
+pub use combination::combine;
 pub use effect::{BodyForce, Effect, Field, Gravity, Traction};
+pub use frame::FrameName;
 pub use grid::Grid;
-pub use kernel::{Kernel, Pair};
+pub use kernel::{Kernel, Shown};
+pub use loops::kernel;
+pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{LinearElastic, Material, NeoHookean};
+pub use moments::Moments;
 pub use particles::{Block, Particles};
 pub use scheme::SchemeName;
 pub use solver::{Setup, Solver};
 pub use stage::Stage;
-pub use transfer::{Flip, Transfer, TransferName};
-
-/// Builds the kernel that a suite names: the one place where names of bases and transfers become
-/// types.
-pub fn kernel<const D: usize>(basis: BasisName, transfer: TransferName) -> Box<dyn Kernel<D>> {
-    basis::with_basis!(basis, B => transfer::with_transfer!(transfer, T => Box::new(Pair::<B, T>::new())))
-}
+pub use transfer::{
+    Apic, Blend, Flip, Fmpm, Mls, Pic, Tpic, Transfer, TransferName, Xpic, transfer,
+};

@@ -9,8 +9,11 @@ use crate::subject::{Failure, Site};
 pub struct Particles<const D: usize> {
     /// Reference positions X (m): the labels at which errors are taken.
     pub x0: Vec<Vector<D>>,
-    /// Current positions x (m).
+    /// Where the basis sees the particles (m): their current positions x, in the total-Lagrangian
+    /// frame the reference positions X.
     pub x: Vec<Vector<D>>,
+    /// Current positions (m) in the total-Lagrangian frame; empty in the updated one.
+    pub moved: Vec<Vector<D>>,
     /// Velocities (m/s).
     pub v: Vec<Vector<D>>,
     /// Masses (kg), constant.
@@ -64,6 +67,7 @@ impl<const D: usize> Particles<D> {
             vol0: vec![volume; total],
             vol: vec![volume; total],
             sigma: vec![Matrix::zeros(); total],
+            moved: Vec::new(),
             def_grad: Vec::new(),
             half: Vec::new(),
             grad_v: vec![Matrix::zeros(); total],
@@ -83,6 +87,35 @@ impl<const D: usize> Particles<D> {
         self.half.resize(self.len(), Vector::zeros());
         for (half, f) in self.half.iter_mut().zip(&self.def_grad) {
             *half = Vector::from_fn(|axis, _| 0.5 * self.spacing[axis] * f[(axis, axis)].abs());
+        }
+    }
+
+    /// Current position of particle `p` (m), in either frame.
+    pub fn position(&self, p: usize) -> &Vector<D> {
+        self.moved.get(p).unwrap_or(&self.x[p])
+    }
+
+    /// The same, to be changed.
+    pub fn position_mut(&mut self, p: usize) -> &mut Vector<D> {
+        if self.moved.is_empty() { &mut self.x[p] } else { &mut self.moved[p] }
+    }
+
+    /// Stress times volume (N m) of particle `p`, the flux that the gradients of the basis meet:
+    /// V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
+    #[inline]
+    pub fn flux(&self, p: usize) -> Matrix<D> {
+        let flux = self.sigma[p] * self.vol[p];
+        if self.moved.is_empty() {
+            return flux;
+        }
+        // No inverse: the particle is inverted, and the next stage says so.
+        flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
+    }
+
+    /// Turns gradients with respect to X into those with respect to x, `grad0 v F^-1`.
+    pub(super) fn push_gradients_forward(&mut self) {
+        for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
+            *grad_v *= f.try_inverse().unwrap_or_else(Matrix::zeros);
         }
     }
 

@@ -23,9 +23,21 @@ named! {
 }
 
 impl SchemeName {
-    /// The stages of one step.
-    pub fn stages(self) -> &'static [Stage] {
+    /// The stages of one step. MUSL needs the grid's velocity before the particles' only if the
+    /// transfer reads it.
+    pub fn stages(self, reads_grid_velocity: bool) -> &'static [Stage] {
         match self {
+            Self::Musl if reads_grid_velocity => &[
+                Mass,
+                Momentum,
+                Force,
+                Acceleration,
+                GridVelocity,
+                ParticleVelocity,
+                Momentum,
+                Stress,
+                Position,
+            ],
             Self::Usf => &[
                 Mass,
                 Momentum,

@@ -5,12 +5,16 @@ use super::{
     basis::Domain,
     boundary::Fixed,
     effect::Effect,
+    frame::FrameName,
     grid::Grid,
     kernel::Kernel,
+    mass::MassMatrix,
     material::Material,
     particles::Particles,
     scheme::SchemeName,
     stage::Stage,
+    transfer::Transfer,
+    whereabouts::Whereabouts,
 };
 use crate::subject::{Census, Failure, Samples, Site, Start, Subject};
 
@@ -20,8 +24,14 @@ pub struct Setup<const D: usize> {
     pub grid: Grid<D>,
     /// The body, in its initial state.
     pub particles: Particles<D>,
-    /// Basis and transfer.
+    /// Basis.
     pub kernel: Box<dyn Kernel<D>>,
+    /// Velocities between particles and grid.
+    pub transfer: Box<dyn Transfer<D>>,
+    /// From momenta to velocities, from forces to accelerations.
+    pub mass: Box<dyn MassMatrix<D>>,
+    /// Configuration in which the basis lives.
+    pub frame: FrameName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
     /// What the scene lists, and nothing else.
@@ -40,10 +50,8 @@ pub struct Solver<const D: usize> {
     time: f64,
     started: bool,
     transfers: u64,
-    crossings: u64,
-    left_domain: u64,
     min_j: f64,
-    cells: Vec<[usize; D]>,
+    whereabouts: Whereabouts<D>,
 }
 
 impl<const D: usize> Solver<D> {
@@ -56,27 +64,18 @@ impl<const D: usize> Solver<D> {
         if setup.kernel.domain() == Domain::Follows {
             setup.particles.track_domains();
         }
-        if setup.material.reads_deformation() {
+        if setup.material.reads_deformation() || setup.frame == FrameName::Total {
             setup.particles.track_deformation();
         }
+        if setup.frame == FrameName::Total {
+            setup.particles.moved.clone_from(&setup.particles.x);
+            setup.particles.x.clone_from(&setup.particles.x0);
+        }
         setup.particles.all_finite()?;
-        let cells = setup.particles.x.iter().enumerate().map(|(p, x)| {
-            setup.grid.cell(x).ok_or_else(|| Failure::LeftDomain {
-                site: Site::Particle(p),
-                position: x.iter().copied().collect(),
-            })
-        });
-        let cells = cells.collect::<Result<_, _>>()?;
-        Ok(Self {
-            setup,
-            time: 0.0,
-            started: false,
-            transfers: 0,
-            crossings: 0,
-            left_domain: 0,
-            min_j: 1.0,
-            cells,
-        })
+        let whereabouts = Whereabouts::new(&setup.grid, &setup.particles)?;
+        let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
+        transfer.start(kernel.as_ref(), grid, particles);
+        Ok(Self { setup, time: 0.0, started: false, transfers: 0, min_j: 1.0, whereabouts })
     }
 
     /// The particles as they are now.
@@ -94,64 +93,83 @@ impl<const D: usize> Solver<D> {
     /// # Errors
     /// See [`Subject::step`].
     pub fn run(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, .. } = &mut self.setup;
         match stage {
-            Stage::Mass => kernel.p2g_mass(particles, grid),
+            Stage::Mass => self.mass()?,
             Stage::Momentum => self.momentum(),
             Stage::Force => self.force(),
             Stage::Acceleration => self.accelerate(),
             Stage::GridVelocity => {
-                for (v, a) in grid.velocity.iter_mut().zip(&grid.acceleration) {
-                    *v += a * dt;
+                let Grid { velocity, acceleration, .. } = &mut self.setup.grid;
+                for (v, a) in velocity.iter_mut().zip(acceleration) {
+                    *v += *a * dt;
                 }
             }
-            Stage::ParticleVelocity => kernel.g2p_velocity(grid, dt, particles),
-            Stage::Stress => return self.stress(dt),
-            Stage::Position => return self.position(dt),
-        }
-        if !matches!(stage, Stage::Acceleration | Stage::GridVelocity) {
-            self.count_pass();
+            Stage::ParticleVelocity => {
+                let Setup { grid, particles, kernel, transfer, fixed, .. } = &mut self.setup;
+                let passes = transfer.g2p_velocity(kernel.as_ref(), grid, fixed, dt, particles);
+                self.count(passes);
+            }
+            Stage::Stress => self.stress(dt)?,
+            Stage::Position => self.position(dt)?,
         }
         Ok(())
     }
 
+    fn mass(&mut self) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, transfer, mass, fixed, .. } = &mut self.setup;
+        let passes = transfer.p2g_mass(kernel.as_ref(), particles, grid)
+            + mass.assemble(kernel.as_ref(), particles, grid, fixed)?;
+        self.count(passes);
+        Ok(())
+    }
+
     fn momentum(&mut self) {
-        let Setup { grid, particles, kernel, fixed, .. } = &mut self.setup;
-        kernel.p2g_momentum(particles, grid);
-        for (v, m) in grid.velocity.iter_mut().zip(&grid.mass) {
-            *v = per_mass(v, *m);
-        }
-        for face in fixed {
-            face.hold(&mut grid.velocity);
-        }
+        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        let mut field = std::mem::take(&mut grid.velocity);
+        let passes = transfer.p2g_momentum(kernel.as_ref(), particles, grid, &mut field);
+        self.count(passes);
+        self.setup.grid.velocity = self.solved(field);
     }
 
     fn force(&mut self) {
-        let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
-        kernel.p2g_internal_force(particles, grid);
+        let Setup { grid, particles, kernel, transfer, effects, .. } = &mut self.setup;
+        let passes = transfer.p2g_internal_force(kernel.as_ref(), particles, grid);
         for effect in effects {
             self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
         }
+        self.count(passes);
     }
 
     fn accelerate(&mut self) {
-        let Setup { grid, fixed, .. } = &mut self.setup;
-        for ((a, f), m) in grid.acceleration.iter_mut().zip(&grid.force).zip(&grid.mass) {
-            *a = per_mass(f, *m);
+        let grid = &mut self.setup.grid;
+        let mut field = std::mem::take(&mut grid.acceleration);
+        field.copy_from_slice(&grid.force);
+        self.setup.grid.acceleration = self.solved(field);
+    }
+
+    /// `field` divided by the mass matrix, zero where nodes are held.
+    fn solved(&mut self, mut field: Vec<Vector<D>>) -> Vec<Vector<D>> {
+        let Setup { grid, particles, kernel, transfer, mass, fixed, .. } = &mut self.setup;
+        mass.solve(grid, &mut field);
+        for face in fixed.iter() {
+            face.hold(&mut field);
         }
-        for face in fixed {
-            face.hold(&mut grid.acceleration);
-        }
+        let passes = transfer.refine(kernel.as_ref(), particles, grid, fixed, &mut field);
+        self.count(passes);
+        field
     }
 
     fn stress(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, material, .. } = &mut self.setup;
-        kernel.g2p_gradient(grid, particles);
+        let Setup { grid, particles, kernel, transfer, material, frame, .. } = &mut self.setup;
+        let passes = transfer.g2p_gradient(kernel.as_ref(), grid, particles);
+        if *frame == FrameName::Total {
+            particles.push_gradients_forward();
+        }
         for (f, grad_v) in particles.def_grad.iter_mut().zip(&particles.grad_v) {
             *f = (Matrix::identity() + grad_v * dt) * *f;
         }
         material.update(dt, particles);
-        self.count_pass();
+        self.count(passes);
         for (p, (vol, vol0)) in
             self.setup.particles.vol.iter().zip(&self.setup.particles.vol0).enumerate()
         {
@@ -168,42 +186,19 @@ impl<const D: usize> Solver<D> {
     }
 
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, .. } = &mut self.setup;
+        let Setup { grid, particles, kernel, frame, .. } = &mut self.setup;
         kernel.g2p_position(grid, dt, particles);
-        if kernel.domain() == Domain::Follows {
+        if kernel.domain() == Domain::Follows && *frame == FrameName::Updated {
             particles.track_domains();
         }
-        self.count_pass();
-        self.track_cells()
+        self.whereabouts.track(grid, particles)?;
+        self.count(1);
+        Ok(())
     }
 
-    /// Counts changes of cell and departures; the first particle without a cell ends the run.
-    fn track_cells(&mut self) -> Result<(), Failure> {
-        let Setup { grid, particles, .. } = &self.setup;
-        let mut first = Ok(());
-        for (p, (x, cell)) in particles.x.iter().zip(&mut self.cells).enumerate() {
-            let site = Site::Particle(p);
-            if let Some(now) = grid.cell(x) {
-                self.crossings += u64::from(now != *cell);
-                *cell = now;
-                continue;
-            }
-            let finite = x.iter().all(|c| c.is_finite());
-            self.left_domain += u64::from(finite);
-            first = first.and_then(|()| {
-                Err(if finite {
-                    let position = x.iter().copied().collect();
-                    Failure::LeftDomain { site, position }
-                } else {
-                    Failure::NonFinite { quantity: "position", site }
-                })
-            });
-        }
-        first
-    }
-
-    fn count_pass(&mut self) {
-        self.transfers += self.setup.particles.len() as u64 * self.setup.kernel.support();
+    fn count(&mut self, passes: u64) {
+        let pairs = self.setup.particles.len() as u64 * self.setup.kernel.support();
+        self.transfers += passes * pairs;
     }
 
     /// `v(-dt/2) = v(0) - dt/2 a(0)`.
@@ -211,13 +206,11 @@ impl<const D: usize> Solver<D> {
         self.run(Stage::Mass, dt)?;
         self.run(Stage::Force, dt)?;
         self.run(Stage::Acceleration, dt)?;
-        self.run(Stage::ParticleVelocity, -0.5 * dt)
+        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        let passes = transfer.kick(kernel.as_ref(), grid, -0.5 * dt, particles);
+        self.count(passes);
+        Ok(())
     }
-}
-
-/// `value / mass`, zero where no particle gives the node any mass.
-fn per_mass<const D: usize>(value: &Vector<D>, mass: f64) -> Vector<D> {
-    if mass > 0.0 { value / mass } else { Vector::zeros() }
 }
 
 impl<const D: usize> Subject for Solver<D> {
@@ -226,7 +219,7 @@ impl<const D: usize> Subject for Solver<D> {
             self.half_step_back(dt)?;
         }
         self.started = true;
-        for &stage in self.setup.scheme.stages() {
+        for &stage in self.setup.scheme.stages(self.setup.transfer.reads_grid_velocity()) {
             self.run(stage, dt)?;
         }
         self.time += dt;
@@ -237,9 +230,9 @@ impl<const D: usize> Subject for Solver<D> {
         let particles = &self.setup.particles;
         samples.clear();
         samples.dimension = D;
-        for (x0, x) in particles.x0.iter().zip(&particles.x) {
+        for (p, x0) in particles.x0.iter().enumerate() {
             samples.label.extend(x0.iter());
-            samples.displacement.extend((x - x0).iter());
+            samples.displacement.extend((particles.position(p) - x0).iter());
         }
         samples.velocity.extend(particles.v.iter().flat_map(|v| v.iter()));
         samples.weight.extend(&particles.vol0);
@@ -249,8 +242,8 @@ impl<const D: usize> Subject for Solver<D> {
         Census {
             particles: Some(self.setup.particles.len() as u64),
             transfers: self.transfers,
-            crossings: Some(self.crossings),
-            left_domain: Some(self.left_domain),
+            crossings: Some(self.whereabouts.crossings),
+            left_domain: Some(self.whereabouts.left_domain),
             min_j: self.min_j,
         }
     }

@@ -5,13 +5,14 @@ use super::{
     dispatch::cell_size,
     expect,
     method::Method,
+    methods::methods,
     model::{Against, Case, ConvergencePlan, MaterialName},
     path::Path,
     wording::shown,
     words::{ConvergenceWords, EquationName, MethodWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };
-use crate::{fem::Sampling, subject::Start, verify::Clock};
+use crate::{mpm::combine, verify::Clock};
 
 /// Most cases that a suite may unfold into.
 const MOST_CASES: usize = 1000;
@@ -72,6 +73,10 @@ pub(super) fn cases(
         possible(binder, &path, method, plan)?;
         few(binder, &path, drafts.len(), method, until.len())?;
         for (name, method) in methods(method, own_law(plan)) {
+            if let Method::Mpm { basis, transfer, mass, frame, .. } = method {
+                let known = combine(basis, transfer, mass, frame);
+                known.map_err(|reason| binder.complain(&path, &reason))?;
+            }
             for draft in runs(&name, method, plan, until) {
                 if drafts.iter().any(|known: &Draft| known.name == draft.name) {
                     let message = format!("the case `{}` appears twice", draft.name);
@@ -140,11 +145,13 @@ fn few(
 ) -> Result<(), Complaint> {
     let optional = |length: Option<usize>| length.unwrap_or(1);
     let lengths = match words {
-        MethodWords::Mpm { basis, transfer, scheme, start } => vec![
+        MethodWords::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
             basis.as_slice().len(),
             transfer.as_slice().len(),
             scheme.as_slice().len(),
             optional(start.as_ref().map(|list| list.as_slice().len())),
+            optional(mass.as_ref().map(|list| list.as_slice().len())),
+            optional(frame.as_ref().map(|list| list.as_slice().len())),
         ],
         MethodWords::Fem { element, mass, law, start, sampling } => vec![
             element.as_slice().len(),
@@ -187,60 +194,5 @@ fn own_law(plan: &ConvergencePlan) -> EquationName {
     match plan.scene.law {
         MaterialName::LinearElastic => EquationName::SmallStrain,
         MaterialName::NeoHookean => EquationName::NeoHookean,
-    }
-}
-
-/// The product of one entry of `methods`, with names.
-fn methods(words: &MethodWords, own_law: EquationName) -> Vec<(String, Method)> {
-    match words {
-        MethodWords::Mpm { basis, transfer, scheme, start } => {
-            let mut all = Vec::new();
-            for &basis in basis.as_slice() {
-                for &transfer in transfer.as_slice() {
-                    for &scheme in scheme.as_slice() {
-                        for (suffix, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
-                            let parts = [basis.name(), transfer.name(), scheme.name()];
-                            let parts = parts.join("-").replace('_', "-");
-                            let method = Method::Mpm { basis, transfer, scheme, start };
-                            all.push((format!("mpm-{parts}{suffix}"), method));
-                        }
-                    }
-                }
-            }
-            all
-        }
-        MethodWords::Fem { element, mass, law, start, sampling } => {
-            let mut all = Vec::new();
-            for &element in element.as_slice() {
-                for &mass in mass.as_slice() {
-                    for (a, law) in choices(law.as_ref(), own_law, EquationName::name) {
-                        for (b, start) in choices(start.as_ref(), Start::AtZero, Start::name) {
-                            for (c, sampling) in
-                                choices(sampling.as_ref(), Sampling::Inside, Sampling::name)
-                            {
-                                let parts = [element.name(), mass.name()].join("-");
-                                let method = Method::Fem { element, mass, law, start, sampling };
-                                all.push((format!("fem-{parts}{a}{b}{c}"), method));
-                            }
-                        }
-                    }
-                }
-            }
-            all
-        }
-    }
-}
-
-/// The members of an optional list with the suffix that each gives to a name: none where there is
-/// no choice.
-fn choices<T: Copy>(
-    list: Option<&OneOrMany<T>>,
-    default: T,
-    name: fn(T) -> &'static str,
-) -> Vec<(String, T)> {
-    match list.map_or(&[][..], OneOrMany::as_slice) {
-        [] => vec![(String::new(), default)],
-        [only] => vec![(String::new(), *only)],
-        many => many.iter().map(|m| (format!("-{}", name(*m).replace('_', "-")), *m)).collect(),
     }
 }

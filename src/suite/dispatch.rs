@@ -57,13 +57,13 @@ fn mpm<const D: usize>(
     method: Method,
     cells: u64,
 ) -> Result<Box<dyn Subject>, String> {
-    let Method::Mpm { basis, transfer, scheme, start } = method else {
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else {
         return Err("not an MPM method".to_owned());
     };
     let scene = &plan.scene;
     let h = cell_size(scene, cells);
     let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
-    let kernel = kernel::<D>(basis, transfer);
+    let kernel = kernel::<D>(basis);
     let grid = grid(scene, h, kernel.as_ref());
     let (from, to) = (vector(&scene.from), vector(&scene.to));
     let mut particles = Particles::fill(&Block { from, to, density: scene.density }, h, per_axis);
@@ -75,6 +75,9 @@ fn mpm<const D: usize>(
     effects.extend(made.map(manufactured_force));
     let setup = crate::mpm::Setup {
         kernel,
+        transfer: crate::mpm::transfer(transfer),
+        mass: crate::mpm::mass_matrix(mass),
+        frame,
         material: material(scene),
         effects,
         fixed: held(scene).map(|face| Fixed::face(&grid, face.axis, side(face))).collect(),

@@ -13,7 +13,7 @@ use super::{
     yaml::Complaint,
 };
 use crate::{
-    mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, TransferName, Vector, kernel},
+    mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel},
     verify::ForceRow,
 };
 
@@ -121,7 +121,7 @@ fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
 
 fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     let h = plan.cell;
-    let kernel = kernel::<1>(basis, TransferName::Flip);
+    let kernel = kernel::<1>(basis);
     let (from, to) = (Vector::<1>::new(-h * SIDE as f64), Vector::<1>::new(h * SIDE as f64));
     let mut grid = kernel.grid(from, h, [2 * SIDE], [true]);
     let block = Block { from, to, density: 1.0 };

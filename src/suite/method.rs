@@ -3,7 +3,7 @@
 use super::words::EquationName;
 use crate::{
     fem::{Element, Mass, Sampling},
-    mpm::{BasisName, SchemeName, TransferName},
+    mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
     subject::Start,
 };
 
@@ -20,6 +20,10 @@ pub enum Method {
         scheme: SchemeName,
         /// Treatment of the initial velocity.
         start: Start,
+        /// Mass matrix.
+        mass: MassName,
+        /// Configuration in which the basis lives.
+        frame: FrameName,
     },
     /// The reference FEM.
     Fem {
@@ -46,11 +50,12 @@ impl Method {
     }
 
     /// The order of the displacement error that theory gives the method on a smooth solution:
-    /// p + 1 for a basis of degree p, 2p for the nodal values of elements that superconverge
-    /// (Strang & Fix 1973, section 1.6).
+    /// p + 1 for a basis of degree p, but no more than 2 with the lumped mass matrix of MPM; 2p for
+    /// the nodal values of elements that superconverge (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
-            Self::Mpm { basis, .. } => basis.formal_order(),
+            Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
+            Self::Mpm { basis, .. } => basis.formal_order().min(2.0),
             Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
             Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
         }
@@ -59,14 +64,25 @@ impl Method {
     /// What makes the method, as rows of name and value.
     pub fn settings(&self) -> Vec<(String, String)> {
         let rows = match self {
-            Self::Mpm { basis, transfer, scheme, start } => vec![
-                ("basis", basis.name()),
-                ("transfer", transfer.name()),
-                ("scheme", scheme.name()),
-                ("mass matrix", "lumped (row sum)"),
-                ("walls", "nodes on a fixed face are held"),
-                ("start", start.name()),
-            ],
+            Self::Mpm { basis, transfer, scheme, start, mass, frame } => {
+                let mass = match mass {
+                    MassName::Lumped => "lumped (row sum)",
+                    MassName::Consistent => "consistent",
+                };
+                let mut rows = vec![
+                    ("basis", basis.name()),
+                    ("transfer", transfer.name()),
+                    ("scheme", scheme.name()),
+                    ("mass matrix", mass),
+                    ("walls", "nodes on a fixed face are held"),
+                    ("start", start.name()),
+                ];
+                // The usual frame goes without saying.
+                if *frame == FrameName::Total {
+                    rows.push(("frame", frame.name()));
+                }
+                rows
+            }
             Self::Fem { element, mass, law, start, sampling } => vec![
                 ("element", element.name()),
                 ("mass matrix", mass.name()),

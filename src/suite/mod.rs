@@ -19,6 +19,7 @@ mod force;
 mod judged;
 mod load;
 mod method;
+mod methods;
 mod model;
 mod path;
 mod reference;

@@ -39,7 +39,7 @@ fn scene<const D: usize>(scheme: SchemeName, x: f64, v: f64) -> Setup<D> {
     }
     particles.sigma = vec![Matrix::zeros(); 4];
     particles.grad_v = vec![Matrix::zeros(); 4];
-    let kernel = kernel::<D>(METHOD.0, METHOD.1);
+    let kernel = kernel::<D>(METHOD.0);
     Setup {
         grid: kernel.grid(Vector::zeros(), 1.0, [8; D], [false; D]),
         particles,

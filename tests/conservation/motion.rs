@@ -8,7 +8,7 @@ use mpm_verify::{
 };
 use rstest::rstest;
 
-const STEPS: usize = 200;
+const STEPS: usize = 100;
 
 fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()

@@ -7,8 +7,8 @@
 use crate::common::H;
 use mpm_verify::{
     mpm::{
-        BasisName, Block, LinearElastic, Particles, SchemeName, Setup, Solver, TransferName,
-        Vector, kernel,
+        BasisName, Block, FrameName, LinearElastic, MassName, Particles, SchemeName, Setup, Solver,
+        TransferName, Vector, kernel, mass_matrix, transfer,
     },
     subject::{Start, Subject},
 };
@@ -18,16 +18,19 @@ const YOUNG: f64 = 100.0;
 const DENSITY: f64 = 4.0;
 
 /// The particle is alone in the middle cell of three.
-fn particle(scheme: SchemeName, xi: f64, sigma: f64) -> Solver<1> {
+fn particle(name: TransferName, scheme: SchemeName, xi: f64, sigma: f64) -> Solver<1> {
     let (from, to) = (Vector::<1>::new(H), Vector::<1>::new(2.0 * H));
     let mut particles = Particles::fill(&Block { from, to, density: DENSITY }, H, 1);
     particles.x[0][0] = (1.0 + xi) * H;
     particles.sigma[0][(0, 0)] = sigma;
-    let kernel = kernel(BasisName::Linear, TransferName::Flip);
+    let kernel = kernel(BasisName::Linear);
     let setup = Setup {
         grid: kernel.grid(Vector::zeros(), H, [3], [false]),
         particles,
         kernel,
+        transfer: transfer(name),
+        mass: mass_matrix(MassName::Lumped),
+        frame: FrameName::Updated,
         material: Box::new(LinearElastic::new(YOUNG, 0.0)),
         effects: Vec::new(),
         fixed: Vec::new(),
@@ -39,7 +42,7 @@ fn particle(scheme: SchemeName, xi: f64, sigma: f64) -> Solver<1> {
 
 /// sigma after `steps` steps at the Courant number `courant`, relative to sigma before.
 fn ratio(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> f64 {
-    let mut solver = particle(scheme, xi, sigma);
+    let mut solver = particle(TransferName::Flip, scheme, xi, sigma);
     let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
     (0..steps).for_each(|_| solver.step(dt).unwrap());
     solver.particles().sigma[0][(0, 0)] / sigma

@@ -81,6 +81,9 @@ fn visit<const D: usize, const K: usize>(
             index: std::array::from_fn(|r| grid.wrap(cell[axis] + r, axis)),
             weight,
             slope: slope.map(|slope| slope * grid.inverse_h()),
+            offset: std::array::from_fn(|r| {
+                (greville(cell[axis] + r, K - 1, cells, periodic) - s) * grid.h
+            }),
         }
     });
     tensor::visit(grid, &axes, visit);

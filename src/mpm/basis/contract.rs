@@ -22,6 +22,8 @@ pub struct Seen<'a, const D: usize> {
     pub weight: f64,
     /// grad N_i at the particle (1/m).
     pub gradient: &'a Vector<D>,
+    /// Where the function sits ([`Basis::abscissa`]), from the particle: x_i - x_p (m).
+    pub offset: Vector<D>,
 }
 
 /// A family of basis functions N_i on the grid.

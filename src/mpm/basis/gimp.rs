@@ -54,6 +54,7 @@ fn along<const D: usize>(grid: &Grid<D>, s: f64, half: f64, axis: usize) -> Alon
         }
         along.index[k] = grid.wrap_signed(node, axis);
         along.weight[k] = (integral(high - node) - integral(low - node)) / (high - low);
+        along.offset[k] = (node - s) * grid.h;
         along.slope[k] = (hat(high - node) - hat(low - node)) / (high - low) * grid.inverse_h();
         along.count = k + 1;
     }

@@ -42,6 +42,7 @@ impl Basis for Linear {
                     index: [cell[axis], grid.wrap(cell[axis] + 1, axis)],
                     weight: [1.0 - xi, xi],
                     slope: [-grid.inverse_h(), grid.inverse_h()],
+                    offset: [-xi * grid.h, (1.0 - xi) * grid.h],
                 }
             });
             tensor::visit(grid, &axes, visit);

@@ -26,9 +26,9 @@ family! {
 }
 
 impl BasisName {
-    /// Order of the displacement error on a smooth solution with a lumped mass matrix: p + 1 for
-    /// degree p, but 2 at most, which is all that lumping by row sums leaves.
+    /// Order of the displacement error on a smooth solution with the consistent mass matrix: p + 1
+    /// for degree p.
     pub fn formal_order(self) -> f64 {
-        with_basis!(self, B => f64::from(B::DEGREE) + 1.0).min(2.0)
+        with_basis!(self, B => f64::from(B::DEGREE) + 1.0)
     }
 }

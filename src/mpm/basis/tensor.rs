@@ -14,11 +14,13 @@ pub(super) struct Along<const K: usize> {
     pub(super) weight: [f64; K],
     /// Their derivatives (1/m).
     pub(super) slope: [f64; K],
+    /// Where they sit, from the particle (m).
+    pub(super) offset: [f64; K],
 }
 
 impl<const K: usize> Along<K> {
     pub(super) const EMPTY: Self =
-        Self { count: 0, index: [0; K], weight: [0.0; K], slope: [0.0; K] };
+        Self { count: 0, index: [0; K], weight: [0.0; K], slope: [0.0; K], offset: [0.0; K] };
 }
 
 /// Visits all products, the first axis running fastest.
@@ -38,7 +40,8 @@ pub(super) fn visit<const D: usize, const K: usize>(
             weight *= axes[axis].weight[at[axis]];
         }
         let gradient = Vector::from_fn(|axis, _| gradient(axes, axis, &at));
-        visit(Seen { node: grid.node(&index), weight, gradient: &gradient });
+        let offset = Vector::from_fn(|axis, _| axes[axis].offset[at[axis]]);
+        visit(Seen { node: grid.node(&index), weight, gradient: &gradient, offset });
     }
 }
 

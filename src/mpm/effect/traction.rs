@@ -56,7 +56,7 @@ impl<const D: usize> Effect<D> for Traction<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, TransferName, kernel};
+    use crate::mpm::{BasisName, Block, kernel};
     use approx::assert_relative_eq;
 
     #[test]
@@ -67,7 +67,7 @@ mod tests {
             density: 1.0,
         };
         let particles = Particles::fill(&block, 0.25, 2);
-        let kernel = kernel::<2>(BasisName::Linear, TransferName::Flip);
+        let kernel = kernel::<2>(BasisName::Linear);
         let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
         let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
         let pull = Traction::on(&particles, 0, Side::High, value);

@@ -1,13 +1,136 @@
 //! What a transfer is to the rest of the solver.
 
-use crate::mpm::algebra::Vector;
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    boundary::Fixed,
+    grid::Grid,
+    kernel::{Kernel, Shown},
+    particles::Particles,
+};
 
-/// How a particle gives its velocity to nodes and takes it back.
-pub trait Transfer: Sized + Sync + Send + 'static {
-    /// The velocity that a particle with velocity `v` shows to the nodes it sees (P2G).
-    fn shown<const D: usize>(v: &Vector<D>) -> Vector<D>;
+/// How particles give their velocity to nodes and take it back: stages made of the passes of a
+/// [`Kernel`]. Each method returns how many passes over the particles it took, for the work
+/// counter. A method that is not overridden does what the original MPM does.
+///
+/// A transfer keeps the columns that only it needs.
+pub trait Transfer<const D: usize>: Send + Sync {
+    /// Prepares for these particles, whose `grad_v` holds the gradient of their initial velocity.
+    fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 
-    /// The particle's new velocity from its old one and the weighted sum of the nodes' velocity
-    /// changes, `dv` = sum_i dt a_i N_i (G2P).
-    fn taken<const D: usize>(v: &Vector<D>, dv: &Vector<D>) -> Vector<D>;
+    /// Whether [`Transfer::g2p_velocity`] reads the grid's velocities, not its accelerations only.
+    fn reads_grid_velocity(&self) -> bool;
+
+    /// P2G: the nodal masses; the first pass after particles have moved.
+    fn p2g_mass(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        kernel.p2g_mass(particles, grid);
+        1
+    }
+
+    /// P2G: the momentum (kg m/s) of each node into `momentum`.
+    fn p2g_momentum(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        momentum: &mut [Vector<D>],
+    ) -> u64 {
+        let shown = Shown { v: &particles.v, affine: None };
+        kernel.p2g_momentum(particles, shown, grid, momentum);
+        1
+    }
+
+    /// P2G: the internal force (N) into `grid.force`.
+    fn p2g_internal_force(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        kernel.p2g_internal_force(particles, grid);
+        1
+    }
+
+    /// Improves a nodal field that the lumped mass matrix has solved for.
+    fn refine(
+        &mut self,
+        _: &dyn Kernel<D>,
+        _: &Particles<D>,
+        _: &Grid<D>,
+        _: &[Fixed],
+        _: &mut [Vector<D>],
+    ) -> u64 {
+        0
+    }
+
+    /// G2P: new particle velocities after a step of `dt` (s).
+    fn g2p_velocity(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        fixed: &[Fixed],
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> u64;
+
+    /// G2P: adds the grid's accelerations over `dt` (s) to the particles, with no other change of
+    /// their velocities: how a run starts half a step back.
+    fn kick(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        add_acceleration(kernel, grid, dt, particles);
+        1
+    }
+
+    /// G2P: `grad v_p` (1/s) into `particles.grad_v`.
+    fn g2p_gradient(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        let mut column = std::mem::take(&mut particles.grad_v);
+        kernel.g2p_gradient(grid, &grid.velocity, particles, &mut column);
+        particles.grad_v = column;
+        1
+    }
+
+    /// First moment of the velocity field around particle `p`, `C_p D_p` (m^2/s): per unit mass,
+    /// its antisymmetric part is the particle's own share of the angular momentum. None where the
+    /// particle carries its velocity only.
+    fn moment(&self, _: usize) -> Option<Matrix<D>> {
+        None
+    }
+}
+
+/// `v_p += dt sum_i a_i N_i(x_p)`.
+pub(super) fn add_acceleration<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    grid: &Grid<D>,
+    dt: f64,
+    particles: &mut Particles<D>,
+) {
+    let mut column = std::mem::take(&mut particles.v);
+    kernel.g2p(grid, &grid.acceleration, particles, (1.0, dt), &mut column);
+    particles.v = column;
+}
+
+/// `v_p <- keep v_p + factor sum_i v_i N_i(x_p)`.
+pub(super) fn mix_velocity<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    grid: &Grid<D>,
+    factors: (f64, f64),
+    particles: &mut Particles<D>,
+) {
+    let mut column = std::mem::take(&mut particles.v);
+    kernel.g2p(grid, &grid.velocity, particles, factors, &mut column);
+    particles.v = column;
 }

@@ -3,21 +3,27 @@
 //! `v_p += dt sum_i a_i N_i(x_p)` (Brackbill & Ruppel 1986; step 3 of the original MPM in Wobbes &
 //! Tielen 2015).
 
-use super::contract::Transfer;
-use crate::mpm::algebra::Vector;
+use super::contract::{Transfer, add_acceleration};
+use crate::mpm::{boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// The transfer of the original MPM.
 #[derive(Debug, Clone, Copy)]
 pub struct Flip;
 
-impl Transfer for Flip {
-    #[inline]
-    fn shown<const D: usize>(v: &Vector<D>) -> Vector<D> {
-        *v
+impl<const D: usize> Transfer<D> for Flip {
+    fn reads_grid_velocity(&self) -> bool {
+        false
     }
 
-    #[inline]
-    fn taken<const D: usize>(v: &Vector<D>, dv: &Vector<D>) -> Vector<D> {
-        v + dv
+    fn g2p_velocity(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        _: &[Fixed],
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        add_acceleration(kernel, grid, dt, particles);
+        1
     }
 }

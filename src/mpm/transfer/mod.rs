@@ -1,16 +1,49 @@
 //! Transfers of velocity between particles and grid: the family. A member is one file and one
 //! line below.
 
+mod apic;
+mod blend;
 mod contract;
 mod flip;
+mod fmpm;
+mod mls;
+mod pic;
+mod tpic;
+mod xpic;
 
+pub use apic::Apic;
+pub use blend::Blend;
 pub use contract::Transfer;
 pub use flip::Flip;
+pub use fmpm::Fmpm;
+pub use mls::Mls;
+pub use pic::Pic;
+pub use tpic::Tpic;
+pub use xpic::Xpic;
 
-use super::family::family;
+use super::family::objects;
 
-family! {
+objects! {
     /// Names of the transfers that suites may choose.
-    pub enum TransferName; with_transfer;
-    "flip" => Flip,
+    pub enum TransferName;
+    /// Makes the transfer that a suite names.
+    pub fn transfer -> Transfer;
+    "flip" => Flip: Flip,
+    "flip_99" => Flip99: Blend::new(0.99),
+    "flip_95" => Flip95: Blend::new(0.95),
+    "pic" => Pic: Pic,
+    "apic" => Apic: Apic::default(),
+    "mls" => Mls: Mls::default(),
+    "tpic" => Tpic: Tpic::default(),
+    "xpic_2" => Xpic2: Xpic::new(2),
+    "xpic_5" => Xpic5: Xpic::new(5),
+    "fmpm_2" => Fmpm2: Fmpm::new(2),
+    "fmpm_4" => Fmpm4: Fmpm::new(4),
+}
+
+impl TransferName {
+    /// Whether the transfer is a series in the lumped mass matrix.
+    pub fn approximates_mass(self) -> bool {
+        matches!(self, Self::Xpic2 | Self::Xpic5 | Self::Fmpm2 | Self::Fmpm4)
+    }
 }

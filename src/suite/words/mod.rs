@@ -14,7 +14,7 @@ pub(in crate::suite) use scene::{
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::{
     fem::{Element, Mass, Sampling},
-    mpm::{BasisName, SchemeName, TransferName},
+    mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
     named::named,
     subject::Start,
 };
@@ -136,6 +136,8 @@ pub(in crate::suite) enum MethodWords {
         transfer: OneOrMany<TransferName>,
         scheme: OneOrMany<SchemeName>,
         start: Option<OneOrMany<Start>>,
+        mass: Option<OneOrMany<MassName>>,
+        frame: Option<OneOrMany<FrameName>>,
     },
     Fem {
         element: OneOrMany<Element>,

@@ -1,0 +1,43 @@
+//! Which parts of a method go together.
+
+use super::{
+    basis::{BasisName, Domain, with_basis},
+    frame::FrameName,
+    mass::MassName,
+    transfer::TransferName,
+};
+
+/// Refuses a combination that means nothing.
+///
+/// # Errors
+/// One line that names both parts and says why they do not go together.
+pub fn combine(
+    basis: BasisName,
+    transfer: TransferName,
+    mass: MassName,
+    frame: FrameName,
+) -> Result<(), String> {
+    let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
+    if transfer == TransferName::Mls && basis == BasisName::Linear {
+        return Err(format!(
+            "the transfer `{t}` needs the inertia tensor of the weights, which the basis `{b}` does \
+             not have on its nodes"
+        ));
+    }
+    if mass == MassName::Consistent && transfer.approximates_mass() {
+        return Err(format!(
+            "the transfer `{t}` stands in for a consistent mass matrix by powers of the lumped one, \
+             and the mass matrix is `{m}`"
+        ));
+    }
+    if frame == FrameName::Total && follows(basis) {
+        return Err(format!(
+            "the domains of the basis `{b}` follow the deformation, and the frame `{f}` sees none"
+        ));
+    }
+    Ok(())
+}
+
+fn follows(basis: BasisName) -> bool {
+    with_basis!(basis, B => <B as super::basis::Basis>::DOMAIN == Domain::Follows)
+}

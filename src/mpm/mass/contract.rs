@@ -1,0 +1,25 @@
+//! What a mass matrix is to the rest of the solver.
+
+use crate::{
+    mpm::{algebra::Vector, boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles},
+    subject::Failure,
+};
+
+/// Turns nodal momenta into velocities, and forces into accelerations.
+pub trait MassMatrix<const D: usize>: Send + Sync {
+    /// Takes in that particles have moved; `grid.mass` is up to date. Returns the passes over
+    /// particles that it took.
+    ///
+    /// # Errors
+    /// [`Failure::Solve`] if there is no inverse.
+    fn assemble(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        fixed: &[Fixed],
+    ) -> Result<u64, Failure>;
+
+    /// Divides `field` (kg m/s, or N) by the matrix. Values on held nodes are not defined.
+    fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]);
+}

@@ -1,0 +1,29 @@
+//! Row sums on the diagonal: `m_i = sum_p m_p N_i(x_p)`.
+//!
+//! Second order at best, whatever the degree of the basis.
+
+use super::contract::MassMatrix;
+use crate::{
+    mpm::{algebra::Vector, boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles},
+    subject::Failure,
+};
+
+/// The mass matrix of the original MPM.
+#[derive(Debug, Clone, Copy)]
+pub struct Lumped;
+
+impl<const D: usize> MassMatrix<D> for Lumped {
+    fn assemble(
+        &mut self,
+        _: &dyn Kernel<D>,
+        _: &Particles<D>,
+        _: &Grid<D>,
+        _: &[Fixed],
+    ) -> Result<u64, Failure> {
+        Ok(0)
+    }
+
+    fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]) {
+        grid.divide_by_mass(field);
+    }
+}

@@ -1,0 +1,39 @@
+//! A blend of FLIP and PIC.
+//!
+//! `v_p <- s (v_p + dt sum_i a_i N_i) + (1 - s) sum_i v_i N_i` (Zhu & Bridson 2005; Stomakhin et
+//! al. 2013, with s = 0.95).
+
+use super::contract::{Transfer, add_acceleration, mix_velocity};
+use crate::mpm::{boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles};
+
+/// FLIP with a small part of PIC.
+#[derive(Debug, Clone, Copy)]
+pub struct Blend {
+    flip: f64,
+}
+
+impl Blend {
+    /// A blend with the share `flip` of FLIP, from 0 to 1.
+    pub fn new(flip: f64) -> Self {
+        Self { flip }
+    }
+}
+
+impl<const D: usize> Transfer<D> for Blend {
+    fn reads_grid_velocity(&self) -> bool {
+        true
+    }
+
+    fn g2p_velocity(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        _: &[Fixed],
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        add_acceleration(kernel, grid, dt, particles);
+        mix_velocity(kernel, grid, (self.flip, 1.0 - self.flip), particles);
+        2
+    }
+}

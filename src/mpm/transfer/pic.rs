@@ -1,0 +1,29 @@
+//! PIC: the particle takes the velocity of the grid, and forgets its own.
+//!
+//! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). Every step filters the velocity once through the
+//! grid, which damps all that varies within a cell.
+
+use super::contract::{Transfer, mix_velocity};
+use crate::mpm::{boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles};
+
+/// Particle in cell.
+#[derive(Debug, Clone, Copy)]
+pub struct Pic;
+
+impl<const D: usize> Transfer<D> for Pic {
+    fn reads_grid_velocity(&self) -> bool {
+        true
+    }
+
+    fn g2p_velocity(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        _: &[Fixed],
+        _: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        mix_velocity(kernel, grid, (0.0, 1.0), particles);
+        1
+    }
+}

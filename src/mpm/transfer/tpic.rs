@@ -1,0 +1,94 @@
+//! TPIC: PIC with the first terms of a Taylor series.
+//!
+//! `v_p = sum_i v_i N_i`, `C_p = sum_i v_i (x) grad N_i`, and the particle shows the nodes
+//! `v_p + C_p (x_i - x_p)` (Nakamura, Matsumura & Mizutani 2023, CMAME 411). No inertia tensor is
+//! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
+
+use super::contract::{Transfer, add_acceleration, mix_velocity};
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    boundary::Fixed,
+    grid::Grid,
+    kernel::{Kernel, Shown},
+    moments::Moments,
+    particles::Particles,
+};
+
+/// Taylor particle in cell.
+#[derive(Debug, Clone, Default)]
+pub struct Tpic<const D: usize> {
+    /// C_p (1/s).
+    c: Vec<Matrix<D>>,
+    moments: Moments<D>,
+}
+
+impl<const D: usize> Transfer<D> for Tpic<D> {
+    fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
+        self.moments.resize(particles.len());
+        kernel.moments(grid, particles, &mut self.moments);
+        self.c.clone_from(&particles.grad_v);
+    }
+
+    fn reads_grid_velocity(&self) -> bool {
+        true
+    }
+
+    fn p2g_mass(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        kernel.p2g_mass(particles, grid);
+        kernel.moments(grid, particles, &mut self.moments);
+        2
+    }
+
+    fn p2g_momentum(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        momentum: &mut [Vector<D>],
+    ) -> u64 {
+        let shown = Shown { v: &particles.v, affine: Some((&self.c, &self.moments)) };
+        kernel.p2g_momentum(particles, shown, grid, momentum);
+        1
+    }
+
+    fn g2p_velocity(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        _: &[Fixed],
+        _: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        mix_velocity(kernel, grid, (0.0, 1.0), particles);
+        kernel.g2p_gradient(grid, &grid.velocity, particles, &mut self.c);
+        2
+    }
+
+    /// The gradient of the accelerations is what velocity gradients change by.
+    fn kick(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        add_acceleration(kernel, grid, dt, particles);
+        // The column of the material is free until its stage comes.
+        let mut change = std::mem::take(&mut particles.grad_v);
+        kernel.g2p_gradient(grid, &grid.acceleration, particles, &mut change);
+        for (c, change) in self.c.iter_mut().zip(&change) {
+            *c += change * dt;
+        }
+        particles.grad_v = change;
+        2
+    }
+
+    fn moment(&self, p: usize) -> Option<Matrix<D>> {
+        Some(self.c.get(p)? * self.moments.second.get(p)?)
+    }
+}

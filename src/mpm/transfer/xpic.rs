@@ -1,0 +1,66 @@
+//! XPIC(m): PIC whose filter spares what the grid can represent.
+//!
+//! With S the map from grid to particles and S+ its lumped counterpart from particles to grid,
+//! `V <- (I - (I - S S+)^m) V + S a dt` (Hammerquist & Nairn 2017, CMAME 318, eq. 21): PIC for
+//! m = 1; what lies in the null space of S+ is removed in one step, and a mode with the eigenvalue
+//! l is multiplied by 1 - (1 - l)^m.
+
+use super::contract::{Transfer, add_acceleration};
+use crate::mpm::{
+    algebra::Vector,
+    boundary::Fixed,
+    grid::Grid,
+    kernel::{Kernel, Shown},
+    particles::Particles,
+};
+
+/// Extended particle in cell of order m.
+#[derive(Debug, Clone)]
+pub struct Xpic<const D: usize> {
+    order: u32,
+    rest: Vec<Vector<D>>,
+    nodal: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Xpic<D> {
+    /// XPIC(m) with m = `order`.
+    pub fn new(order: u32) -> Self {
+        Self { order, rest: Vec::new(), nodal: Vec::new() }
+    }
+}
+
+impl<const D: usize> Transfer<D> for Xpic<D> {
+    fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
+        self.rest.resize(particles.len(), Vector::zeros());
+        self.nodal.resize(grid.nodes(), Vector::zeros());
+    }
+
+    fn reads_grid_velocity(&self) -> bool {
+        false
+    }
+
+    fn g2p_velocity(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        fixed: &[Fixed],
+        dt: f64,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        self.rest.copy_from_slice(&particles.v);
+        for _ in 0..self.order {
+            let shown = Shown { v: &self.rest, affine: None };
+            kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
+            grid.divide_by_mass(&mut self.nodal);
+            for face in fixed {
+                face.hold(&mut self.nodal);
+            }
+            kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.rest);
+        }
+        for (v, rest) in particles.v.iter_mut().zip(&self.rest) {
+            *v -= rest;
+        }
+        add_acceleration(kernel, grid, dt, particles);
+        2 * u64::from(self.order) + 1
+    }
+}

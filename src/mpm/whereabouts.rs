@@ -1,0 +1,65 @@
+//! Which cell each particle is in, and how often one has changed its cell.
+
+use super::{algebra::Vector, grid::Grid, particles::Particles};
+use crate::subject::{Failure, Site};
+
+/// The cells of all particles, with counters.
+#[derive(Debug)]
+pub(super) struct Whereabouts<const D: usize> {
+    cells: Vec<[usize; D]>,
+    /// Changes of cell so far.
+    pub(super) crossings: u64,
+    /// Particles outside the grid now.
+    pub(super) left_domain: u64,
+}
+
+impl<const D: usize> Whereabouts<D> {
+    /// Finds the cells of particles that have not moved yet.
+    ///
+    /// # Errors
+    /// [`Failure::LeftDomain`] for the first particle that has none.
+    pub(super) fn new(grid: &Grid<D>, particles: &Particles<D>) -> Result<Self, Failure> {
+        let find = |(p, x): (usize, &Vector<D>)| grid.cell(x).ok_or_else(|| nowhere(p, x));
+        let cells = particles.x.iter().enumerate().map(find).collect::<Result<_, _>>()?;
+        Ok(Self { cells, crossings: 0, left_domain: 0 })
+    }
+
+    /// Counts changes of cell and departures. In the total-Lagrangian frame a particle keeps the
+    /// cell of its reference position, and its position must be a number.
+    ///
+    /// # Errors
+    /// What became of the first particle that is in no cell.
+    pub(super) fn track(
+        &mut self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+    ) -> Result<(), Failure> {
+        let mut first = Ok(());
+        for (p, cell) in self.cells.iter_mut().enumerate() {
+            let x = particles.position(p);
+            let keeps_cell = !particles.moved.is_empty() && is_finite(x);
+            let now = if keeps_cell { Some(*cell) } else { grid.cell(x) };
+            if let Some(now) = now {
+                self.crossings += u64::from(now != *cell);
+                *cell = now;
+                continue;
+            }
+            self.left_domain += u64::from(is_finite(x));
+            first = first.and_then(|()| Err(nowhere(p, x)));
+        }
+        first
+    }
+}
+
+fn is_finite<const D: usize>(x: &Vector<D>) -> bool {
+    x.iter().all(|c| c.is_finite())
+}
+
+fn nowhere<const D: usize>(p: usize, x: &Vector<D>) -> Failure {
+    let site = Site::Particle(p);
+    if is_finite(x) {
+        Failure::LeftDomain { site, position: x.iter().copied().collect() }
+    } else {
+        Failure::NonFinite { quantity: "position", site }
+    }
+}
