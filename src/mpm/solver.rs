@@ -83,6 +83,11 @@ impl<const D: usize> Solver<D> {
         &self.setup.particles
     }
 
+    /// The transfer, with what particles carry for it.
+    pub fn transfer(&self) -> &dyn Transfer<D> {
+        self.setup.transfer.as_ref()
+    }
+
     /// The grid as the last stage left it.
     pub fn grid(&self) -> &Grid<D> {
         &self.setup.grid

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod angular;
 mod failure;
 mod motion;
 mod single_particle;

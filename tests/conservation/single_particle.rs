@@ -76,6 +76,41 @@ proptest! {
     }
 }
 
+/// The share of `sigma` and of the velocity gradient that one step of an affine transfer leaves:
+/// the eigenvalues of the oscillator in `(sigma, C)` lie on the unit circle up to
+/// `C = 2 sqrt(xi (1 - xi))`, and one leaves it beyond.
+#[test]
+fn apic_is_an_oscillator_up_to_its_courant_limit() {
+    for xi in [0.1, 0.25, 0.5, 0.9] {
+        let limit = 2.0 * libm::sqrt(xi * (1.0 - xi));
+        for (courant, bounded) in [(0.99 * limit, true), (1.01 * limit, false)] {
+            let mut solver = particle(TransferName::Apic, SchemeName::Usl, xi, 1e-6);
+            let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
+            let mut largest: f64 = 0.0;
+            for _ in 0..400 {
+                solver.step(dt).unwrap();
+                largest = largest.max(solver.particles().sigma[0][(0, 0)].abs() / 1e-6);
+            }
+            let stays = largest <= 20.0;
+            assert!(stays == bounded, "xi = {xi}, C = {courant}: grows to {largest:.1e}");
+        }
+    }
+}
+
+/// One step of APIC from rest: `a = -sigma V grad N / m`, and the strain it makes is that of USL.
+#[test]
+fn apic_and_flip_make_the_same_first_step() {
+    for scheme in [SchemeName::Usl, SchemeName::Usf] {
+        let first = |name| {
+            let mut solver = particle(name, scheme, 0.3, 0.1);
+            solver.step(1e-3).unwrap();
+            solver.particles().sigma[0][(0, 0)]
+        };
+        let (apic, flip) = (first(TransferName::Apic), first(TransferName::Flip));
+        assert!((apic - flip).abs() <= 1e-15, "{scheme:?}: {apic} against {flip}");
+    }
+}
+
 #[test]
 fn usl_is_neutral_at_its_courant_limit() {
     for xi in [0.1, 0.25, 0.5, 0.9] {
