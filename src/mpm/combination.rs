@@ -30,6 +30,14 @@ pub fn combine(
              and the mass matrix is `{m}`"
         ));
     }
+    // A linear field reaches node i as m_i v(x_i): the lumped matrix times nodal velocities, which
+    // a consistent one would amplify.
+    if mass == MassName::Consistent && transfer.is_affine() {
+        return Err(format!(
+            "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
+             matrix is `{m}`"
+        ));
+    }
     if frame == FrameName::Total && follows(basis) {
         return Err(format!(
             "the domains of the basis `{b}` follow the deformation, and the frame `{f}` sees none"

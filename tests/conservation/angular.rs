@@ -135,6 +135,8 @@ fn meaningless_pairs_are_named() {
     let consistent = MassName::Consistent;
     let message = refused(BasisName::Linear, TransferName::Fmpm2, consistent, updated);
     assert!(message.contains("`fmpm_2`") && message.contains("`consistent`"), "{message}");
+    let message = refused(BasisName::Linear, TransferName::Apic, consistent, updated);
+    assert!(message.contains("`apic`") && message.contains("`consistent`"), "{message}");
     let total = FrameName::Total;
     let message = refused(BasisName::ContiguousGimp, TransferName::Flip, lumped, total);
     assert!(message.contains("`cpgimp`") && message.contains("`total_lagrangian`"), "{message}");

@@ -46,4 +46,9 @@ impl TransferName {
     pub fn approximates_mass(self) -> bool {
         matches!(self, Self::Xpic2 | Self::Xpic5 | Self::Fmpm2 | Self::Fmpm4)
     }
+
+    /// Whether particles carry an affine velocity field.
+    pub fn is_affine(self) -> bool {
+        matches!(self, Self::Apic | Self::Mls | Self::Tpic)
+    }
 }
