@@ -38,7 +38,24 @@ pub fn combine(
              matrix is `{m}`"
         ));
     }
-    if frame == FrameName::Total && follows(basis) {
+    if transfer == TransferName::Tls && domain(basis) != Domain::Point {
+        return Err(format!(
+            "the transfer `{t}` integrates over cells, and the basis `{b}` over the domains of \
+             particles"
+        ));
+    }
+    if transfer == TransferName::Tls && frame == FrameName::Total {
+        return Err(format!(
+            "the transfer `{t}` fits Cauchy stresses, and the frame `{f}` has none"
+        ));
+    }
+    if transfer == TransferName::Tls && mass == MassName::Consistent {
+        return Err(format!(
+            "the transfer `{t}` integrates mass over cells, and the mass matrix `{m}` sums it over \
+             particles"
+        ));
+    }
+    if frame == FrameName::Total && domain(basis) == Domain::Follows {
         return Err(format!(
             "the domains of the basis `{b}` follow the deformation, and the frame `{f}` sees none"
         ));
@@ -46,6 +63,6 @@ pub fn combine(
     Ok(())
 }
 
-fn follows(basis: BasisName) -> bool {
-    with_basis!(basis, B => <B as super::basis::Basis>::DOMAIN == Domain::Follows)
+fn domain(basis: BasisName) -> Domain {
+    with_basis!(basis, B => <B as super::basis::Basis>::DOMAIN)
 }

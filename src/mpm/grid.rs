@@ -57,6 +57,11 @@ impl<const D: usize> Grid<D> {
         self.mass.len()
     }
 
+    /// Volume of a cell (m^D).
+    pub fn cell_volume(&self) -> f64 {
+        (0..D).map(|_| self.h).product()
+    }
+
     /// Divides each value by the mass of its node; zero where no particle gives the node any mass.
     pub fn divide_by_mass(&self, field: &mut [Vector<D>]) {
         for (value, m) in field.iter_mut().zip(&self.mass) {

@@ -51,5 +51,5 @@ pub use scheme::SchemeName;
 pub use solver::{Setup, Solver};
 pub use stage::Stage;
 pub use transfer::{
-    Apic, Blend, Flip, Fmpm, Mls, Pic, Tpic, Transfer, TransferName, Xpic, transfer,
+    Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferName, Xpic, transfer,
 };

@@ -56,7 +56,7 @@ pub(crate) fn free_body<const D: usize>(
     let mut particles = Particles::<D>::fill(&Block { from, to, density: 1.0 }, H, 2);
     for p in 0..particles.len() {
         let (x, k) = (particles.x[p], p as f64);
-        particles.v[p] = Vector::from_fn(|i, _| 0.6 + 0.1 * libm::sin(3.0 * x[(i + 1) % D]));
+        particles.v[p] = Vector::from_fn(|i, _| 1.2 + 0.1 * libm::sin(3.0 * x[(i + 1) % D]));
         let stress = Matrix::<D>::from_fn(|i, j| libm::cos(k + (3 * i + j) as f64));
         particles.sigma[p] = (stress + stress.transpose()) * 0.005;
     }

@@ -3,12 +3,12 @@
 use crate::common::{DT, free_body, in_dimension, methods};
 use approx::assert_abs_diff_eq;
 use mpm_verify::{
-    mpm::{Gravity, Matrix, Particles, SchemeName, Solver, Vector},
+    mpm::{BasisName, Gravity, Matrix, Particles, SchemeName, Solver, TransferName, Vector},
     subject::{Start, Subject},
 };
 use rstest::rstest;
 
-const STEPS: usize = 100;
+const STEPS: usize = 40;
 
 fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
@@ -19,8 +19,14 @@ fn size<const D: usize>(particles: &Particles<D>) -> f64 {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v.norm() * m).sum()
 }
 
+/// Taylor least squares keeps the momentum of every cell in P2G, but its nodal masses are not those
+/// that G2P would need to give the change of momentum back: the only transfer that claims less.
+fn conservative() -> impl Iterator<Item = (BasisName, TransferName)> {
+    methods().filter(|(_, transfer)| *transfer != TransferName::Tls)
+}
+
 fn momentum_is_kept<const D: usize>(scheme: SchemeName, start: Start) {
-    for method in methods() {
+    for method in conservative() {
         let mut setup = free_body::<D>(method, scheme);
         setup.start = start;
         let mut solver = Solver::new(setup).unwrap();
@@ -47,7 +53,7 @@ fn a_free_body_keeps_its_linear_momentum(
 /// half a step back at t = 0.
 fn impulse_arrives<const D: usize>(scheme: SchemeName, start: Start) {
     let gravity = |t: f64| Vector::<D>::from_fn(|i, _| (i as f64 - 1.5) * (1.0 + t));
-    for method in methods() {
+    for method in conservative() {
         let mut setup = free_body::<D>(method, scheme);
         setup.effects.push(Box::new(Gravity(Box::new(gravity))));
         setup.start = start;
@@ -78,7 +84,7 @@ fn momentum_changes_by_the_impulse_of_gravity(
 }
 
 fn translates<const D: usize>(scheme: SchemeName) {
-    let velocity = Vector::<D>::from_fn(|i, _| [1.0, -0.7, 0.4][i]);
+    let velocity = Vector::<D>::from_fn(|i, _| [4.0, -2.8, 1.6][i]);
     for method in methods() {
         let mut setup = free_body::<D>(method, scheme);
         setup.particles.sigma.fill(Matrix::zeros());

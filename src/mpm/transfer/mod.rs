@@ -8,6 +8,7 @@ mod flip;
 mod fmpm;
 mod mls;
 mod pic;
+mod tls;
 mod tpic;
 mod xpic;
 
@@ -18,6 +19,7 @@ pub use flip::Flip;
 pub use fmpm::Fmpm;
 pub use mls::Mls;
 pub use pic::Pic;
+pub use tls::Tls;
 pub use tpic::Tpic;
 pub use xpic::Xpic;
 
@@ -35,6 +37,7 @@ objects! {
     "apic" => Apic: Apic::default(),
     "mls" => Mls: Mls::default(),
     "tpic" => Tpic: Tpic::default(),
+    "tls" => Tls: Tls::default(),
     "xpic_2" => Xpic2: Xpic::new(2),
     "xpic_5" => Xpic5: Xpic::new(5),
     "fmpm_2" => Fmpm2: Fmpm::new(2),

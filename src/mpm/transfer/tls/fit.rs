@@ -1,0 +1,73 @@
+//! A linear Taylor polynomial through the data of the particles in one cell.
+
+use super::spots::Spot;
+use crate::mpm::{
+    algebra::{Matrix, Vector, dyad},
+    grid::Grid,
+};
+use std::ops::{Add, Mul, Sub};
+
+/// The particles that a cell holds.
+pub(super) struct Fit<'a, const D: usize> {
+    /// Positions of all particles (m).
+    pub(super) x: &'a [Vector<D>],
+    /// Those in the cell, at least one.
+    pub(super) members: &'a [usize],
+}
+
+impl<const D: usize> Fit<'_, D> {
+    /// Value at `spot` of the polynomial whose integral over the cell is `sum`, and whose slope fits
+    /// the densities that particles have: `f(x) = mean + g . (x - centre)`, g by least squares
+    /// (Wobbes et al. 2019, with the Taylor basis of degree one).
+    pub(super) fn conserved<T>(
+        &self,
+        spot: &Spot<D>,
+        sum: T,
+        grid: &Grid<D>,
+        density: impl Fn(usize) -> T,
+    ) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let mean = sum * (1.0 / grid.cell_volume());
+        self.sloped(spot, &spot.centre, mean, density)
+    }
+
+    /// Value at `spot` of the linear least-squares fit.
+    pub(super) fn free<T>(&self, spot: &Spot<D>, value: impl Fn(usize) -> T) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let share = 1.0 / self.members.len() as f64;
+        let (mut mean, mut middle) = (value(self.members[0]) * 0.0, Vector::zeros());
+        for &p in self.members {
+            mean = mean + value(p) * share;
+            middle += self.x[p] * share;
+        }
+        self.sloped(spot, &middle, mean, value)
+    }
+
+    /// `mean + g . (x - about)` with the slope g that fits best; no slope where the particles do not
+    /// span all axes.
+    fn sloped<T>(&self, spot: &Spot<D>, about: &Vector<D>, mean: T, value: impl Fn(usize) -> T) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let mut second = Matrix::zeros();
+        for &p in self.members {
+            let r = self.x[p] - about;
+            second += dyad(&r, &r);
+        }
+        let Some(inverse) = spanned(&second, spot.smallest) else { return mean };
+        let reach = inverse * (spot.x - about);
+        self.members
+            .iter()
+            .fold(mean, |sum, &p| sum + (value(p) - mean) * (self.x[p] - about).dot(&reach))
+    }
+}
+
+/// The inverse of the second moments, if every axis has one.
+fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
+    let spans = |axis: usize| second[(axis, axis)] > smallest;
+    (0..D).all(spans).then(|| second.try_inverse()).flatten()
+}
