@@ -166,7 +166,7 @@ fn checked_solver<const D: usize>(
     let momentum = |p: &Particles<D>| -> Vector<D> { p.v.iter().sum::<Vector<D>>() * p.mass[0] };
     let before = momentum(&particles);
     let material = Box::new(LinearElastic::new(1.0, 0.3));
-    let (effects, fixed) = (Vec::new(), Vec::new());
+    let (effects, boundary) = (Vec::new(), Vec::new());
     let (scheme, start) = (SchemeName::Musl, Start::AtZero);
     let (mass, frame) = (mass_matrix(MassName::Lumped), FrameName::Updated);
     let setup = Setup {
@@ -178,7 +178,7 @@ fn checked_solver<const D: usize>(
         frame,
         material,
         effects,
-        fixed,
+        boundary,
         scheme,
         start,
     };

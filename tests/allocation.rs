@@ -6,7 +6,10 @@ use allocation_counter::measure;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     fem::{self, Bar, Element, Mass, Sampling},
-    mpm::{Fixed, Gravity, SchemeName, Side, Solver, Traction, Vector},
+    mpm::{
+        Driven, Fixed, Gravity, Prescribed, Roller, SchemeName, SetForce, Side, Solver, Traction,
+        Vector, VelocityField,
+    },
     subject::{Samples, Start, Subject},
 };
 use rstest::rstest;
@@ -24,15 +27,26 @@ fn holds_its_memory(name: &str, subject: &mut dyn Subject, dt: f64) {
     assert!(!samples.is_empty(), "{name}: there was something to sample");
 }
 
-/// A body under gravity, pulled at its far end, with one face of the grid fixed.
+/// A body under gravity, pulled at its far end, with a force on some particles and others driven,
+/// between walls of every kind.
 fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
     for method in methods() {
         let mut setup = free_body::<D>(method, scheme);
         let gravity = Gravity(Box::new(|t| Vector::<D>::from_element(-9.81 * t)));
         let pull = Box::new(|t| Vector::<D>::from_element(0.1 * t));
         let traction = Traction::on(&setup.particles, 0, Side::High, pull);
-        setup.effects = vec![Box::new(gravity), Box::new(traction)];
-        setup.fixed = vec![Fixed::face(&setup.grid, 0, Side::Low)];
+        let pull = Box::new(|t| Vector::<D>::from_element(0.1 * t));
+        let force = SetForce::on(&setup.particles, &[0, 1], pull);
+        let drive = || -> VelocityField<D> { Box::new(|x, t| x * t) };
+        let driven = Driven::on(&setup.particles, &[2, 3], drive());
+        setup.effects =
+            vec![Box::new(gravity), Box::new(traction), Box::new(force), Box::new(driven)];
+        let (grid, last) = (&setup.grid, D - 1);
+        setup.boundary = vec![
+            Box::new(Prescribed::face(grid, method.0, last, Side::High, drive())),
+            Box::new(Roller::face(grid, last, Side::Low)),
+            Box::new(Fixed::face(grid, 0, Side::Low)),
+        ];
         setup.start = start;
         let name = format!("{D}-D {method:?} {scheme:?} {start:?}");
         holds_its_memory(&name, &mut Solver::new(setup).unwrap(), DT);

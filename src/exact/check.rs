@@ -1,6 +1,6 @@
 //! Every condition that a problem puts on its motion.
 
-use super::{differences, pointwise, problem::Problem, violation::Violation, weak};
+use super::{boundary, differences, pointwise, problem::Problem, violation::Violation, weak};
 
 impl Problem {
     /// Holds the motion against the equation (point by point and in weak form), the boundary and
@@ -11,7 +11,8 @@ impl Problem {
     pub fn check(&self) -> Result<(), Violation> {
         pointwise::presence(self)?;
         pointwise::initial(self)?;
-        pointwise::boundary(self)?;
+        boundary::boundary(self)?;
+        boundary::driven(self)?;
         differences::differentiation(self)?;
         pointwise::equation(self)?;
         weak::momentum(self)

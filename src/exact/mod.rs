@@ -4,6 +4,7 @@
 //! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
 //! runs. Knows no solver.
 
+mod boundary;
 mod check;
 mod differences;
 mod equation;
@@ -12,6 +13,7 @@ mod motion;
 mod pointwise;
 mod problem;
 mod random;
+mod region;
 mod truth;
 mod violation;
 mod weak;
@@ -19,5 +21,6 @@ mod weak;
 pub use equation::Equation;
 pub use motion::{Derivatives, Motion};
 pub use problem::{Condition, Face, Problem};
+pub use region::Region;
 pub use truth::Truth;
 pub use violation::Violation;

@@ -1,11 +1,7 @@
 //! Conditions checked point by point.
 
 use super::{
-    formula::Formula,
-    motion::Derivatives,
-    problem::{Condition, Face, Problem},
-    random::Random,
-    violation::Violation,
+    formula::Formula, motion::Derivatives, problem::Problem, random::Random, violation::Violation,
 };
 
 /// Points per condition: a formula that is wrong on one part in twenty of the body is found with
@@ -114,59 +110,13 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
     formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
 }
 
-/// u = 0 or P n = p0 on every face.
-pub(super) fn boundary(problem: &Problem) -> Result<(), Violation> {
-    let size = scale(problem, |_, d| largest(&d.u));
-    let stress = problem.equation.modulus()
-        * scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max));
-    let mut random = Random::new(3);
-    for face in &problem.faces {
-        for _ in 0..POINTS {
-            let mut label = random.point(&problem.from, &problem.to);
-            label[face.axis] =
-                if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
-            let event = Event { label, t: random.between(0.0, problem.until) };
-            on_face(problem, face, &event, size, stress)?;
-        }
-    }
-    Ok(())
-}
-
-fn on_face(
-    problem: &Problem,
-    face: &Face,
-    event: &Event,
-    size: f64,
-    stress: f64,
-) -> Result<(), Violation> {
-    let all = problem.motion.derivatives(&event.label, event.t);
-    let normal = if face.high { 1.0 } else { -1.0 };
-    for i in 0..problem.dimension() {
-        let pulled = match &face.condition {
-            Condition::Fixed => {
-                let name = format!("boundary condition: {} is fixed, u_{} = 0", face.name, AXES[i]);
-                event.judge(problem.tolerance * size, name, (0.0, all.u[i]), "m")?;
-                continue;
-            }
-            Condition::Traction(value) => value[i].eval(&[event.t]),
-            Condition::Free => 0.0,
-        };
-        let found = normal * problem.equation.piola(&all.grad)[i][face.axis];
-        let what = if matches!(face.condition, Condition::Free) { "free" } else { "loaded" };
-        let name = format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
-        let allowed = problem.tolerance * stress.max(pulled.abs());
-        event.judge(allowed, name, (pulled, found), "Pa")?;
-    }
-    Ok(())
-}
-
 /// `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation.
 pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
     let points = interior(problem, 4);
     let terms = |event: &Event, d: &Derivatives, i: usize| {
         let inertia = problem.density * d.acceleration[i];
         let stress = problem.equation.divergence(problem.dimension(), &d.grad, &d.second)[i];
-        (inertia, stress, problem.density * problem.force(d, event.t)[i])
+        (inertia, stress, problem.density * problem.force(&event.label, d, event.t)[i])
     };
     let size = scale(problem, |event, d| {
         (0..problem.dimension())

@@ -4,6 +4,7 @@ use super::{
     equation::Equation,
     formula::Formula,
     motion::{Derivatives, Motion},
+    region::Region,
 };
 
 /// A boundary condition on one face of the body.
@@ -11,6 +12,12 @@ use super::{
 pub enum Condition {
     /// u = 0.
     Fixed,
+    /// u . n = 0, and no traction along the face.
+    Roller,
+    /// u_t = v(X, t), one formula of the coordinates and t for each component (m/s).
+    Velocity(Vec<Formula>),
+    /// u and grad u are those of the opposite face.
+    Periodic,
     /// P n = p0(t), one formula of t for each component (Pa).
     Traction(Vec<Formula>),
     /// P n = 0.
@@ -49,6 +56,8 @@ pub struct Problem {
     pub manufactured: bool,
     /// Every face of the body.
     pub faces: Vec<Face>,
+    /// Parts of the body on which something acts.
+    pub regions: Vec<Region>,
     /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty: at rest.
     pub initial_velocity: Vec<Formula>,
     /// End of the run (s).
@@ -65,18 +74,19 @@ impl Problem {
         self.from.len()
     }
 
-    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less gravity.
+    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what
+    /// the problem states.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let balance = self.balance(&self.motion.derivatives(label, t));
-        std::array::from_fn(|i| balance[i] - self.gravity(i, t))
+        std::array::from_fn(|i| balance[i] - self.given(i, label, t))
     }
 
     /// The whole body force (m/s2) where the motion's derivatives are `now`.
-    pub(super) fn force(&self, now: &Derivatives, t: f64) -> [f64; 3] {
+    pub(super) fn force(&self, label: &[f64], now: &Derivatives, t: f64) -> [f64; 3] {
         if self.manufactured {
             self.balance(now)
         } else {
-            std::array::from_fn(|i| self.gravity(i, t))
+            std::array::from_fn(|i| self.given(i, label, t))
         }
     }
 
@@ -86,7 +96,11 @@ impl Problem {
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
     }
 
-    fn gravity(&self, i: usize, t: f64) -> f64 {
-        self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]))
+    /// The body force (m/s2) that the problem states: gravity, and forces on parts of the body.
+    fn given(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        let gravity = self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]));
+        let body = (&self.from[..], &self.to[..]);
+        let on = |region: &Region| region.force_density(i, label, t, body);
+        gravity + self.regions.iter().map(on).sum::<f64>() / self.density
     }
 }

@@ -85,7 +85,8 @@ fn balance(problem: &Problem, patch: &Patch, i: usize) -> Result<(), Violation> 
         let at = |a: usize| patch.centre[a] + patch.half[a] * xi[a];
         let label: Vec<f64> = (0..d).map(at).collect();
         let now = problem.motion.derivatives(&label, at(d));
-        let (inertia, stress, force) = integrand(problem, &now, i, at(d), &patch.bump(&xi));
+        let (inertia, stress, force) =
+            integrand(problem, &now, i, (&label, at(d)), &patch.bump(&xi));
         gain -= inertia;
         loss += force - stress;
         size += inertia.abs() + stress.abs() + force.abs();
@@ -110,12 +111,12 @@ fn integrand(
     problem: &Problem,
     now: &Derivatives,
     i: usize,
-    t: f64,
+    (label, t): (&[f64], f64),
     (phi, slope): &(f64, Vec<f64>),
 ) -> (f64, f64, f64) {
     let d = problem.dimension();
     let inertia = problem.density * now.velocity[i] * slope[d];
     let piola = problem.equation.piola(&now.grad);
     let stress = (0..d).map(|j| piola[i][j] * slope[j]).sum();
-    (inertia, stress, problem.density * problem.force(now, t)[i] * phi)
+    (inertia, stress, problem.density * problem.force(label, now, t)[i] * phi)
 }

@@ -36,9 +36,9 @@ pub use basis::{
     Basis, BasisName, ContiguousGimp, CubicBSpline, Domain, Linear, QuadraticBSpline, Seen,
     UniformGimp,
 };
-pub use boundary::{Fixed, Side};
+pub use boundary::{Advance, Boundary, Fixed, Prescribed, Roller, Side, VelocityField};
 pub use combination::combine;
-pub use effect::{BodyForce, Effect, Field, Gravity, Traction};
+pub use effect::{BodyForce, Driven, Effect, Field, Gravity, SetForce, Traction};
 pub use frame::FrameName;
 pub use grid::Grid;
 pub use kernel::{Kernel, Shown};

@@ -1,9 +1,9 @@
 //! The solver: runs the stages of a scheme and keeps the census.
 
 use super::{
-    algebra::{Matrix, Vector},
+    algebra::Matrix,
     basis::Domain,
-    boundary::Fixed,
+    boundary::{Advance, Boundary},
     effect::Effect,
     frame::FrameName,
     grid::Grid,
@@ -36,8 +36,8 @@ pub struct Setup<const D: usize> {
     pub material: Box<dyn Material<D>>,
     /// What the scene lists, and nothing else.
     pub effects: Vec<Box<dyn Effect<D>>>,
-    /// Faces that do not move.
-    pub fixed: Vec<Fixed>,
+    /// What holds on faces of the grid; where faces meet, the last one wins.
+    pub boundary: Vec<Box<dyn Boundary<D>>>,
     /// Order of the stages.
     pub scheme: SchemeName,
     /// Treatment of the initial velocity.
@@ -48,6 +48,8 @@ pub struct Setup<const D: usize> {
 pub struct Solver<const D: usize> {
     setup: Setup<D>,
     time: f64,
+    /// Time that the velocities stand for (s): once steps are made, half a step behind.
+    stands: f64,
     started: bool,
     transfers: u64,
     min_j: f64,
@@ -75,7 +77,8 @@ impl<const D: usize> Solver<D> {
         let whereabouts = Whereabouts::new(&setup.grid, &setup.particles)?;
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
-        Ok(Self { setup, time: 0.0, started: false, transfers: 0, min_j: 1.0, whereabouts })
+        let (time, stands, started, transfers, min_j) = (0.0, 0.0, false, 0, 1.0);
+        Ok(Self { setup, time, stands, started, transfers, min_j, whereabouts })
     }
 
     /// The particles as they are now.
@@ -102,7 +105,7 @@ impl<const D: usize> Solver<D> {
             Stage::Mass => self.mass()?,
             Stage::Momentum => self.momentum(),
             Stage::Force => self.force(),
-            Stage::Acceleration => self.accelerate(),
+            Stage::Acceleration => self.accelerate(dt),
             Stage::GridVelocity => {
                 let Grid { velocity, acceleration, .. } = &mut self.setup.grid;
                 for (v, a) in velocity.iter_mut().zip(acceleration) {
@@ -110,9 +113,10 @@ impl<const D: usize> Solver<D> {
                 }
             }
             Stage::ParticleVelocity => {
-                let Setup { grid, particles, kernel, transfer, fixed, .. } = &mut self.setup;
-                let passes = transfer.g2p_velocity(kernel.as_ref(), grid, fixed, dt, particles);
+                let Setup { grid, particles, kernel, transfer, boundary, .. } = &mut self.setup;
+                let passes = transfer.g2p_velocity(kernel.as_ref(), grid, boundary, dt, particles);
                 self.count(passes);
+                self.drive();
             }
             Stage::Stress => self.stress(dt)?,
             Stage::Position => self.position(dt)?,
@@ -121,19 +125,24 @@ impl<const D: usize> Solver<D> {
     }
 
     fn mass(&mut self) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, transfer, mass, fixed, .. } = &mut self.setup;
+        let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let passes = transfer.p2g_mass(kernel.as_ref(), particles, grid)
-            + mass.assemble(kernel.as_ref(), particles, grid, fixed)?;
+            + mass.assemble(kernel.as_ref(), particles, grid, boundary)?;
         self.count(passes);
         Ok(())
     }
 
     fn momentum(&mut self) {
-        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let mut field = std::mem::take(&mut grid.velocity);
         let passes = transfer.p2g_momentum(kernel.as_ref(), particles, grid, &mut field);
-        self.count(passes);
-        self.setup.grid.velocity = self.solved(field);
+        mass.solve(grid, &mut field);
+        for condition in boundary.iter() {
+            condition.hold_velocity(&mut field, self.stands);
+        }
+        let refined = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
+        grid.velocity = field;
+        self.count(passes + refined);
     }
 
     fn force(&mut self) {
@@ -145,23 +154,19 @@ impl<const D: usize> Solver<D> {
         self.count(passes);
     }
 
-    fn accelerate(&mut self) {
-        let grid = &mut self.setup.grid;
+    fn accelerate(&mut self, dt: f64) {
+        let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let mut field = std::mem::take(&mut grid.acceleration);
         field.copy_from_slice(&grid.force);
-        self.setup.grid.acceleration = self.solved(field);
-    }
-
-    /// `field` divided by the mass matrix, zero where nodes are held.
-    fn solved(&mut self, mut field: Vec<Vector<D>>) -> Vec<Vector<D>> {
-        let Setup { grid, particles, kernel, transfer, mass, fixed, .. } = &mut self.setup;
         mass.solve(grid, &mut field);
-        for face in fixed.iter() {
-            face.hold(&mut field);
+        let advance = Advance { from: self.stands, to: self.time + 0.5 * dt, dt };
+        for condition in boundary.iter() {
+            condition.hold_acceleration(&mut field, &advance);
         }
-        let passes = transfer.refine(kernel.as_ref(), particles, grid, fixed, &mut field);
+        self.stands = advance.to;
+        let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
+        grid.acceleration = field;
         self.count(passes);
-        field
     }
 
     fn stress(&mut self, dt: f64) -> Result<(), Failure> {
@@ -190,9 +195,19 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
+    /// Gives driven particles the velocity that they have at this time.
+    fn drive(&mut self) {
+        for effect in &self.setup.effects {
+            effect.drive_velocity(self.stands, &mut self.setup.particles);
+        }
+    }
+
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, frame, .. } = &mut self.setup;
+        let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
         kernel.g2p_position(grid, dt, particles);
+        for effect in effects {
+            effect.drive_position(dt, particles);
+        }
         if kernel.domain() == Domain::Follows && *frame == FrameName::Updated {
             particles.track_domains();
         }
@@ -208,20 +223,27 @@ impl<const D: usize> Solver<D> {
 
     /// `v(-dt/2) = v(0) - dt/2 a(0)`.
     fn half_step_back(&mut self, dt: f64) -> Result<(), Failure> {
+        // a(0) is that of the whole step around t = 0.
+        self.stands = -0.5 * dt;
         self.run(Stage::Mass, dt)?;
         self.run(Stage::Force, dt)?;
         self.run(Stage::Acceleration, dt)?;
+        self.stands = -0.5 * dt;
         let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
         let passes = transfer.kick(kernel.as_ref(), grid, -0.5 * dt, particles);
         self.count(passes);
+        self.drive();
         Ok(())
     }
 }
 
 impl<const D: usize> Subject for Solver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        if !self.started && self.setup.start == Start::HalfStepBack {
-            self.half_step_back(dt)?;
+        if !self.started {
+            self.drive();
+            if self.setup.start == Start::HalfStepBack {
+                self.half_step_back(dt)?;
+            }
         }
         self.started = true;
         for &stage in self.setup.scheme.stages(self.setup.transfer.reads_grid_velocity()) {

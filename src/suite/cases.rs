@@ -4,6 +4,7 @@ use super::{
     binder::Binder,
     dispatch::cell_size,
     expect,
+    hold::Hold,
     method::Method,
     methods::methods,
     model::{Against, Case, ConvergencePlan, MaterialName},
@@ -12,7 +13,10 @@ use super::{
     words::{ConvergenceWords, EquationName, MethodWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };
-use crate::{mpm::combine, verify::Clock};
+use crate::{
+    mpm::{MassName, combine},
+    verify::Clock,
+};
 
 /// Most cases that a suite may unfold into.
 const MOST_CASES: usize = 1000;
@@ -182,11 +186,22 @@ fn possible(
             let d = plan.scene.dimension();
             Err(binder.complain(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
         }
+        MethodWords::Mpm { mass: Some(mass), .. }
+            if mass.as_slice().contains(&MassName::Consistent) && driven(plan) =>
+        {
+            let message = "the consistent mass matrix is solved for walls at rest, and a face is \
+                           driven";
+            Err(binder.complain(&path.then("mpm").then("mass"), message))
+        }
         MethodWords::Mpm { .. } if plan.ppc.is_none() => Err(binder
             .complain(path, "MPM needs particles, and `refine` says no `ppc`")
             .with_help("add `ppc: 4` to `refine`")),
         _ => Ok(()),
     }
+}
+
+fn driven(plan: &ConvergencePlan) -> bool {
+    plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Velocity(_)))
 }
 
 /// The law of an FEM case that names none: that of the scene's material.

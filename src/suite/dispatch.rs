@@ -2,16 +2,17 @@
 //! 1, 2 and 3 dimensions.
 
 use super::{
+    conditions::{boundary, of_time, on_sets, periodic, side},
     method::Method,
     model::{ConvergencePlan, MaterialName, Scene, SceneFace},
     words::EquationName,
 };
 use crate::{
-    exact::{Problem, formula::Formula},
+    exact::{Problem, Region, formula::Formula},
     fem::{self, Bar, Sampling},
     mpm::{
-        Block, BodyForce, Effect, Fixed, Gravity, Grid, Kernel, LinearElastic, Material,
-        NeoHookean, Particles, Side, Solver, Traction, Vector, kernel,
+        Block, BodyForce, Effect, Gravity, Grid, Kernel, LinearElastic, Material, NeoHookean,
+        Particles, Solver, Traction, Vector, kernel,
     },
     subject::{Start, Subject},
 };
@@ -73,6 +74,7 @@ fn mpm<const D: usize>(
     }
     let mut effects = effects(scene, &particles);
     effects.extend(made.map(manufactured_force));
+    effects.extend(on_sets(scene, &particles)?);
     let setup = crate::mpm::Setup {
         kernel,
         transfer: crate::mpm::transfer(transfer),
@@ -80,7 +82,7 @@ fn mpm<const D: usize>(
         frame,
         material: material(scene),
         effects,
-        fixed: held(scene).map(|face| Fixed::face(&grid, face.axis, side(face))).collect(),
+        boundary: boundary(scene, &grid, basis),
         grid,
         particles,
         scheme,
@@ -126,19 +128,12 @@ fn material<const D: usize>(scene: &Scene) -> Box<dyn Material<D>> {
     }
 }
 
-fn held(scene: &Scene) -> impl Iterator<Item = &SceneFace> {
-    scene.faces.iter().filter(|face| face.fixed)
-}
-
-fn side(face: &SceneFace) -> Side {
-    if face.high { Side::High } else { Side::Low }
-}
-
 /// The grid that the suite asks for, or the body's box with room beyond its free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
     let origin = Vector::from_fn(|axis, _| axes[axis].0);
-    kernel.grid(origin, h, axes.map(|(_, cells)| cells as usize), [false; D])
+    let cells = axes.map(|(_, cells)| cells as usize);
+    kernel.grid(origin, h, cells, std::array::from_fn(|axis| periodic(scene, axis)))
 }
 
 /// Where the grid starts on an axis (m), and its number of cells.
@@ -154,7 +149,7 @@ pub(super) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
 fn roomy(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     let (from, to) = (scene.from[axis], scene.to[axis]);
     let spare = (SPARE_CELLS + libm::ceil(0.1 * (to - from) / h)) * h;
-    let free = |face: &SceneFace| if face.fixed { 0.0 } else { spare };
+    let free = |face: &SceneFace| if face.hold.is_free() { spare } else { 0.0 };
     (from - free(&scene.faces[2 * axis]), to + free(&scene.faces[2 * axis + 1]))
 }
 
@@ -170,11 +165,6 @@ fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<d
         }
     }
     effects
-}
-
-fn of_time<const D: usize>(formulas: &[Formula]) -> Box<dyn Fn(f64) -> Vector<D> + Send> {
-    let formulas = formulas.to_vec();
-    Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
 }
 
 /// The FEM bar of `method`; also what references are made of.
@@ -194,7 +184,7 @@ pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         mass,
         density: scene.density,
         law: piola(law, scene.young, scene.poisson),
-        fixed: [scene.faces[0].fixed, scene.faces[1].fixed],
+        fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
         body_force: body_force(scene, made.clone()),
         traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
         initial_displacement: Box::new(|_| 0.0),
@@ -208,15 +198,18 @@ pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     Bar::new(setup).map_err(|error| error.to_string())
 }
 
-/// Gravity and manufactured force of a bar, if it has either.
+/// Gravity, forces on sets and manufactured force of a bar, if it has any.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
-    let gravity = scene.gravity.clone();
-    if gravity.is_none() && made.is_none() {
+    let scene = scene.clone();
+    if scene.gravity.is_none() && scene.sets.is_empty() && made.is_none() {
         return None;
     }
     Some(Box::new(move |x, t| {
         let made = made.as_ref().map_or(0.0, |made| made.manufactured_force(&[x], t)[0]);
-        made + gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t]))
+        let body = (&scene.from[..], &scene.to[..]);
+        let on = |set: &Region| set.force_density(0, &[x], t, body) / scene.density;
+        let sets: f64 = scene.sets.iter().map(on).sum();
+        made + scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t])) + sets
     }))
 }
 

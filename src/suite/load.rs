@@ -1,6 +1,7 @@
 //! From words to a suite: every number computed, every name resolved, the truth checked.
 
 use super::{
+    bar_limits,
     binder::{Binder, Parameter},
     cases, force,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
@@ -40,6 +41,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
     name(&binder, &words.suite)?;
     let scene = scene::scene(&binder, &words.scene)?;
+    bar_limits::check(&binder, &words, &scene)?;
     let (cells, ppc) = refine(&binder, &words.refine, scene.dimension())?;
     let dt = binder.formula(&Path::top("run").then("dt"), &words.run.dt, &["h"])?;
     let instants = words.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {

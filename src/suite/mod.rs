@@ -9,13 +9,16 @@
 //! execute   every level of every case, judged -> SuiteOutcome
 //! ```
 
+mod bar_limits;
 mod binder;
 mod cases;
+mod conditions;
 mod dispatch;
 pub mod embedded;
 mod execute;
 mod expect;
 mod force;
+mod hold;
 mod judged;
 mod load;
 mod method;
@@ -24,6 +27,7 @@ mod model;
 mod path;
 mod reference;
 mod scene;
+mod sets;
 mod size;
 pub mod statement;
 mod truth;
@@ -32,6 +36,7 @@ mod words;
 pub mod yaml;
 
 pub use execute::{Progress, Runner};
+pub use hold::Hold;
 pub use method::Method;
 pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, MaterialName,

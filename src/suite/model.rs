@@ -1,11 +1,12 @@
 //! A suite whose every word has been checked and every number computed.
 
 use super::{
+    hold::Hold,
     method::Method,
     words::{CrossingLevels, EquationName, NormName},
 };
 use crate::{
-    exact::{Problem, formula::Formula},
+    exact::{Problem, Region, formula::Formula},
     fem::{Element, Mass},
     mpm::BasisName,
     named::named,
@@ -120,6 +121,8 @@ pub struct Scene {
     pub density: f64,
     /// The 2 D faces: low and high, axis by axis.
     pub faces: Vec<SceneFace>,
+    /// Sets of particles, each with what acts on it.
+    pub sets: Vec<Region>,
     /// Uniform acceleration (m/s2), formulas of t.
     pub gravity: Option<Vec<Formula>>,
     /// Initial velocity (m/s), formulas of the coordinates and t; empty: at rest.
@@ -135,8 +138,8 @@ pub struct SceneFace {
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
-    /// Whether it is held.
-    pub fixed: bool,
+    /// What holds it.
+    pub hold: Hold,
     /// Traction (Pa), formulas of t.
     pub traction: Option<Vec<Formula>>,
 }

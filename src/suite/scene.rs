@@ -2,16 +2,15 @@
 
 use super::{
     binder::Binder,
+    hold::{self, FACES, face},
     model::{MaterialName, Scene, SceneFace},
     path::Path,
-    wording::{shown, suggestion},
-    words::{BodyWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords},
+    sets,
+    wording::shown,
+    words::{BodyWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords, SetWords},
     yaml::{Complaint, NumberText},
 };
-use crate::exact::formula::Formula;
-
-/// Names of the faces: low and high, axis by axis.
-const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+use crate::exact::{Region, formula::Formula};
 
 /// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
 const SHORTEST: f64 = 1e-30;
@@ -36,6 +35,7 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         .as_ref()
         .map(|grid| corners(binder, &path.then("grid"), grid, dimension))
         .transpose()?;
+    let sets = declared_sets(binder, &path, words, (&from, &to))?;
     let (law, ElasticWords { young, poisson, density }) = match &words.material {
         MaterialWords::LinearElastic(words) => (MaterialName::LinearElastic, words),
         MaterialWords::NeoHookean(words) => (MaterialName::NeoHookean, words),
@@ -50,12 +50,14 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         poisson: poissons_ratio(binder, &at.then("poisson"), poisson)?,
         density: binder.positive(&at.then("density"), density, "the density")?,
         faces: faces(binder, &path, words, dimension)?,
+        sets,
         gravity: None,
         initial_velocity: initial_velocity(binder, &path, words, dimension)?,
     };
     for (i, load) in words.loads.iter().enumerate() {
         add_load(binder, &path.then("loads").then(i), load, &mut scene)?;
     }
+    sets::refuse_idle(binder, &path, &scene.sets)?;
     grid_holds_body(binder, &path, &scene)?;
     Ok(scene)
 }
@@ -113,38 +115,34 @@ fn faces(
     words: &SceneWords,
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Complaint> {
-    for (name, _) in words.boundary.as_slice() {
-        face(binder, &path.then("boundary").then(name.as_str()), name, dimension, true)?;
-    }
-    let fixed = |name: &str| words.boundary.get(name).is_some();
-    let build = |(i, name): (usize, &&'static str)| SceneFace {
-        name,
+    let holds = hold::holds(binder, path, words, &coordinates_and_time(dimension))?;
+    let build = |(i, hold)| SceneFace {
+        name: FACES[i],
         axis: i / 2,
         high: i % 2 == 1,
-        fixed: fixed(name),
+        hold,
         traction: None,
     };
-    Ok(FACES[..2 * dimension].iter().enumerate().map(build).collect())
+    Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
-/// Number of the face that a suite calls `name`; the name is a key or a value of the file.
-fn face(
+/// The sets of particles, on which nothing acts yet.
+fn declared_sets(
     binder: &Binder<'_>,
     path: &Path,
-    name: &str,
-    dimension: usize,
-    is_key: bool,
-) -> Result<usize, Complaint> {
-    let known = &FACES[..2 * dimension];
-    known.iter().position(|face| *face == name).ok_or_else(|| {
-        let message = format!("a body of dimension {dimension} has no face `{name}`");
-        let complaint = if is_key {
-            binder.complain_key(path, &message)
-        } else {
-            binder.complain(path, &message)
-        };
-        complaint.with_help(&suggestion("faces", name, known))
-    })
+    words: &SceneWords,
+    body: (&[f64], &[f64]),
+) -> Result<Vec<Region>, Complaint> {
+    let declare = |(name, SetWords::Box(words)): &(String, SetWords)| {
+        let at = path.then("sets").then(name.as_str());
+        sets::refuse_face_name(binder, &at, name)?;
+        let at = at.then("box");
+        let (from, to) = corners(binder, &at, words, body.0.len())?;
+        let set = Region { name: name.clone(), from, to, force: None, velocity: None };
+        sets::refuse_outside(binder, &at, &set, body)?;
+        Ok(set)
+    };
+    words.sets.as_slice().iter().map(declare).collect()
 }
 
 fn initial_velocity(
@@ -178,21 +176,34 @@ fn add_load(
         }
         LoadWords::Traction { on, value } => {
             let path = path.then("traction");
+            sets::refuse_traction(binder, &path.then("on"), on, &scene.sets)?;
             let face = face(binder, &path.then("on"), on, d, false)?;
             let face = &mut scene.faces[face];
-            if face.fixed || face.traction.is_some() {
-                let has = if face.fixed { "is fixed" } else { "has a traction already" };
+            if !face.hold.is_free() || face.traction.is_some() {
+                let free = face.hold.is_free();
+                let has = if free { "has a traction already" } else { face.hold.verb() };
                 let message = format!("the face `{on}` {has}");
                 return Err(binder.complain(&path.then("on"), &message));
             }
             face.traction = Some(binder.vector(&path.then("value"), value, d, &["t"])?);
         }
+        LoadWords::Force { on, value } => {
+            let path = path.then("force");
+            let set = sets::free(binder, &path.then("on"), on, &mut scene.sets)?;
+            set.force = Some(binder.vector(&path.then("value"), value, d, &["t"])?);
+        }
+        LoadWords::Velocity { on, value } => {
+            let path = path.then("velocity");
+            let set = sets::free(binder, &path.then("on"), on, &mut scene.sets)?;
+            let variables = coordinates_and_time(d);
+            set.velocity = Some(binder.vector(&path.then("value"), value, d, &variables)?);
+        }
     }
     Ok(())
 }
 
-/// The grid must reach over the body, and a fixed face must lie on the grid's own face: its nodes
-/// are what is held.
+/// The grid must reach over the body, and a face that is held must lie on the grid's own face: its
+/// nodes are what is held, and a periodic axis ends there.
 fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<(), Complaint> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     for face in &scene.faces {
@@ -202,7 +213,7 @@ fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<()
             (scene.from[face.axis], from[face.axis], "from")
         };
         let outside = if face.high { grid < body } else { grid > body };
-        let apart = face.fixed && grid != body;
+        let apart = !face.hold.is_free() && grid != body;
         if outside || apart {
             let name = face.name;
             let message = if outside {
@@ -210,7 +221,8 @@ fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<()
                     "the body's {name} face at {body} is outside the grid, which ends at {grid}"
                 )
             } else {
-                format!("the {name} face at {body} is fixed, but the grid ends at {grid}")
+                let verb = face.hold.verb();
+                format!("the {name} face at {body} {verb}, but the grid ends at {grid}")
             };
             let at = path.then("grid").then(key).then(face.axis);
             let beyond = if face.high { "at least" } else { "at most" };

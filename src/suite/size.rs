@@ -50,7 +50,8 @@ fn level(
             return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
         }
     }
-    held_faces(binder, path, &plan.scene, cells)
+    held_faces(binder, path, &plan.scene, cells)?;
+    sets(binder, path, plan, cells)
 }
 
 fn nodes(scene: &Scene, h: f64) -> f64 {
@@ -58,10 +59,14 @@ fn nodes(scene: &Scene, h: f64) -> f64 {
 }
 
 fn particles(plan: &ConvergencePlan, h: f64) -> f64 {
+    (0..plan.scene.dimension()).map(|axis| along(plan, axis, h).max(1.0)).product()
+}
+
+/// Particles along an axis, before rounding.
+fn along(plan: &ConvergencePlan, axis: usize, h: f64) -> f64 {
     let scene = &plan.scene;
     let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
-    let along = |(from, to): (&f64, &f64)| ((to - from) * per_axis / h).max(1.0);
-    scene.from.iter().zip(&scene.to).map(along).product()
+    (scene.to[axis] - scene.from[axis]) * per_axis / h
 }
 
 /// The nodes that are held lie on the last face of the grid, which must be that of the body.
@@ -72,18 +77,45 @@ fn held_faces(
     cells: u64,
 ) -> Result<(), Complaint> {
     let h = cell_size(scene, cells);
-    for face in scene.faces.iter().filter(|face| face.fixed && face.high) {
+    for face in scene.faces.iter().filter(|face| !face.hold.is_free() && face.high) {
         let (origin, along) = grid_axis(scene, face.axis, h);
         let (end, body) = (origin + along * h, scene.to[face.axis]);
         if (end - body).abs() > ROUNDING * h {
-            let (name, h, end) = (face.name, shown(h), shown(end));
+            let (name, verb, h, end) = (face.name, face.hold.verb(), shown(h), shown(end));
             let message = format!(
-                "with {cells} cells along the first axis the {name} face, which is fixed, is at \
+                "with {cells} cells along the first axis the {name} face, which {verb}, is at \
                  {}, and the nodes next to it at {end}",
                 shown(body)
             );
             let label = format!("expected cells of which a whole number fits, not {h} m");
             return Err(binder.complain(path, &message).with_label(&label));
+        }
+    }
+    Ok(())
+}
+
+/// A set of particles has at least one.
+fn sets(
+    binder: &Binder<'_>,
+    path: &Path,
+    plan: &ConvergencePlan,
+    cells: u64,
+) -> Result<(), Complaint> {
+    let (scene, h) = (&plan.scene, cell_size(&plan.scene, cells));
+    for set in &scene.sets {
+        // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
+        let some = |axis: usize| {
+            let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
+            let count = libm::round(along(plan, axis, h)).max(1.0);
+            let index = libm::ceil((set.from[axis] - from) / length * count - 0.5).max(0.0);
+            from + length * (index.min(count - 1.0) + 0.5) / count <= set.to[axis]
+        };
+        if !(0..scene.dimension()).all(some) {
+            let name = &set.name;
+            let message = format!(
+                "with {cells} cells along the first axis the set `{name}` holds no particle"
+            );
+            return Err(binder.complain(path, &message).with_label("expected more cells"));
         }
     }
     Ok(())

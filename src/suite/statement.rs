@@ -1,6 +1,9 @@
 //! What a suite computes, in rows of name and value, for reports and `explain`.
 
-use super::model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite};
+use super::{
+    hold::Hold,
+    model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
+};
 use crate::exact::{Problem, formula::Formula};
 
 const SMALL_STRAIN: &str = "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)";
@@ -84,12 +87,23 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     let law = scene.law.name().replace('_', " ");
     push(rows, "material", &format!("{law}, E = {young} Pa, nu = {poisson}"));
     for face in &scene.faces {
-        let state = match (&face.traction, face.fixed) {
+        let state = match (&face.traction, &face.hold) {
             (Some(value), _) => format!("traction {} Pa", sources(value)),
-            (None, true) => "fixed".to_owned(),
-            (None, false) => "free".to_owned(),
+            (None, Hold::Velocity(value)) => format!("velocity {} m/s", sources(value)),
+            (None, Hold::Free) => "free".to_owned(),
+            (None, Hold::Fixed) => "fixed".to_owned(),
+            (None, Hold::Roller) => "roller".to_owned(),
+            (None, Hold::Periodic) => "periodic".to_owned(),
         };
         push(rows, face.name, &state);
+    }
+    for set in &scene.sets {
+        let (from, to) = (corner(&set.from), corner(&set.to));
+        let force = set.force.iter().map(|value| format!("force {} N in all", sources(value)));
+        let speed = set.velocity.iter().map(|value| format!("velocity {} m/s", sources(value)));
+        let what: Vec<String> = force.chain(speed).collect();
+        let text = format!("({from}) to ({to}) m, {}", what.join(", "));
+        push(rows, &format!("set {}", set.name), &text);
     }
     if let Some(gravity) = &scene.gravity {
         push(rows, "gravity", &format!("{} m/s2", sources(gravity)));

@@ -2,6 +2,7 @@
 
 use super::{
     binder::Binder,
+    hold::Hold,
     model::{MaterialName, Scene, SceneFace},
     path::Path,
     scene::coordinates_and_time,
@@ -100,6 +101,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         gravity: scene.gravity.clone().unwrap_or_default(),
         manufactured: false,
         faces: scene.faces.iter().map(face).collect(),
+        regions: scene.sets.clone(),
         initial_velocity: scene.initial_velocity.clone(),
         until,
         motion,
@@ -152,10 +154,13 @@ fn tolerance(
 }
 
 fn face(face: &SceneFace) -> Face {
-    let condition = match &face.traction {
-        _ if face.fixed => Condition::Fixed,
-        Some(value) => Condition::Traction(value.clone()),
-        None => Condition::Free,
+    let condition = match (&face.hold, &face.traction) {
+        (Hold::Fixed, _) => Condition::Fixed,
+        (Hold::Roller, _) => Condition::Roller,
+        (Hold::Velocity(value), _) => Condition::Velocity(value.clone()),
+        (Hold::Periodic, _) => Condition::Periodic,
+        (Hold::Free, Some(value)) => Condition::Traction(value.clone()),
+        (Hold::Free, None) => Condition::Free,
     };
     Face { name: face.name, axis: face.axis, high: face.high, condition }
 }

@@ -70,7 +70,7 @@ pub(crate) fn free_body<const D: usize>(
         frame: FrameName::Updated,
         material: Box::new(LinearElastic::new(1.0, 0.3)),
         effects: Vec::new(),
-        fixed: Vec::new(),
+        boundary: Vec::new(),
         scheme,
         start: Start::AtZero,
     }

@@ -67,7 +67,7 @@ fn setup<const D: usize>(basis: BasisName, name: TransferName, scheme: SchemeNam
         // So soft that no force acts: the transfers are alone.
         material: Box::new(LinearElastic::new(1e-300, 0.0)),
         effects: Vec::new(),
-        fixed: Vec::new(),
+        boundary: Vec::new(),
         scheme,
         start: Start::AtZero,
     }

@@ -143,7 +143,9 @@ fn a_state_that_is_no_number_is_traced_to_its_particle(#[values(1, 2, 3)] dimens
 fn fixed_nodes_do_not_hide_a_velocity_that_is_no_number() {
     let mut setup = scene::<1>(SchemeName::Usl, 0.5, NAN);
     setup.grid = setup.kernel.grid(Vector::zeros(), 8.0, [1], [false]);
-    setup.fixed = [Side::Low, Side::High].map(|side| Fixed::face(&setup.grid, 0, side)).to_vec();
+    for side in [Side::Low, Side::High] {
+        setup.boundary.push(Box::new(Fixed::face(&setup.grid, 0, side)));
+    }
     assert!(Solver::new(setup).and_then(|mut solver| solver.step(0.1)).is_err());
 }
 

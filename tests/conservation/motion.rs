@@ -1,9 +1,12 @@
 //! Whole steps of a body that nothing holds.
 
-use crate::common::{DT, free_body, in_dimension, methods};
+use crate::{
+    common::{DT, free_body, in_dimension, methods},
+    conservative,
+};
 use approx::assert_abs_diff_eq;
 use mpm_verify::{
-    mpm::{BasisName, Gravity, Matrix, Particles, SchemeName, Solver, TransferName, Vector},
+    mpm::{Gravity, Matrix, Particles, SchemeName, Solver, Vector},
     subject::{Start, Subject},
 };
 use rstest::rstest;
@@ -17,12 +20,6 @@ fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
 /// Sum of |m v|: what round-off in the momentum is measured by.
 fn size<const D: usize>(particles: &Particles<D>) -> f64 {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v.norm() * m).sum()
-}
-
-/// Taylor least squares keeps the momentum of every cell in P2G, but its nodal masses are not those
-/// that G2P would need to give the change of momentum back: the only transfer that claims less.
-fn conservative() -> impl Iterator<Item = (BasisName, TransferName)> {
-    methods().filter(|(_, transfer)| *transfer != TransferName::Tls)
 }
 
 fn momentum_is_kept<const D: usize>(scheme: SchemeName, start: Start) {

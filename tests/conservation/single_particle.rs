@@ -33,7 +33,7 @@ fn particle(name: TransferName, scheme: SchemeName, xi: f64, sigma: f64) -> Solv
         frame: FrameName::Updated,
         material: Box::new(LinearElastic::new(YOUNG, 0.0)),
         effects: Vec::new(),
-        fixed: Vec::new(),
+        boundary: Vec::new(),
         scheme,
         start: Start::AtZero,
     };

@@ -13,7 +13,7 @@ pub use contract::{Basis, Domain, Seen};
 pub use gimp::{ContiguousGimp, UniformGimp};
 pub use linear::Linear;
 
-use super::family::family;
+use super::{algebra::Vector, family::family, grid::Grid};
 
 family! {
     /// Names of the basis functions that suites may choose.
@@ -30,5 +30,15 @@ impl BasisName {
     /// for degree p.
     pub fn formal_order(self) -> f64 {
         with_basis!(self, B => f64::from(B::DEGREE) + 1.0)
+    }
+
+    /// Where function `node` of `grid` sits (m): at its Greville abscissa on every axis.
+    pub fn place<const D: usize>(self, grid: &Grid<D>, node: usize) -> Vector<D> {
+        let along = |axis: usize| {
+            let index = grid.index_on_axis(node, axis);
+            let (cells, periodic) = (grid.cells[axis], grid.periodic[axis]);
+            with_basis!(self, B => B::abscissa(index, cells, periodic))
+        };
+        Vector::from_fn(|axis, _| grid.origin[axis] + grid.h * along(axis))
     }
 }

@@ -13,4 +13,12 @@ pub trait Effect<const D: usize>: Send {
         kernel: &dyn Kernel<D>,
         grid: &mut Grid<D>,
     ) -> u64;
+
+    /// Gives particles a velocity that is not the grid's; `t` (s) is the time that velocities stand
+    /// for. Called before the first step, and whenever velocities have been taken from the grid.
+    fn drive_velocity(&self, _t: f64, _particles: &mut Particles<D>) {}
+
+    /// Moves particles otherwise than the grid did, over `dt` (s). Called after the grid has moved
+    /// all of them.
+    fn drive_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
 }

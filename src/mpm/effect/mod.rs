@@ -3,10 +3,14 @@
 
 mod body_force;
 mod contract;
+mod driven;
 mod gravity;
+mod set_force;
 mod traction;
 
 pub use body_force::{BodyForce, Field};
 pub use contract::Effect;
+pub use driven::Driven;
 pub use gravity::Gravity;
+pub use set_force::SetForce;
 pub use traction::Traction;

@@ -2,12 +2,13 @@
 //! 2.16), solved by a sparse Cholesky factorisation.
 //!
 //! It is what order p + 1 needs with a basis of degree p > 1. Nodes without mass have no row, held
-//! nodes none in the component that is held. A node that too few particles see makes the matrix
-//! singular, and the run fails with that reason. Assembling allocates in every step.
+//! nodes none in the component that is held: there, walls must be at rest. A node that too few
+//! particles see makes the matrix singular, and the run fails with that reason. Assembling allocates
+//! in every step.
 
 use super::contract::MassMatrix;
 use crate::{
-    mpm::{algebra::Vector, boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
     subject::Failure,
 };
 use nalgebra::DVector;
@@ -16,26 +17,60 @@ use nalgebra_sparse::{CooMatrix, CscMatrix, factorization::CscCholesky};
 /// The consistent mass matrix.
 #[derive(Default)]
 pub struct Consistent {
+    /// One for each axis, but for axes on which the same nodes are held.
+    factors: Vec<Factor>,
+}
+
+/// The matrix of the nodes that are free along an axis.
+struct Factor {
     /// Row of each node; None where it has none.
     row: Vec<Option<usize>>,
     rows: usize,
-    factor: Option<CscCholesky<f64>>,
+    factor: CscCholesky<f64>,
 }
 
-impl Consistent {
-    /// Numbers the nodes that have mass and are not held.
-    fn number<const D: usize>(&mut self, grid: &Grid<D>, fixed: &[Fixed]) {
-        let mut free: Vec<bool> = grid.mass.iter().map(|m| *m > 0.0).collect();
-        for &node in fixed.iter().flat_map(Fixed::nodes) {
-            free[node] = false;
+impl Factor {
+    fn new(free: &[bool], entries: &[(usize, usize, f64)]) -> Result<Self, Failure> {
+        let mut rows = 0;
+        let mut number = |free: &bool| {
+            rows += usize::from(*free);
+            free.then(|| rows - 1)
+        };
+        let row: Vec<_> = free.iter().map(&mut number).collect();
+        let mut matrix = CooMatrix::new(rows, rows);
+        for &(i, j, mass) in entries {
+            if let (Some(i), Some(j)) = (row[i], row[j]) {
+                matrix.push(i, j, mass);
+            }
         }
-        self.rows = 0;
-        self.row.clear();
-        for free in free {
-            self.row.push(free.then_some(self.rows));
-            self.rows += usize::from(free);
+        let singular = "the consistent mass matrix is singular: too few particles see some node";
+        let factor = CscCholesky::factor(&CscMatrix::from(&matrix))
+            .map_err(|_| Failure::Solve(singular.to_owned()))?;
+        Ok(Self { row, rows, factor })
+    }
+
+    fn solve<const D: usize>(&self, axis: usize, field: &mut [Vector<D>]) {
+        let mut side = DVector::zeros(self.rows);
+        for (value, row) in field.iter().zip(&self.row) {
+            if let Some(row) = row {
+                side[*row] = value[axis];
+            }
+        }
+        self.factor.solve_mut(&mut side);
+        for (value, row) in field.iter_mut().zip(&self.row) {
+            value[axis] = row.map_or(0.0, |row| side[row]);
         }
     }
+}
+
+/// Where nothing is held and there is mass: one where a component is free, zero elsewhere.
+fn free<const D: usize>(grid: &Grid<D>, boundary: &[Box<dyn Boundary<D>>]) -> Vec<Vector<D>> {
+    let has_mass = |m: &f64| Vector::from_element(f64::from(u8::from(*m > 0.0)));
+    let mut free: Vec<Vector<D>> = grid.mass.iter().map(has_mass).collect();
+    for condition in boundary {
+        condition.clear(&mut free);
+    }
+    free
 }
 
 impl<const D: usize> MassMatrix<D> for Consistent {
@@ -44,38 +79,25 @@ impl<const D: usize> MassMatrix<D> for Consistent {
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &Grid<D>,
-        fixed: &[Fixed],
+        boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<u64, Failure> {
-        self.number(grid, fixed);
-        let mut entries = CooMatrix::new(self.rows, self.rows);
-        kernel.mass_entries(grid, particles, &mut |i, j, mass| {
-            if let (Some(i), Some(j)) = (self.row[i], self.row[j]) {
-                entries.push(i, j, mass);
-            }
-        });
-        let factor = CscCholesky::factor(&CscMatrix::from(&entries)).map_err(|_| {
-            Failure::Solve(
-                "the consistent mass matrix is singular: a node is seen by too few particles"
-                    .to_owned(),
-            )
-        })?;
-        self.factor = Some(factor);
+        let mut entries = Vec::new();
+        kernel.mass_entries(grid, particles, &mut |i, j, mass| entries.push((i, j, mass)));
+        let free = free(grid, boundary);
+        let along = |axis: usize| free.iter().map(|f| f[axis] > 0.0).collect::<Vec<bool>>();
+        self.factors.clear();
+        let same = (1..D).all(|axis| along(axis) == along(0));
+        for axis in 0..if same { 1 } else { D } {
+            self.factors.push(Factor::new(&along(axis), &entries)?);
+        }
         // Every pair of nodes is visited.
         Ok(1 + kernel.support())
     }
 
     fn solve(&self, _: &Grid<D>, field: &mut [Vector<D>]) {
-        let Some(factor) = &self.factor else { return };
         for axis in 0..D {
-            let mut side = DVector::zeros(self.rows);
-            for (value, row) in field.iter().zip(&self.row) {
-                if let Some(row) = row {
-                    side[*row] = value[axis];
-                }
-            }
-            factor.solve_mut(&mut side);
-            for (value, row) in field.iter_mut().zip(&self.row) {
-                value[axis] = row.map_or(0.0, |row| side[row]);
+            if let Some(factor) = self.factors.get(axis).or(self.factors.first()) {
+                factor.solve(axis, field);
             }
         }
     }

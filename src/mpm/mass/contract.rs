@@ -1,7 +1,7 @@
 //! What a mass matrix is to the rest of the solver.
 
 use crate::{
-    mpm::{algebra::Vector, boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
     subject::Failure,
 };
 
@@ -17,7 +17,7 @@ pub trait MassMatrix<const D: usize>: Send + Sync {
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &Grid<D>,
-        fixed: &[Fixed],
+        boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<u64, Failure>;
 
     /// Divides `field` (kg m/s, or N) by the matrix. Values on held nodes are not defined.

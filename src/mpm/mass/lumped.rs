@@ -4,7 +4,7 @@
 
 use super::contract::MassMatrix;
 use crate::{
-    mpm::{algebra::Vector, boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
     subject::Failure,
 };
 
@@ -18,7 +18,7 @@ impl<const D: usize> MassMatrix<D> for Lumped {
         _: &dyn Kernel<D>,
         _: &Particles<D>,
         _: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
     ) -> Result<u64, Failure> {
         Ok(0)
     }

@@ -9,7 +9,7 @@
 use super::contract::{Transfer, add_acceleration, mix_velocity};
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    boundary::Fixed,
+    boundary::Boundary,
     grid::Grid,
     kernel::{Kernel, Shown},
     moments::Moments,
@@ -70,7 +70,7 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         _: f64,
         particles: &mut Particles<D>,
     ) -> u64 {

@@ -4,7 +4,7 @@
 //! al. 2013, with s = 0.95).
 
 use super::contract::{Transfer, add_acceleration, mix_velocity};
-use crate::mpm::{boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// FLIP with a small part of PIC.
 #[derive(Debug, Clone, Copy)]
@@ -28,7 +28,7 @@ impl<const D: usize> Transfer<D> for Blend {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {

@@ -2,7 +2,7 @@
 
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    boundary::Fixed,
+    boundary::Boundary,
     grid::Grid,
     kernel::{Kernel, Shown},
     particles::Particles,
@@ -61,7 +61,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
         _: &dyn Kernel<D>,
         _: &Particles<D>,
         _: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         _: &mut [Vector<D>],
     ) -> u64 {
         0
@@ -72,7 +72,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        fixed: &[Fixed],
+        boundary: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64;

@@ -4,7 +4,7 @@
 //! Tielen 2015).
 
 use super::contract::{Transfer, add_acceleration};
-use crate::mpm::{boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// The transfer of the original MPM.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ impl<const D: usize> Transfer<D> for Flip {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {

@@ -8,7 +8,7 @@
 use super::contract::{Transfer, mix_velocity};
 use crate::mpm::{
     algebra::Vector,
-    boundary::Fixed,
+    boundary::Boundary,
     grid::Grid,
     kernel::{Kernel, Shown},
     particles::Particles,
@@ -46,7 +46,7 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &Grid<D>,
-        fixed: &[Fixed],
+        boundary: &[Box<dyn Boundary<D>>],
         field: &mut [Vector<D>],
     ) -> u64 {
         self.rest.copy_from_slice(field);
@@ -58,8 +58,8 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
             for (rest, mapped) in self.rest.iter_mut().zip(&self.nodal) {
                 *rest -= mapped;
             }
-            for face in fixed {
-                face.hold(&mut self.rest);
+            for condition in boundary {
+                condition.clear(&mut self.rest);
             }
             for (value, rest) in field.iter_mut().zip(&self.rest) {
                 *value += rest;
@@ -72,7 +72,7 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         _: f64,
         particles: &mut Particles<D>,
     ) -> u64 {

@@ -6,7 +6,7 @@
 use super::{apic::Apic, contract::Transfer};
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    boundary::Fixed,
+    boundary::Boundary,
     grid::Grid,
     kernel::Kernel,
     particles::Particles,
@@ -60,11 +60,11 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        fixed: &[Fixed],
+        boundary: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {
-        self.apic.g2p_velocity(kernel, grid, fixed, dt, particles)
+        self.apic.g2p_velocity(kernel, grid, boundary, dt, particles)
     }
 
     fn kick(

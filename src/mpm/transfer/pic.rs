@@ -4,7 +4,7 @@
 //! grid, which damps all that varies within a cell.
 
 use super::contract::{Transfer, mix_velocity};
-use crate::mpm::{boundary::Fixed, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// Particle in cell.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +19,7 @@ impl<const D: usize> Transfer<D> for Pic {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         _: f64,
         particles: &mut Particles<D>,
     ) -> u64 {

@@ -8,7 +8,7 @@
 use super::contract::{Transfer, add_acceleration};
 use crate::mpm::{
     algebra::Vector,
-    boundary::Fixed,
+    boundary::Boundary,
     grid::Grid,
     kernel::{Kernel, Shown},
     particles::Particles,
@@ -43,7 +43,7 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        fixed: &[Fixed],
+        boundary: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {
@@ -52,8 +52,8 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
             let shown = Shown { v: &self.rest, affine: None };
             kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
-            for face in fixed {
-                face.hold(&mut self.nodal);
+            for condition in boundary {
+                condition.clear(&mut self.nodal);
             }
             kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.rest);
         }

@@ -8,7 +8,8 @@ mod scene;
 
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
 pub(in crate::suite) use scene::{
-    BodyWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords,
+    BodyWords, BoundaryWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords,
+    SetWords,
 };
 
 use super::yaml::{NumberText, OneOrMany, Ordered};

@@ -11,8 +11,10 @@ pub(in crate::suite) struct SceneWords {
     pub(in crate::suite) grid: Option<BoxWords>,
     pub(in crate::suite) material: MaterialWords,
     #[serde(default)]
-    pub(in crate::suite) boundary: Ordered<BoundaryName>,
+    pub(in crate::suite) boundary: Ordered<BoundaryWords>,
     pub(in crate::suite) initial_velocity: Option<Vec<NumberText>>,
+    #[serde(default)]
+    pub(in crate::suite) sets: Ordered<SetWords>,
     #[serde(default)]
     pub(in crate::suite) loads: Vec<LoadWords>,
 }
@@ -46,11 +48,25 @@ pub(in crate::suite) struct ElasticWords {
 }
 
 /// Boundary conditions on a face; a face that is not named is free.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(in crate::suite) enum BoundaryName {
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(in crate::suite) enum BoundaryWords {
     /// No displacement.
     Fixed,
+    /// No displacement along the normal, no traction along the face.
+    Roller,
+    /// The same state as on the opposite face.
+    Periodic,
+    /// A given velocity (m/s), formulas of the coordinates and t.
+    Velocity(Vec<NumberText>),
+}
+
+/// Material points with a name.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(in crate::suite) enum SetWords {
+    /// Those whose reference positions lie in a box.
+    Box(BoxWords),
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -60,4 +76,8 @@ pub(in crate::suite) enum LoadWords {
     Gravity(Vec<NumberText>),
     /// Force per reference area on one face (Pa), formulas of t.
     Traction { on: String, value: Vec<NumberText> },
+    /// Total force on a set (N), formulas of t.
+    Force { on: String, value: Vec<NumberText> },
+    /// Velocity of a set (m/s), formulas of the coordinates and t.
+    Velocity { on: String, value: Vec<NumberText> },
 }

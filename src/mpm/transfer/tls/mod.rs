@@ -13,7 +13,7 @@ use self::{fit::Fit, spots::Spots};
 use super::contract::{Transfer, add_acceleration};
 use crate::mpm::{
     algebra::Vector,
-    boundary::Fixed,
+    boundary::Boundary,
     grid::Grid,
     kernel::{Kernel, Shown},
     particles::Particles,
@@ -132,7 +132,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Fixed],
+        _: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {

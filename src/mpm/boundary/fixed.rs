@@ -1,0 +1,40 @@
+//! A wall to which the body sticks: v = 0.
+
+use super::{
+    contract::{Advance, Boundary},
+    face::{Side, nodes},
+};
+use crate::mpm::{algebra::Vector, grid::Grid};
+
+/// A face of the grid whose nodes do not move.
+#[derive(Debug, Clone)]
+pub struct Fixed {
+    nodes: Vec<usize>,
+}
+
+impl Fixed {
+    /// The nodes of `grid` on one face.
+    pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
+        Self { nodes: nodes(grid, axis, side) }
+    }
+
+    fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
+        for &i in &self.nodes {
+            field[i] = Vector::zeros();
+        }
+    }
+}
+
+impl<const D: usize> Boundary<D> for Fixed {
+    fn hold_velocity(&self, velocity: &mut [Vector<D>], _: f64) {
+        self.hold(velocity);
+    }
+
+    fn hold_acceleration(&self, acceleration: &mut [Vector<D>], _: &Advance) {
+        self.hold(acceleration);
+    }
+
+    fn clear(&self, field: &mut [Vector<D>]) {
+        self.hold(field);
+    }
+}

@@ -1,0 +1,67 @@
+//! A wall that moves as it is told, and the body with it: v = v(x, t).
+//!
+//! The nodes take the velocity at their own place. The grid does not follow the wall: the face of
+//! the grid is where the wall is, so a wall may slide along itself as far as it likes, but move
+//! along its normal only by a small part of a cell.
+
+use super::{
+    contract::{Advance, Boundary},
+    face::{Side, nodes},
+};
+use crate::mpm::{algebra::Vector, basis::BasisName, grid::Grid};
+
+/// A velocity (m/s) as a function of place and time.
+pub type VelocityField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;
+
+/// A face of the grid whose velocity is given.
+pub struct Prescribed<const D: usize> {
+    /// Nodes and where they are (m).
+    nodes: Vec<(usize, Vector<D>)>,
+    value: VelocityField<D>,
+}
+
+impl<const D: usize> Prescribed<D> {
+    /// The nodes of `grid`, which has the functions of `basis`, on one face.
+    pub fn face(
+        grid: &Grid<D>,
+        basis: BasisName,
+        axis: usize,
+        side: Side,
+        value: VelocityField<D>,
+    ) -> Self {
+        let place = |i| (i, basis.place(grid, i));
+        Self { nodes: nodes(grid, axis, side).into_iter().map(place).collect(), value }
+    }
+}
+
+/// `value` at `x` and `t` (s). No velocity is asked for before the start, where a formula may have no
+/// meaning: there it is continued through its value at the start, `v(-t) = 2 v(0) - v(t)`, which is
+/// exact for a constant acceleration.
+pub(in crate::mpm) fn continued<const D: usize>(
+    value: &VelocityField<D>,
+    x: &Vector<D>,
+    t: f64,
+) -> Vector<D> {
+    if t < 0.0 { value(x, 0.0) * 2.0 - value(x, -t) } else { value(x, t) }
+}
+
+impl<const D: usize> Boundary<D> for Prescribed<D> {
+    fn hold_velocity(&self, velocity: &mut [Vector<D>], t: f64) {
+        for (i, x) in &self.nodes {
+            velocity[*i] = continued(&self.value, x, t);
+        }
+    }
+
+    fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance) {
+        let at = |x, t| continued(&self.value, x, t);
+        for (i, x) in &self.nodes {
+            acceleration[*i] = (at(x, advance.to) - at(x, advance.from)) / advance.dt;
+        }
+    }
+
+    fn clear(&self, field: &mut [Vector<D>]) {
+        for (i, _) in &self.nodes {
+            field[*i] = Vector::zeros();
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! A frictionless wall, or a plane of symmetry: v . n = 0, and no force along the wall.
+
+use super::{
+    contract::{Advance, Boundary},
+    face::{Side, nodes},
+};
+use crate::mpm::{algebra::Vector, grid::Grid};
+
+/// A face of the grid along which the body slides.
+#[derive(Debug, Clone)]
+pub struct Roller {
+    nodes: Vec<usize>,
+    axis: usize,
+}
+
+impl Roller {
+    /// The nodes of `grid` on one face; the normal is `axis`.
+    pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
+        Self { nodes: nodes(grid, axis, side), axis }
+    }
+
+    fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
+        for &i in &self.nodes {
+            field[i][self.axis] = 0.0;
+        }
+    }
+}
+
+impl<const D: usize> Boundary<D> for Roller {
+    fn hold_velocity(&self, velocity: &mut [Vector<D>], _: f64) {
+        self.hold(velocity);
+    }
+
+    fn hold_acceleration(&self, acceleration: &mut [Vector<D>], _: &Advance) {
+        self.hold(acceleration);
+    }
+
+    fn clear(&self, field: &mut [Vector<D>]) {
+        self.hold(field);
+    }
+}

@@ -1,0 +1,47 @@
+//! A set of particles that move as they are told.
+//!
+//! Their velocity is set once the grid's has been taken, and they move with it rather than with the
+//! grid. What is around them learns of it when velocities are mapped to the grid: in MUSL within
+//! the same step, in USF and USL in the next.
+
+use super::contract::Effect;
+use crate::mpm::{
+    algebra::Vector,
+    boundary::{VelocityField, continued},
+    grid::Grid,
+    kernel::Kernel,
+    particles::Particles,
+};
+
+/// A velocity v(X, t) (m/s) that a set of particles has.
+pub struct Driven<const D: usize> {
+    value: VelocityField<D>,
+    /// Particles and where they are (m).
+    members: Vec<(usize, Vector<D>)>,
+}
+
+impl<const D: usize> Driven<D> {
+    /// The velocity `value` for the particles `members`.
+    pub fn on(particles: &Particles<D>, members: &[usize], value: VelocityField<D>) -> Self {
+        Self { value, members: members.iter().map(|&p| (p, particles.x[p])).collect() }
+    }
+}
+
+impl<const D: usize> Effect<D> for Driven<D> {
+    fn add_force(&self, _: f64, _: &Particles<D>, _: &dyn Kernel<D>, _: &mut Grid<D>) -> u64 {
+        0
+    }
+
+    fn drive_velocity(&self, t: f64, particles: &mut Particles<D>) {
+        for (p, _) in &self.members {
+            particles.v[*p] = continued(&self.value, &particles.x0[*p], t);
+        }
+    }
+
+    fn drive_position(&mut self, dt: f64, particles: &mut Particles<D>) {
+        for (p, x) in &mut self.members {
+            *x += particles.v[*p] * dt;
+            *particles.position_mut(*p) = *x;
+        }
+    }
+}

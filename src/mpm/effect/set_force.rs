@@ -1,0 +1,42 @@
+//! A force on a set of particles, shared among them by reference volume.
+//!
+//! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, V0 being its whole volume: a body force
+//! that is uniform in the reference configuration, and follows the particles.
+
+use super::contract::Effect;
+use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles};
+
+/// A total force f(t) (N, per m^(3-D) of thickness) on a set.
+pub struct SetForce<const D: usize> {
+    value: Box<dyn Fn(f64) -> Vector<D> + Send>,
+    /// Particles and their shares, which add up to 1.
+    shares: Vec<(usize, f64)>,
+}
+
+impl<const D: usize> SetForce<D> {
+    /// The force `value` on the particles `members`.
+    pub fn on(
+        particles: &Particles<D>,
+        members: &[usize],
+        value: Box<dyn Fn(f64) -> Vector<D> + Send>,
+    ) -> Self {
+        let volume: f64 = members.iter().map(|&p| particles.vol0[p]).sum();
+        Self { value, shares: members.iter().map(|&p| (p, particles.vol0[p] / volume)).collect() }
+    }
+}
+
+impl<const D: usize> Effect<D> for SetForce<D> {
+    fn add_force(
+        &self,
+        t: f64,
+        particles: &Particles<D>,
+        kernel: &dyn Kernel<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        let force = (self.value)(t);
+        for &(p, share) in &self.shares {
+            kernel.p2g_point_force(particles, p, &(force * share), grid);
+        }
+        self.shares.len() as u64 * kernel.support()
+    }
+}

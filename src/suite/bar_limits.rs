@@ -1,0 +1,41 @@
+//! What the FEM bar cannot do: refused before anything runs.
+
+use super::{
+    binder::Binder,
+    hold::Hold,
+    model::Scene,
+    path::Path,
+    words::{ConvergenceWords, MethodWords},
+    yaml::Complaint,
+};
+
+/// Refuses conditions that the bar does not know, if the suite asks for one.
+pub(super) fn check(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+) -> Result<(), Complaint> {
+    let is_bar = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
+    if words.reference.is_none() && !words.methods.iter().any(is_bar) {
+        return Ok(());
+    }
+    let path = Path::top("scene");
+    let help = "remove the FEM, also as `reference`, or the condition";
+    for face in &scene.faces {
+        if matches!(face.hold, Hold::Periodic | Hold::Velocity(_)) {
+            let message = format!(
+                "the {} face {}, and the FEM knows fixed and free ends only",
+                face.name,
+                face.hold.verb()
+            );
+            let at = path.then("boundary").then(face.name);
+            return Err(binder.complain(&at, &message).with_help(help));
+        }
+    }
+    if let Some(set) = scene.sets.iter().find(|set| set.velocity.is_some()) {
+        let message = format!("the set `{}` is driven, which the FEM cannot do", set.name);
+        let at = path.then("sets").then(set.name.as_str());
+        return Err(binder.complain_key(&at, &message).with_help(help));
+    }
+    Ok(())
+}

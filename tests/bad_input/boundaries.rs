@@ -1,0 +1,244 @@
+//! What holds faces and acts on sets: words that mean nothing, and motions that do not obey them.
+
+use super::{
+    Edits, load, refused,
+    samples::{BAR, PLATE},
+};
+use rstest::rstest;
+
+/// A bar without ends.
+const RING: &str = r#"suite: ring
+title: Periodic bar
+source: a textbook
+
+parameters:
+  A: 0.01
+
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  material: {neo_hookean: {young: 100, poisson: 0, density: 1}}
+  boundary: {left: periodic, right: periodic}
+
+manufactured:
+  displacement: ["A*sin(2*pi*X)*sin(pi*t)"]
+
+run: {until: 0.5, dt: 1e-3}
+refine: {cells: [5, 10], ppc: 2}
+
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+
+expect:
+  - verdict: too_few_levels
+    because: two levels support no claim
+"#;
+
+/// A square between rollers, with a driven set.
+const SQUARE: &str = r#"suite: square
+title: Square between rollers
+source: a textbook
+
+parameters:
+  A: 0.01
+
+scene:
+  dimension: 2
+  body: {box: {from: [0, 0], to: [1, 1]}}
+  material: {neo_hookean: {young: 100, poisson: 0.3, density: 1}}
+  boundary: {left: roller, right: roller, bottom: roller, top: roller}
+  sets: {middle: {box: {from: [0.4, 0.4], to: [0.6, 0.6]}}}
+  loads:
+    - velocity: {on: middle, value: ["A*pi*sin(pi*X)*cos(pi*t)", "A*pi*sin(pi*Y)*cos(pi*t)"]}
+
+manufactured:
+  displacement: ["A*sin(pi*X)*sin(pi*t)", "A*sin(pi*Y)*sin(pi*t)"]
+
+run: {until: 0.5, dt: 1e-3}
+refine: {cells: [4, 8], ppc: 4}
+
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+
+expect:
+  - verdict: too_few_levels
+    because: two levels support no claim
+"#;
+
+/// The vibrating bar with its far end driven instead of free.
+const DRIVEN: Edits<'_> = &[
+    ("grid: {from: [0], to: [L + 5]}", "grid: {from: [0], to: [L]}"),
+    ("{left: fixed}", "{left: roller, right: {velocity: [\"v0*mode(X)*cos(omega*t)\"]}}"),
+    ("  - fem: {element: linear, mass: lumped}\n", ""),
+    (
+        "  - case: \"fem-*\"\n    verdict: too_few_levels\n    because: two levels support no claim\n",
+        "",
+    ),
+];
+
+/// A column under gravity, with its weight as a force on a set that is all of it.
+const PUSHED: Edits<'_> = &[
+    ("gravity: [\"-g\"]", "force: {on: all, value: [\"-rho*g*H\"]}"),
+    ("  loads:", "  sets: {all: {box: {from: [-1], to: [2]}}}\n  loads:"),
+];
+
+fn edited(sound: &str, edits: Edits<'_>) -> String {
+    edits.iter().fold(sound.to_owned(), |text, (right, wrong)| {
+        assert!(text.contains(right), "the suite does not say `{right}`");
+        text.replacen(right, wrong, 1)
+    })
+}
+
+#[rstest]
+#[case::a_ring(RING, &[])]
+#[case::a_square_between_rollers(SQUARE, &[])]
+#[case::a_driven_bar(BAR, DRIVEN)]
+#[case::a_roller_in_one_dimension(BAR, &[("left: fixed", "left: roller")])]
+#[case::a_plate_on_rollers(PLATE, &[("{left: fixed}", "{left: roller, bottom: roller, top: roller}")])]
+#[case::a_plate_without_ends_across(PLATE, &[("{left: fixed}", "{left: fixed, bottom: periodic, top: periodic}")])]
+fn sound(#[case] text: &str, #[case] edits: Edits<'_>) {
+    if let Err(complaint) = load(&edited(text, edits)) {
+        panic!("{complaint}");
+    }
+}
+
+#[rstest]
+#[case::one_periodic_face(
+    RING,
+    &[("left: periodic, right: periodic", "left: ▸periodic")],
+    &["the left face is periodic, and the right face is free", "expected `right: periodic` as well"]
+)]
+#[case::a_periodic_face_opposite_a_wall(
+    RING,
+    &[("left: periodic, right: periodic", "left: fixed, right: ▸periodic")],
+    &["the right face is periodic, and the left face is fixed"]
+)]
+#[case::a_grid_that_goes_on_behind_a_periodic_face(
+    RING,
+    &[("  material", "  grid: {from: [0], to: [▸1.2]}\n  material")],
+    &["the right face at 1 is periodic, but the grid ends at 1.2", "expected exactly 1"]
+)]
+#[case::cells_that_do_not_fit_between_periodic_faces(
+    PLATE,
+    &[("to: [1, 0.5]", "to: [1, 0.45]"), ("{left: fixed}", "{left: fixed, bottom: periodic, top: periodic}"), ("[4, 8]", "[▸4, 8]")],
+    &["the top face, which is periodic, is at 0.45, and the nodes next to it at 0.5"]
+)]
+#[case::a_condition_that_nobody_knows(RING, &[("left: periodic", "left: ▸periodical")], &["unknown name `periodical`", "did you mean `periodic`?"])]
+#[case::a_velocity_with_two_components(
+    RING,
+    &[("left: periodic", "left: {velocity: ▸[0, 0]}")],
+    &["2 components in a scene of dimension 1"]
+)]
+#[case::a_velocity_without_components(RING, &[("left: periodic", "left: ▸velocity")], &["velocity"])]
+#[case::a_traction_on_a_roller(
+    SQUARE,
+    &[("loads:\n", "loads:\n    - traction: {on: ▸top, value: [1, 0]}\n")],
+    &["the face `top` is a roller"]
+)]
+#[case::a_traction_on_a_set(
+    SQUARE,
+    &[("loads:\n", "loads:\n    - traction: {on: ▸middle, value: [1, 0]}\n")],
+    &["`middle` is a set, and a traction acts on a face", "give the total force: `force: {on: middle, value: [...]}`"]
+)]
+#[case::a_force_on_a_set_that_is_not_there(
+    SQUARE,
+    &[("loads:\n", "loads:\n    - force: {on: ▸midle, value: [1, 0]}\n")],
+    &["there is no set `midle`", "did you mean `middle`?"]
+)]
+#[case::a_force_where_no_set_is(
+    RING,
+    &[("boundary", "loads: [{force: {on: ▸tip, value: [1]}}]\n  boundary")],
+    &["there is no set `tip`", "declare it: `sets: {tip: {box: {from: [...], to: [...]}}}`"]
+)]
+#[case::two_loads_on_one_set(
+    SQUARE,
+    &[("loads:\n", "loads:\n    - force: {on: middle, value: [1, 0]}\n"), ("{on: middle, value: [\"", "{on: ▸middle, value: [\"")],
+    &["the set `middle` has a force already"]
+)]
+#[case::a_set_that_nothing_acts_on(
+    SQUARE,
+    &[("{middle:", "{▸other: {box: {from: [0, 0], to: [1, 1]}}, middle:")],
+    &["the set `other` is never used"]
+)]
+#[case::a_set_with_the_name_of_a_face(SQUARE, &[("{middle:", "{▸top:")], &["`top` is the name of a face"])]
+#[case::a_set_beside_the_body(
+    SQUARE,
+    &[("from: [0.4, 0.4], to: [0.6, 0.6]", "from: [0.4, ▸1.4], to: [0.6, 1.6]")],
+    &["the set `middle` from 1.4 to 1.6 is outside the body", "the body is from 0 to 1"]
+)]
+#[case::a_set_between_particles(
+    SQUARE,
+    &[("from: [0.4, 0.4], to: [0.6, 0.6]", "from: [0.45, 0.45], to: [0.55, 0.55]"), ("[4, 8]", "[▸4, 8]")],
+    &["with 4 cells along the first axis the set `middle` holds no particle", "expected more cells"]
+)]
+#[case::a_ring_for_the_fem(
+    RING,
+    &[("left: periodic", "left: ▸periodic"), ("  - mpm:", "  - fem: {element: linear, mass: lumped}\n  - mpm:")],
+    &["the left face is periodic, and the FEM knows fixed and free ends only"]
+)]
+#[case::a_driven_end_for_the_fem(
+    BAR,
+    &[("{left: fixed}", "{left: ▸{velocity: [\"v0*t\"]}}")],
+    &["the left face has a given velocity, and the FEM knows fixed and free ends only"]
+)]
+#[case::a_driven_set_for_the_fem(
+    BAR,
+    &[("  boundary", "  sets: {▸tip: {box: {from: [0], to: [L]}}}\n  loads: [{velocity: {on: tip, value: [v0]}}]\n  boundary")],
+    &["the set `tip` is driven, which the FEM cannot do"]
+)]
+fn a_scene_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(sound, edits, words);
+}
+
+#[rstest]
+#[case::a_motion_that_is_not_periodic(
+    RING,
+    &[("[\"A*sin(2*pi*X)", "[▸\"A*sin(1.5*pi*X)")],
+    &["boundary condition: left is periodic, u_X as on the opposite face, is violated"]
+)]
+#[case::a_motion_with_a_kink_at_the_seam(
+    RING,
+    &[("[\"A*sin(2*pi*X)", "[▸\"A*sin(pi*X)")],
+    &["boundary condition: left is periodic, du_X/dX as on the opposite face, is violated"]
+)]
+#[case::a_motion_through_a_roller(
+    SQUARE,
+    &[("[\"A*sin(pi*X)*sin(pi*t)", "[▸\"A*sin(2*X)*sin(pi*t)"), ("[\"A*pi*sin(pi*X)*cos", "[\"A*pi*sin(2*X)*cos")],
+    &["boundary condition: right is a roller, u_X = 0"]
+)]
+#[case::a_roller_that_is_dragged(
+    SQUARE,
+    &[("[\"A*sin(pi*X)*sin(pi*t)", "[▸\"A*sin(pi*X)*(1 + Y)*sin(pi*t)"), ("[\"A*pi*sin(pi*X)*cos", "[\"A*pi*sin(pi*X)*(1 + Y)*cos")],
+    &["boundary condition: bottom is a roller, traction in X"]
+)]
+#[case::a_set_with_another_velocity(
+    SQUARE,
+    &[("value: [\"A*pi*", "value: [\"2*A*pi*"), ("[\"A*sin(pi*X)*sin(pi*t)", "[▸\"A*sin(pi*X)*sin(pi*t)")],
+    &["given velocity of the set middle in X"]
+)]
+fn a_motion(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(sound, edits, words);
+}
+
+#[test]
+fn a_driven_end_has_the_velocity_of_the_motion() {
+    let wrong = edited(BAR, DRIVEN)
+        .replace("{velocity: [\"v0*", "{velocity: [\"1.01*v0*")
+        .replace("[\"v0/omega*", "[▸\"v0/omega*");
+    refused(&wrong, &[], &["boundary condition: velocity of right in X", "m/s (off by "]);
+}
+
+/// A force on the whole body is gravity, to the solution as to both solvers; on half of it, it is
+/// another problem.
+#[test]
+fn a_force_on_a_set_enters_the_equation_of_motion() {
+    let column = include_str!("../../verification/fem-oedometer.yaml");
+    let right = edited(column, PUSHED);
+    if let Err(complaint) = load(&right) {
+        panic!("{complaint}");
+    }
+    let half = right
+        .replace("to: [2]}}}", "to: [0.5]}}}")
+        .replace("    - \"fall(t) -", "    - ▸\"fall(t) -");
+    refused(&half, &[], &["equation of motion in X, rho0 u_tt = Div P + rho0 b"]);
+}

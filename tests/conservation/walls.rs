@@ -1,0 +1,250 @@
+//! Bodies between walls, and on axes that have none.
+
+use crate::{
+    common::{DT, H, free_body, in_dimension, methods},
+    conservative,
+};
+use mpm_verify::{
+    mpm::{
+        BasisName, Block, Driven, Fixed, Gravity, Matrix, Particles, Prescribed, Roller,
+        SchemeName, SetForce, Setup, Side, Solver, TransferName, Vector, VelocityField,
+    },
+    subject::{Start, Subject},
+};
+use rstest::rstest;
+
+const CELLS: usize = 4;
+
+/// A body that fills a grid of [`CELLS`] cells along every axis, moves and is under stress; only the
+/// last axis has walls, and that only if `walls`.
+fn full<const D: usize>(
+    method: (BasisName, TransferName),
+    scheme: SchemeName,
+    walls: bool,
+) -> Setup<D> {
+    let mut setup = free_body::<D>(method, scheme);
+    let (from, to) = (Vector::zeros(), Vector::from_element(H * CELLS as f64));
+    let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, H, 2);
+    for p in 0..particles.len() {
+        let (x, k) = (particles.x[p], p as f64);
+        particles.v[p] = Vector::from_fn(|i, _| 0.3 + 0.1 * libm::sin(3.0 * x[(i + 1) % D]));
+        let stress = Matrix::<D>::from_fn(|i, j| libm::cos(k + (3 * i + j) as f64));
+        particles.sigma[p] = (stress + stress.transpose()) * 0.005;
+    }
+    let periodic = std::array::from_fn(|axis| axis < D - 1 || !walls);
+    setup.grid = setup.kernel.grid(Vector::zeros(), H, [CELLS; D], periodic);
+    setup.particles = particles;
+    setup
+}
+
+fn momentum<const D: usize>(solver: &Solver<D>) -> Vector<D> {
+    let particles = solver.particles();
+    particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
+}
+
+fn nothing_is_lost_around_the_corner<const D: usize>(scheme: SchemeName, start: Start) {
+    for method in conservative() {
+        let setup = Setup { start, ..full::<D>(method, scheme, false) };
+        let mut solver = Solver::new(setup).unwrap();
+        let before = momentum(&solver);
+        (0..100).for_each(|_| solver.step(DT).unwrap());
+        let mass: f64 = solver.grid().mass.iter().sum();
+        let body: f64 = solver.particles().mass.iter().sum();
+        assert!((mass - body).abs() <= 1e-14 * body, "{method:?}");
+        let change = (momentum(&solver) - before).norm() / before.norm();
+        assert!(change <= 1e-13, "{method:?}: relative change {change:.1e}");
+        assert!(solver.census().crossings.unwrap() > 0, "{method:?}: particles change cells");
+    }
+}
+
+#[rstest]
+fn a_periodic_body_keeps_mass_and_momentum(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    in_dimension!(dimension, nothing_is_lost_around_the_corner(scheme, start));
+}
+
+/// The walls take momentum along their normal, and none along themselves.
+fn slides<const D: usize>(scheme: SchemeName) {
+    for method in methods() {
+        let mut setup = full::<D>(method, scheme, true);
+        setup.particles.v.iter_mut().for_each(|v| v[D - 1] *= 0.1);
+        for side in [Side::Low, Side::High] {
+            setup.boundary.push(Box::new(Roller::face(&setup.grid, D - 1, side)));
+        }
+        let mut solver = Solver::new(setup).unwrap();
+        let before = momentum(&solver);
+        (0..100).for_each(|_| solver.step(DT).unwrap());
+        let change = (momentum(&solver) - before) / before.norm();
+        for axis in 0..D - 1 {
+            assert!(change[axis].abs() <= 1e-13, "{method:?}: change {change:?}");
+        }
+        assert!(change[D - 1].abs() > 1e-3, "{method:?}: the walls hold nothing");
+    }
+}
+
+#[rstest]
+fn rollers_carry_no_force_along_themselves(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    in_dimension!(dimension, slides(scheme));
+}
+
+/// An unsteady velocity along the first axis.
+fn swing<const D: usize>() -> VelocityField<D> {
+    Box::new(|_, t| {
+        assert!(t >= 0.0, "no velocity is asked for before the start");
+        Vector::from_fn(|i, _| if i == 0 { libm::sin(30.0 * t + 0.5) } else { 0.0 })
+    })
+}
+
+/// What [`swing`] adds up to over `steps` steps, each taken at its middle.
+fn path<const D: usize>(steps: usize) -> Vector<D> {
+    (0..steps).map(|k| swing()(&Vector::zeros(), (k as f64 + 0.5) * DT) * DT).sum()
+}
+
+fn far<const D: usize>(solver: &Solver<D>, steps: usize, p: usize) -> f64 {
+    let particles = solver.particles();
+    let path = path::<D>(steps);
+    (particles.x[p] - particles.x0[p] - path).norm() / path.norm()
+}
+
+/// A layer of one cell between two walls that swing along themselves: every node is driven.
+fn follows<const D: usize>(scheme: SchemeName, start: Start) {
+    let bases = [BasisName::Linear, BasisName::UniformGimp, BasisName::ContiguousGimp];
+    for method in methods().filter(|(basis, _)| bases.contains(basis)) {
+        let mut setup = full::<D>(method, scheme, true);
+        let (from, mut to) = (Vector::zeros(), Vector::from_element(H * CELLS as f64));
+        let (mut cells, periodic) = ([CELLS; D], std::array::from_fn(|axis| axis < D - 1));
+        (cells[D - 1], to[D - 1]) = (1, H);
+        setup.particles = Particles::fill(&Block { from, to, density: 1.0 }, H, 2);
+        setup.grid = setup.kernel.grid(from, H, cells, periodic);
+        setup.particles.v.fill(swing()(&from, 0.0));
+        setup.start = start;
+        for side in [Side::Low, Side::High] {
+            let wall = Prescribed::face(&setup.grid, method.0, D - 1, side, swing());
+            setup.boundary.push(Box::new(wall));
+        }
+        let mut solver = Solver::new(setup).unwrap();
+        for steps in 1..=50 {
+            solver.step(DT).unwrap();
+            let far = far(&solver, steps, 0);
+            assert!(far <= 1e-13, "{method:?} after {steps} steps: {far:.1e} behind its walls");
+        }
+        let (now, last) = (49.5 * DT, solver.particles().v[0]);
+        let lag = (last - swing()(&Vector::zeros(), now)).norm();
+        assert!(lag <= 1e-13, "{method:?}: the velocity is {lag:.1e} m/s behind");
+    }
+}
+
+#[rstest]
+fn a_layer_between_driven_walls_follows_them_in_every_scheme(
+    #[values(2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    in_dimension!(dimension, follows(scheme, start));
+}
+
+/// Gravity moves what is between the walls just as the walls move: nothing is strained, if the walls
+/// have the velocity of the right time.
+fn falls_with_its_walls<const D: usize>(scheme: SchemeName) {
+    let g = Vector::<D>::from_fn(|i, _| if i == D - 1 { 0.0 } else { 2.0 });
+    for method in methods() {
+        let mut setup = full::<D>(method, scheme, true);
+        setup.particles.sigma.fill(Matrix::zeros());
+        setup.particles.v.fill(g * 0.1);
+        setup.start = Start::HalfStepBack;
+        setup.effects.push(Box::new(Gravity(Box::new(move |_| g))));
+        for side in [Side::Low, Side::High] {
+            let value = Box::new(move |_: &Vector<D>, t| g * (0.1 + t));
+            let wall = Prescribed::face(&setup.grid, method.0, D - 1, side, value);
+            setup.boundary.push(Box::new(wall));
+        }
+        let mut solver = Solver::new(setup).unwrap();
+        (0..50).for_each(|_| solver.step(DT).unwrap());
+        let stress = solver.particles().sigma.iter().map(Matrix::norm).fold(0.0, f64::max);
+        assert!(stress <= 1e-13, "{method:?}: stress {stress:.1e} Pa");
+    }
+}
+
+#[rstest]
+fn walls_have_the_velocity_of_the_right_time(
+    #[values(2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    in_dimension!(dimension, falls_with_its_walls(scheme));
+}
+
+/// Where walls meet, the last condition of the list wins.
+#[test]
+fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
+    let method = (BasisName::Linear, TransferName::Flip);
+    let setup = full::<2>(method, SchemeName::Usl, true);
+    let mut setup =
+        Setup { grid: setup.kernel.grid(Vector::zeros(), H, [CELLS; 2], [false; 2]), ..setup };
+    let grid = &setup.grid;
+    let driven = Prescribed::face(grid, method.0, 1, Side::High, swing());
+    let fixed = Fixed::face(grid, 0, Side::Low);
+    setup.boundary = vec![Box::new(driven), Box::new(fixed)];
+    let (corner, next) = (grid.node(&[0, CELLS]), grid.node(&[1, CELLS]));
+    let mut solver = Solver::new(setup).unwrap();
+    (0..3).for_each(|_| solver.step(DT).unwrap());
+    assert_eq!(solver.grid().velocity[corner].norm(), 0.0);
+    let expected = swing::<2>()(&Vector::zeros(), 2.5 * DT);
+    assert!((solver.grid().velocity[next] - expected).norm() <= 1e-14);
+}
+
+/// The particles of a set go where they are driven, whatever the rest of the body does.
+fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
+    for method in methods() {
+        let mut setup = Setup { start, ..free_body::<D>(method, scheme) };
+        let members = [0, 1, 3];
+        setup.effects.push(Box::new(Driven::on(&setup.particles, &members, swing())));
+        let mut solver = Solver::new(setup).unwrap();
+        for steps in 1..=30 {
+            solver.step(DT).unwrap();
+            for p in members {
+                let far = far(&solver, steps, p);
+                assert!(far <= 1e-12, "{method:?} after {steps} steps: {far:.1e} off its way");
+            }
+        }
+    }
+}
+
+#[rstest]
+fn a_driven_set_goes_its_way(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    in_dimension!(dimension, set_follows(scheme, start));
+}
+
+fn impulse_arrives<const D: usize>(scheme: SchemeName) {
+    let force = |t: f64| Vector::<D>::from_fn(|i, _| 1e-3 * (1.0 + t + i as f64));
+    for method in conservative() {
+        let mut setup = free_body::<D>(method, scheme);
+        let members: Vec<usize> = (0..setup.particles.len()).filter(|p| p % 3 == 1).collect();
+        setup.effects.push(Box::new(SetForce::on(&setup.particles, &members, Box::new(force))));
+        let mut solver = Solver::new(setup).unwrap();
+        let mut expected = momentum(&solver);
+        for step in 0..50 {
+            solver.step(DT).unwrap();
+            expected += force(f64::from(step) * DT) * DT;
+        }
+        let change = (momentum(&solver) - expected).norm() / expected.norm();
+        assert!(change <= 1e-13, "{method:?}: relative difference {change:.1e}");
+    }
+}
+
+#[rstest]
+fn momentum_changes_by_the_impulse_of_a_force_on_a_set(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    in_dimension!(dimension, impulse_arrives(scheme));
+}
