@@ -3,7 +3,8 @@
 //! With S the map from grid to particles and S+ its lumped counterpart from particles to grid,
 //! `V <- (I - (I - S S+)^m) V + S a dt` (Hammerquist & Nairn 2017, CMAME 318, eq. 21): PIC for
 //! m = 1; what lies in the null space of S+ is removed in one step, and a mode with the eigenvalue
-//! l is multiplied by 1 - (1 - l)^m.
+//! l is multiplied by 1 - (1 - l)^m. The filter knows no walls, which may be driven; walls act
+//! through the accelerations.
 
 use super::contract::{Transfer, add_acceleration};
 use crate::mpm::{
@@ -43,7 +44,7 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        boundary: &[Box<dyn Boundary<D>>],
+        _: &[Box<dyn Boundary<D>>],
         dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {
@@ -52,9 +53,6 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
             let shown = Shown { v: &self.rest, affine: None };
             kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
-            for condition in boundary {
-                condition.clear(&mut self.nodal);
-            }
             kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.rest);
         }
         for (v, rest) in particles.v.iter_mut().zip(&self.rest) {
