@@ -22,6 +22,11 @@ pub trait Subject {
 
     /// What the run has cost and met so far.
     fn census(&self) -> Census;
+
+    /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
+    fn totals(&self) -> Option<Totals> {
+        None
+    }
 }
 
 named! {
@@ -38,7 +43,8 @@ named! {
     }
 }
 
-/// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point.
+/// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point. A
+/// subject that has no stress or no F leaves that column empty, and cannot be judged by it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Samples {
     /// Number of space dimensions, D.
@@ -51,6 +57,10 @@ pub struct Samples {
     pub velocity: Vec<f64>,
     /// Reference volume that each label stands for, `n` numbers (m^D): the weight in L1 and L2.
     pub weight: Vec<f64>,
+    /// Cauchy stresses, `n * D * D` numbers, row after row (Pa); may be empty.
+    pub stress: Vec<f64>,
+    /// Deformation gradients F, `n * D * D` numbers, row after row; may be empty.
+    pub deformation_gradient: Vec<f64>,
 }
 
 impl Samples {
@@ -70,6 +80,8 @@ impl Samples {
         self.displacement.clear();
         self.velocity.clear();
         self.weight.clear();
+        self.stress.clear();
+        self.deformation_gradient.clear();
     }
 }
 
@@ -88,6 +100,25 @@ pub struct Census {
     pub left_domain: Option<u64>,
     /// Smallest J = det F met so far.
     pub min_j: f64,
+}
+
+/// Sums over the body, p, of what a motion without outer forces keeps; components beyond the
+/// dimension are zero.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    /// `sum m_p` (kg).
+    pub mass: f64,
+    /// `sum m_p v_p` (kg m/s).
+    pub momentum: [f64; 3],
+    /// `sum m_p |v_p|`, against which a change of the momentum is small or not (kg m/s).
+    pub momentum_size: f64,
+    /// `sum m_p x_p x v_p` about the origin, and what particles carry within themselves (kg m2/s).
+    /// In 2-D the third component only; zero in 1-D.
+    pub angular_momentum: [f64; 3],
+    /// The sum of the magnitudes of those terms (kg m2/s).
+    pub angular_momentum_size: f64,
+    /// `sum m_p v_p^2 / 2` (J).
+    pub kinetic_energy: f64,
 }
 
 /// Where a failure happened.

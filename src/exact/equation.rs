@@ -66,6 +66,18 @@ impl Equation {
         }
     }
 
+    /// Cauchy stress (Pa), `sigma = P F^T / J`. Theory of small strains does not tell it from P,
+    /// which is what it is there.
+    pub fn cauchy(&self, grad: &Tensor<f64>) -> Tensor<f64> {
+        let piola = self.piola(grad);
+        if self.law == Law::SmallStrain {
+            return piola;
+        }
+        let f = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
+        let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
+        tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
+    }
+
     /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`:
     /// one jet along each of the `dimension` axes on which anything varies.
     pub fn divergence(
@@ -129,6 +141,27 @@ mod tests {
         let found = solid.divergence(2, &[[0.0; 3]; 3], &second);
         assert_relative_eq!(found[0], 5.0 * 4.0 * y + 3.0 * 2.0 * y);
         assert_relative_eq!(found[1], 5.0 * 4.0 * x + 3.0 * 2.0 * x);
+    }
+
+    /// Simple shear by gamma, and a uniform stretch: closed forms of the Cauchy stress.
+    #[test]
+    fn cauchy_stress_has_its_closed_forms() {
+        let solid = Equation::neo_hookean(100.0, 0.3);
+        let (gamma, mu) = (0.4, solid.mu);
+        let shear = solid.cauchy(&[[0.0, gamma, 0.0], [0.0; 3], [0.0; 3]]);
+        assert_relative_eq!(shear[0][1], mu * gamma, max_relative = 1e-14);
+        assert_relative_eq!(shear[1][0], mu * gamma, max_relative = 1e-14);
+        assert_relative_eq!(shear[0][0], mu * gamma * gamma, max_relative = 1e-13);
+        assert_relative_eq!(shear[1][1], 0.0, epsilon = 1e-13);
+        let lateral = solid.cauchy(&[[0.2, 0.0, 0.0], [0.0; 3], [0.0; 3]])[1][1];
+        assert_relative_eq!(lateral, solid.lambda * libm::log(1.2) / 1.2, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn small_strains_do_not_tell_cauchy_stress_from_p() {
+        let solid = Equation::small_strain(100.0, 0.3);
+        let grad = [[0.01, 0.02, 0.0], [0.0, -0.01, 0.0], [0.0; 3]];
+        assert_eq!(solid.cauchy(&grad), solid.piola(&grad));
     }
 
     /// P is the derivative of `W = lambda/2 ln(J)^2 + mu/2 (tr(F^T F) - 3) - mu ln J`.

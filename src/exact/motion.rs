@@ -98,4 +98,19 @@ impl Truth for Motion {
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
         into.copy_from_slice(&self.derivatives(label, t).velocity[..self.dimension()]);
     }
+
+    /// `F = I + grad u`.
+    fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        let mut f = self.derivatives(label, t).grad;
+        (0..3).for_each(|i| f[i][i] += 1.0);
+        write(&f, self.dimension(), into);
+        true
+    }
+}
+
+/// The block of a tensor that belongs to `dimension` dimensions, row after row.
+pub(super) fn write(tensor: &[[f64; 3]; 3], dimension: usize, into: &mut [f64]) {
+    for (i, row) in into.chunks_exact_mut(dimension).enumerate() {
+        row.copy_from_slice(&tensor[i][..dimension]);
+    }
 }

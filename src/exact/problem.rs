@@ -3,8 +3,9 @@
 use super::{
     equation::Equation,
     formula::Formula,
-    motion::{Derivatives, Motion},
+    motion::{Derivatives, Motion, write},
     region::Region,
+    truth::Truth,
 };
 
 /// A boundary condition on one face of the body.
@@ -102,5 +103,26 @@ impl Problem {
         let body = (&self.from[..], &self.to[..]);
         let on = |region: &Region| region.force_density(i, label, t, body);
         gravity + self.regions.iter().map(on).sum::<f64>() / self.density
+    }
+}
+
+/// The motion, with the stress that the equation's law makes of it.
+impl Truth for Problem {
+    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.motion.displacement(label, t, into);
+    }
+
+    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.motion.velocity(label, t, into);
+    }
+
+    fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        self.motion.deformation_gradient(label, t, into)
+    }
+
+    fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        let grad = self.motion.derivatives(label, t).grad;
+        write(&self.equation.cauchy(&grad), self.dimension(), into);
+        true
     }
 }

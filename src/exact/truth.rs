@@ -7,4 +7,18 @@ pub trait Truth: Send + Sync {
 
     /// Velocity (m/s) of that point, D numbers.
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
+
+    /// Deformation gradient F there, D * D numbers, row after row. Returns whether this truth
+    /// knows it; if not, `into` is left alone.
+    fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        let _ = (label, t, into);
+        false
+    }
+
+    /// Cauchy stress (Pa) there, D * D numbers, row after row. Returns whether this truth knows
+    /// it; if not, `into` is left alone.
+    fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        let _ = (label, t, into);
+        false
+    }
 }

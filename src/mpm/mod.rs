@@ -25,9 +25,11 @@ mod mass;
 mod material;
 mod moments;
 mod particles;
+mod sampling;
 mod scheme;
 mod solver;
 mod stage;
+mod totals;
 mod transfer;
 mod whereabouts;
 

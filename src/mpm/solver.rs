@@ -16,7 +16,7 @@ use super::{
     transfer::Transfer,
     whereabouts::Whereabouts,
 };
-use crate::subject::{Census, Failure, Samples, Site, Start, Subject};
+use crate::subject::{Census, Failure, Samples, Site, Start, Subject, Totals};
 
 /// Everything that a solver is made of.
 pub struct Setup<const D: usize> {
@@ -254,15 +254,11 @@ impl<const D: usize> Subject for Solver<D> {
     }
 
     fn sample(&self, samples: &mut Samples) {
-        let particles = &self.setup.particles;
-        samples.clear();
-        samples.dimension = D;
-        for (p, x0) in particles.x0.iter().enumerate() {
-            samples.label.extend(x0.iter());
-            samples.displacement.extend((particles.position(p) - x0).iter());
-        }
-        samples.velocity.extend(particles.v.iter().flat_map(|v| v.iter()));
-        samples.weight.extend(&particles.vol0);
+        self.setup.particles.sample(samples);
+    }
+
+    fn totals(&self) -> Option<Totals> {
+        Some(self.setup.particles.totals(|p| self.setup.transfer.moment(p)))
     }
 
     fn census(&self) -> Census {

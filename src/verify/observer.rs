@@ -76,6 +76,7 @@ mod tests {
             displacement: labels.iter().map(|x| 1.0 - x + 3.0 * x * x * x).collect(),
             velocity: labels.to_vec(),
             weight: vec![1.0; labels.len()],
+            ..Samples::default()
         }
     }
 
