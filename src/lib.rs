@@ -25,7 +25,7 @@
 //! use mpm_verify::{
 //!     exact::Truth,
 //!     subject::{Census, Failure, Samples, Subject},
-//!     verify::{Claim, Clock, Level, Verdict, judge, run},
+//!     verify::{Claim, Clock, Comparison, Level, Verdict, judge, run},
 //! };
 //!
 //! const W: f64 = 3.0;
@@ -67,7 +67,7 @@
 //!     .map(|dt| {
 //!         let mut subject = Leapfrog { u: 0.0, v: 1.0, steps: 0 };
 //!         let clock = Clock::new(1.0, dt, 10).expect("a usable step");
-//!         Level::new(clock.dt(), run(&mut subject, &Sine, &clock, None).errors.rms)
+//!         Level::new(clock.dt(), run(&mut subject, &Sine, &clock, &Comparison::default()).errors.rms)
 //!     })
 //!     .into();
 //! let found = judge(&levels, &Claim::formal(2.0));

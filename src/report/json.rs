@@ -11,6 +11,8 @@
 //!     "levels": [{"cells": 5, "h": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
 //!         "transfers": 300000, "crossings": 0, "left_domain": 0, "min_j": 0.99,
 //!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
+//!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
+//!             "kinetic_energy": 1e-4},
 //!         "order": null, "failure": null}],
 //!     "forces": null}]}]}
 //! ```
@@ -20,8 +22,10 @@
 //! `{"position", "n_left", "n_right", "force", "predicted"}`. Keys may be added; none is renamed
 //! or removed without a new major version.
 
-use crate::verify::{CaseOutcome, ForceRow, Interval, LevelOutcome, Study, SuiteOutcome};
-use serde_json::{Value, json};
+use crate::verify::{
+    CaseOutcome, Conserved, ForceRow, Interval, LevelOutcome, Study, SuiteOutcome,
+};
+use serde_json::{Map, Value, json};
 
 /// The document for `outcomes`, indented, with a newline at its end.
 pub fn json(outcomes: &[SuiteOutcome]) -> String {
@@ -82,6 +86,11 @@ fn level(level: &LevelOutcome) -> Value {
             "linf": number(run.errors.linf),
             "max_rms": number(run.max_rms),
         },
+        "judged": number(level.error),
+        "drift": run.drift.map(|drift| -> Value {
+            let sum = |sum: &Conserved| (sum.name().to_owned(), number(drift.of(*sum)));
+            Conserved::ALL.iter().map(sum).collect::<Map<_, _>>().into()
+        }),
         "order": level.order.map(number),
         "failure": run.failure,
     })

@@ -52,11 +52,11 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
     }
     orders.sort_by(f64::total_cmp);
     orders.dedup();
-    let norm = studies.first().map_or("rms", |(_, study)| study.norm).replace('_', " ");
+    let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
     Plot {
         title: outcome.title.clone(),
         x_label: "cell size h (m)".to_owned(),
-        y_label: format!("{norm} error of displacement (m)"),
+        y_label: judged,
         series: studies.iter().map(series).collect(),
         reference_orders: orders,
     }
@@ -111,8 +111,7 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
                 });
             }
         }
-        let title =
-            format!("{}: velocity near X = {} m, {name}", outcome.title, study.observed_at?);
+        let title = format!("{}: velocity near X = {} m, {name}", outcome.title, study.place()?);
         let (x_label, y_label) = ("time (s)".to_owned(), "velocity (m/s)".to_owned());
         let svg = History { title, x_label, y_label, curves }.to_svg();
         Some(Figure { file: format!("{}-{name}-velocity.svg", outcome.suite), svg })

@@ -4,7 +4,9 @@
 //! depends on the machine.
 
 use super::table::{Table, optional, scientific};
-use crate::verify::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
+use crate::verify::{
+    CaseOutcome, Convergence, ForceRow, History, LevelOutcome, Study, SuiteOutcome,
+};
 
 /// Width to which prose is wrapped.
 const WIDTH: usize = 100;
@@ -75,7 +77,9 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
 }
 
 fn convergence(lines: &mut Vec<String>, study: &Convergence) {
-    let heads = ["cells", "h", "rms", "l1", "l2", "linf", "max rms", "velocity", "order", "counts"];
+    let heads = [
+        "cells", "h", "rms", "l1", "l2", "linf", "max rms", "velocity", "judged", "order", "counts",
+    ];
     let mut errors = Table::new(&heads);
     let heads =
         ["cells", "dt", "ppc", "particles", "steps", "transfers", "crossings", "outside", "min J"];
@@ -87,6 +91,7 @@ fn convergence(lines: &mut Vec<String>, study: &Convergence) {
     lines.extend(errors.without_empty_columns().lines());
     lines.push(String::new());
     lines.extend(work.without_empty_columns().lines());
+    drifts(lines, study);
     richardson(lines, study);
     let failure = |level: &LevelOutcome| Some((level.cells, level.run.failure.clone()?));
     for (cells, failure) in study.levels.iter().filter_map(failure) {
@@ -107,6 +112,7 @@ fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
     let counts = match (level.usable, window.contains(&index)) {
         (false, _) => "no: crossings",
         (true, true) => "yes",
+        _ if study.bounded => "yes",
         (true, false) => "no",
     };
     vec![
@@ -117,7 +123,8 @@ fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
         error(run.errors.l2),
         error(run.errors.linf),
         error(run.max_rms),
-        optional(run.history.as_ref().map(|history| scientific(history.relative_error()))),
+        optional(run.history.as_ref().and_then(History::relative_error).map(scientific)),
+        if study.is_judged_by_another_figure() { error(level.error) } else { "-".to_owned() },
         optional(level.order.map(|order| format!("{order:.2}"))),
         counts.to_owned(),
     ]
@@ -139,9 +146,30 @@ fn work_row(level: &LevelOutcome) -> Vec<String> {
     ]
 }
 
+/// How far totals drifted, of those that the suite asks for; of rounding one digit says enough.
+fn drifts(lines: &mut Vec<String>, study: &Convergence) {
+    if study.drifts.is_empty() {
+        return;
+    }
+    lines.extend([String::new(), "  relative drift".to_owned()]);
+    let names = study.drifts.iter().map(|sum| sum.words());
+    let heads: Vec<String> = ["cells".to_owned()].into_iter().chain(names).collect();
+    let mut table = Table::new(&heads.iter().map(String::as_str).collect::<Vec<_>>());
+    for level in &study.levels {
+        let shown = |drift: f64| match level.run.failure {
+            Some(_) => "failed".to_owned(),
+            None => format!("{drift:.0e}"),
+        };
+        let drift = |sum| optional(level.run.drift.map(|drift| shown(drift.of(sum))));
+        let cells = [level.cells.to_string()].into_iter();
+        table.row(cells.chain(study.drifts.iter().map(|sum| drift(*sum))).collect());
+    }
+    lines.extend(table.lines());
+}
+
 /// Richardson's extrapolation at the observed place, triple by triple.
 fn richardson(lines: &mut Vec<String>, study: &Convergence) {
-    let (Some(place), false) = (study.observed_at, study.richardson.is_empty()) else { return };
+    let (Some(place), false) = (study.place(), study.richardson.is_empty()) else { return };
     lines.push(String::new());
     lines.push(format!("  Richardson's extrapolation of u at X = {place} m"));
     let mut table = Table::new(&["cells", "ratio", "class", "order", "extrapolated u", "gci"]);
@@ -163,6 +191,9 @@ fn order_lost(study: &Convergence) -> Option<String> {
     let first = study.levels.iter().find(|level| level.run.census.crossings.unwrap_or(0) > 0)?;
     let crossings = first.run.census.crossings?;
     let finest = study.levels.last()?;
+    if study.levels.len() == 1 {
+        return Some(format!("particles change their cell {crossings} times"));
+    }
     let pair = |level: &LevelOutcome| {
         level.order.map_or("no order".to_owned(), |order| format!("order {order:.2}"))
     };

@@ -95,8 +95,8 @@ pub(super) fn cases(
         let path = Path::top("methods");
         return Err(binder.complain(&path, "a suite without methods has no case"));
     }
-    let names: Vec<&str> = drafts.iter().map(|draft| draft.name.as_str()).collect();
-    let expectations = expect::expectations(binder, &words.expect, &names)?;
+    let named: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
+    let expectations = expect::expectations(binder, &words.expect, plan, &named)?;
     let with = |(draft, expectation): (Draft, _)| Case {
         name: draft.name,
         method: draft.method,

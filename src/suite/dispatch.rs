@@ -15,6 +15,7 @@ use crate::{
         Particles, Solver, Traction, Vector, kernel,
     },
     subject::{Start, Subject},
+    verify::Quantity,
 };
 
 /// Cells that a grid extends beyond a free face of the body, besides a tenth of the body: room for
@@ -68,6 +69,9 @@ fn mpm<const D: usize>(
     let grid = grid(scene, h, kernel.as_ref());
     let (from, to) = (vector(&scene.from), vector(&scene.to));
     let mut particles = Particles::fill(&Block { from, to, density: scene.density }, h, per_axis);
+    if plan.of == Quantity::DeformationGradient {
+        particles.track_deformation();
+    }
     let made = manufactured(plan);
     for (v, x0) in particles.v.iter_mut().zip(&particles.x0) {
         *v = made.map_or_else(|| at(&scene.initial_velocity, x0), |made| velocity(made, x0));

@@ -3,7 +3,7 @@
 use super::{
     dispatch::{cell_size, subject},
     force,
-    judged::{judged, refused},
+    judged::{error_of, judged, refused},
     model::{
         Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, StudyPlan, Suite,
     },
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     exact::Truth,
-    verify::{self, CaseOutcome, Clock, ForceRow, LevelOutcome, Study, SuiteOutcome},
+    verify::{self, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Study, SuiteOutcome},
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -110,18 +110,19 @@ impl<'a> Runner<'a> {
         let h = cell_size(&plan.scene, cells);
         let clock = Clock::new(case.until, plan.dt.eval(&[h]), plan.instants)
             .ok_or("the time step makes no sense")?;
-        let observe = plan.observe.as_deref();
-        let run = verify::run(&mut *subject, truth, &clock, observe);
+        let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref() };
+        let run = verify::run(&mut *subject, truth, &clock, &comparison);
         let crossed = run.census.crossings.is_some_and(|n| n > 0);
         let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
         let ppc = plan.ppc.filter(|_| run.census.particles.is_some());
-        Ok(LevelOutcome { cells, h, dt: clock.dt(), ppc, usable: !excluded, order: None, run })
+        let (error, dt) = (error_of(plan, &run), clock.dt());
+        Ok(LevelOutcome { cells, h, dt, ppc, usable: !excluded, error, order: None, run })
     }
 
     fn truth(&self, plan: &'a ConvergencePlan, case: &Case) -> Result<&dyn Truth, String> {
         if case.against == Against::Exact {
             let exact = plan.exact.as_ref().ok_or("the suite declares no exact solution")?;
-            return Ok(&exact.motion);
+            return Ok(exact);
         }
         let found = self.references.iter().find(|(until, _)| *until == case.until);
         let (until, reference) = found.ok_or("no reference for this case")?;

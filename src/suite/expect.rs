@@ -2,6 +2,10 @@
 
 use super::{
     binder::Binder,
+    comparable,
+    limits::limits,
+    method::Method,
+    model::ConvergencePlan,
     path::Path,
     wording::suggestion,
     words::{CrossingsName, ExpectWords},
@@ -10,20 +14,26 @@ use super::{
 use crate::verify::{Expectation, Verdict};
 use std::str::FromStr;
 
-/// One expectation for each of the cases `names`, in their order.
+/// One expectation for each of the `cases`, in their order.
 pub(super) fn expectations(
     binder: &Binder<'_>,
     words: &[ExpectWords],
-    names: &[&str],
+    plan: &ConvergencePlan,
+    cases: &[(&str, Method)],
 ) -> Result<Vec<Expectation>, Complaint> {
+    let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
     let selectors: Vec<_> = words.iter().map(|words| words.case.as_ref()).collect();
-    let owners = assign(binder, &selectors, names)?;
+    let owners = assign(binder, &selectors, &names)?;
     let parsed: Result<Vec<Expectation>, Complaint> = words
         .iter()
         .enumerate()
-        .map(|(i, words)| expectation(binder, &Path::top("expect").then(i), words))
+        .map(|(i, words)| expectation(binder, &Path::top("expect").then(i), words, plan))
         .collect();
     let parsed = parsed?;
+    for (&owner, (_, method)) in owners.iter().zip(cases) {
+        let path = Path::top("expect").then(owner);
+        comparable::check_drift(binder, &path, &parsed[owner].limits, *method)?;
+    }
     Ok(owners.into_iter().map(|owner| parsed[owner].clone()).collect())
 }
 
@@ -81,13 +91,18 @@ fn expectation(
     binder: &Binder<'_>,
     path: &Path,
     words: &ExpectWords,
+    plan: &ConvergencePlan,
 ) -> Result<Expectation, Complaint> {
+    let limits = limits(binder, path, words, plan)?;
     let verdict = match &words.verdict {
-        Some(word) => verdict(binder, &path.then("verdict"), word)?,
-        None if words.order.is_some() => Verdict::Converging,
+        Some(word) => Some(verdict(binder, &path.then("verdict"), word)?),
+        None if words.order.is_some() => Some(Verdict::Converging),
+        None if !limits.is_empty() => None,
         None => {
-            let complaint = binder.complain(path, "this expects neither an order nor a verdict");
-            return Err(complaint.with_help("add `order: [1.9, 2.1]` or `verdict: divergent`"));
+            let complaint =
+                binder.complain(path, "this expects neither an order nor a verdict nor a bound");
+            let help = "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`";
+            return Err(complaint.with_help(help));
         }
     };
     let because = because(binder, path, &words.because)?;
@@ -99,6 +114,7 @@ fn expectation(
         order: bounds("order", &words.order)?,
         finest_pair: bounds("finest_pair", &words.finest_pair)?,
         crossings: words.crossings.map(|name| name == CrossingsName::Some),
+        limits,
         because,
     })
 }

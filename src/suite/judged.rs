@@ -6,18 +6,23 @@ use super::{
     words::NormName,
 };
 use crate::verify::{
-    self, CaseOutcome, Claim, Convergence, Judgement, LevelOutcome, Richardson, Run, Seen, Study,
-    judge,
+    self, CaseOutcome, Claim, Convergence, Drift, Expectation, Interval, Judgement, LevelOutcome,
+    Measured, Richardson, Run, Seen, Study, Verdict, judge,
 };
 
-fn error_of(norm: NormName, run: &Run) -> f64 {
-    match norm {
-        NormName::Rms => run.errors.rms,
-        NormName::L1 => run.errors.l1,
-        NormName::L2 => run.errors.l2,
-        NormName::Linf => run.errors.linf,
-        NormName::MaxRms => run.max_rms,
-    }
+/// The error that `plan` judges.
+pub(super) fn error_of(plan: &ConvergencePlan, run: &Run) -> f64 {
+    let error = match plan.norm {
+        NormName::Rms => run.at_end.rms,
+        NormName::L1 => run.at_end.l1,
+        NormName::L2 => run.at_end.l2,
+        NormName::Linf => run.at_end.linf,
+        NormName::MaxRms => run.largest.rms,
+        NormName::MaxL1 => run.largest.l1,
+        NormName::MaxL2 => run.largest.l2,
+        NormName::MaxLinf => run.largest.linf,
+    };
+    plan.scale.map_or(error, |scale| error / scale)
 }
 
 /// The outcome of a case whose levels have run.
@@ -26,26 +31,34 @@ pub(super) fn judged(
     case: &Case,
     mut levels: Vec<LevelOutcome>,
 ) -> CaseOutcome {
-    let judgement = judge_levels(plan, case, &levels);
+    let judgement = judge_levels(case, &levels);
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
     }
     let finest = levels.last();
+    let measured = measured(&levels);
     let seen = Seen {
         verdict: judgement.verdict,
         order: judgement.order.map(|order| (order.low, order.high)),
         finest_pair: finest.and_then(|level| level.order),
         crossings: finest.and_then(|level| level.run.census.crossings),
+        measured,
     };
+    let unmet = case.expectation.unmet(&seen);
+    let (verdict, reason) = headline(&case.expectation, &judgement, &measured, &unmet);
     CaseOutcome {
-        verdict: judgement.verdict.to_string(),
-        reason: judgement.reason.clone(),
-        unmet: case.expectation.unmet(&seen),
+        verdict,
+        reason,
+        unmet,
         study: Study::Convergence(Box::new(Convergence {
             formal_order: case.method.formal_order(),
             richardson: richardson(&levels),
-            observed_at: plan.observe.as_ref().map(|place| place[0]),
+            observed_at: plan.observe.clone(),
             norm: plan.norm.name(),
+            of: plan.of,
+            scale: plan.scale,
+            bounded: case.expectation.verdict.is_none(),
+            drifts: case.expectation.limits.drifts(),
             judgement,
             levels,
         })),
@@ -53,11 +66,11 @@ pub(super) fn judged(
     }
 }
 
-fn judge_levels(plan: &ConvergencePlan, case: &Case, levels: &[LevelOutcome]) -> Judgement {
+fn judge_levels(case: &Case, levels: &[LevelOutcome]) -> Judgement {
     let judged: Vec<verify::Level> = levels
         .iter()
         .map(|level| {
-            let plain = verify::Level::new(level.h, error_of(plan.norm, &level.run));
+            let plain = verify::Level::new(level.h, level.error);
             let plain = if level.usable { plain } else { plain.unusable() };
             match &level.run.failure {
                 Some(reason) => plain.failing(reason.clone()),
@@ -70,10 +83,57 @@ fn judge_levels(plan: &ConvergencePlan, case: &Case, levels: &[LevelOutcome]) ->
     judge(&judged, &claim)
 }
 
+/// What limits speak of: the worst of the levels that count, and the observed place on the finest.
+fn measured(levels: &[LevelOutcome]) -> Measured {
+    let counted = || levels.iter().filter(|level| level.usable);
+    let errors = counted().map(|level| (level.error, level.error));
+    let drifts: Option<Vec<Drift>> = counted().map(|level| level.run.drift).collect();
+    Measured {
+        errors: errors.reduce(|(least, most), (error, _)| {
+            if (least + most + error).is_nan() {
+                return (f64::NAN, f64::NAN);
+            }
+            (least.min(error), most.max(error))
+        }),
+        observed: levels.last().and_then(|level| level.run.observed_error),
+        drift: drifts.and_then(|drifts| drifts.into_iter().reduce(Drift::larger)),
+    }
+}
+
+/// The verdict in words, and why. Where limits alone bind a case, what they say comes first, and
+/// the judge is heard if the levels are enough for a judgement.
+fn headline(
+    expectation: &Expectation,
+    judgement: &Judgement,
+    measured: &Measured,
+    unmet: &[String],
+) -> (String, String) {
+    let (verdict, reason) = (judgement.verdict, &judgement.reason);
+    let found = expectation.limits.found(measured);
+    if found.is_empty() {
+        return (verdict.to_string(), reason.clone());
+    }
+    if expectation.verdict.is_some() || verdict == Verdict::Failed {
+        return (verdict.to_string(), format!("{reason}; {found}"));
+    }
+    let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
+    // The judge's reason speaks of an expected order, of which there is none here.
+    let judged = match (verdict, judgement.order) {
+        (Verdict::TooFewLevels, _) => String::new(),
+        (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
+        (_, Some(Interval { value, low, high })) => {
+            format!("; order {value:.2} [{low:.2}, {high:.2}]")
+        }
+    };
+    (within.to_owned(), found + &judged)
+}
+
 /// Richardson's extrapolation for each triple of levels with n, 2n and 4n cells.
 fn richardson(levels: &[LevelOutcome]) -> Vec<([u64; 3], Richardson)> {
     let value = |cells: u64| {
-        levels.iter().find(|level| level.cells == cells).and_then(|level| level.run.displacement)
+        let level = levels.iter().find(|level| level.cells == cells)?;
+        // Of several components no one stands for the displacement.
+        level.run.displacement.as_deref().filter(|u| u.len() == 1).map(|u| u[0])
     };
     levels
         .iter()
@@ -107,5 +167,81 @@ pub(super) fn refused(case: &Case, reason: String) -> CaseOutcome {
         unmet: vec![format!("the case could not be run: {reason}")],
         reason,
         ..described(case)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        subject::Census,
+        verify::{Limits, Norms},
+    };
+
+    fn level(usable: bool, error: f64, drift: Option<Drift>) -> LevelOutcome {
+        let census = Census {
+            particles: None,
+            transfers: 0,
+            crossings: None,
+            left_domain: None,
+            min_j: 1.0,
+        };
+        let run = Run {
+            errors: Norms::ZERO,
+            max_rms: 0.0,
+            at_end: Norms::ZERO,
+            largest: Norms::ZERO,
+            drift,
+            census,
+            steps: 1,
+            failure: None,
+            history: None,
+            displacement: None,
+            observed_error: Some(error),
+        };
+        LevelOutcome { cells: 1, h: 1.0, dt: 1.0, ppc: None, run, error, usable, order: None }
+    }
+
+    #[test]
+    fn only_levels_that_count_are_measured() {
+        let levels = [3.0, 1.0, 2.0].map(|error| level(true, error, None));
+        let [a, b, c] = levels;
+        let found = measured(&[a, b, c, level(false, 9.0, None)]);
+        assert_eq!(
+            (found.errors, found.observed, found.drift),
+            (Some((1.0, 3.0)), Some(9.0), None)
+        );
+        assert_eq!(measured(&[level(false, 1.0, None)]).errors, None);
+    }
+
+    #[test]
+    fn one_nan_is_the_largest_and_the_smallest() {
+        for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            let (least, most) = measured(&errors.map(|e| level(true, e, None))).errors.unwrap();
+            assert!(least.is_nan() && most.is_nan());
+        }
+        let alone = measured(&[level(true, f64::NAN, Some(Drift::NONE))]);
+        assert!(alone.errors.unwrap().0.is_nan());
+        assert!(alone.drift.unwrap().of(verify::Conserved::Mass).is_nan());
+    }
+
+    /// One level that is bound and asked for no verdict.
+    #[test]
+    fn bounds_alone_make_the_headline() {
+        let limits = Limits { error_below: Some(1e-9), ..Limits::default() };
+        let crossings = None;
+        let because = String::new();
+        let (verdict, order, finest_pair) = (None, None, None);
+        let bound = Expectation { verdict, order, finest_pair, crossings, limits, because };
+        let said = |level: verify::Level, unmet: &[String]| {
+            let judgement = judge(&[level], &Claim::formal(2.0));
+            let measured = Measured { errors: Some((1e-12, 1e-12)), observed: None, drift: None };
+            headline(&bound, &judgement, &measured, unmet)
+        };
+        let one = verify::Level::new(1.0, 1e-12);
+        let within = ("within bounds".to_owned(), "largest error 1e-12".to_owned());
+        assert_eq!(said(one.clone(), &[]), within);
+        assert_eq!(said(one.clone(), &["too large".to_owned()]).0, "out of bounds");
+        assert_eq!(said(one.failing("inverted"), &[]).0, "failed");
     }
 }

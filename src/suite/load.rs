@@ -3,7 +3,7 @@
 use super::{
     bar_limits,
     binder::{Binder, Parameter},
-    cases, force,
+    cases, comparable, force,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
     scene, size, truth,
@@ -58,6 +58,9 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         return Err(binder.complain_key(&Path::top("suite"), message));
     }
     let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));
+    let scale = words.judge.scale.as_ref().map(|text| {
+        binder.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
+    });
     let mut plan = ConvergencePlan {
         observe: observe.transpose()?,
         scene,
@@ -68,9 +71,12 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         dt,
         instants,
         norm: words.judge.norm,
+        of: words.judge.of,
+        scale: scale.transpose()?,
         crossing_levels: words.judge.crossing_levels,
         cases: Vec::new(),
     };
+    comparable::check(&binder, &words, &plan)?;
     size::check(&binder, &words, &plan)?;
     cases::check_steps(&binder, &plan, &until)?;
     plan.cases = cases::cases(&binder, &words, &plan, &until)?;

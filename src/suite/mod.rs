@@ -12,6 +12,7 @@
 mod bar_limits;
 mod binder;
 mod cases;
+mod comparable;
 mod conditions;
 mod dispatch;
 pub mod embedded;
@@ -20,6 +21,7 @@ mod expect;
 mod force;
 mod hold;
 mod judged;
+mod limits;
 mod load;
 mod method;
 mod methods;

@@ -10,7 +10,7 @@ use crate::{
     fem::{Element, Mass},
     mpm::BasisName,
     named::named,
-    verify::Expectation,
+    verify::{Expectation, Quantity},
 };
 
 /// A suite, ready to run.
@@ -60,6 +60,10 @@ pub struct ConvergencePlan {
     pub instants: u64,
     /// The error that is judged.
     pub norm: NormName,
+    /// What it is an error of.
+    pub of: Quantity,
+    /// What it is divided by, if anything.
+    pub scale: Option<f64>,
     /// Whether levels with crossings may count.
     pub crossing_levels: CrossingLevels,
     /// Place to be observed (m).

@@ -72,8 +72,13 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "instants", &format!("{}", plan.instants));
     let ppc = plan.ppc.map_or(String::new(), |ppc| format!("{ppc} per cell, equally spaced"));
     push(rows, "particles", &ppc);
-    push(rows, "judged", &format!("{} error of the displacement", plan.norm.name()));
+    push(rows, "judged", &judged(plan));
     push(rows, "crossing levels", plan.crossing_levels.name());
+}
+
+fn judged(plan: &ConvergencePlan) -> String {
+    let judged = format!("{} error of the {}", plan.norm.name(), plan.of.words());
+    plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }
 
 fn scene(scene: &Scene, rows: &mut Rows) {

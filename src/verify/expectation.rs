@@ -1,6 +1,9 @@
 //! What a suite expects of a case, and whether it came so.
 
-use super::verdict::Verdict;
+use super::{
+    limits::{Limits, Measured},
+    verdict::Verdict,
+};
 
 /// Bounds, both included.
 pub type Bounds = (f64, f64);
@@ -9,14 +12,16 @@ pub type Bounds = (f64, f64);
 /// is present must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
-    /// The verdict that must come out.
-    pub verdict: Verdict,
+    /// The verdict that must come out; none is asked of a case that only limits bind.
+    pub verdict: Option<Verdict>,
     /// Bounds that must hold the whole confidence interval of the observed order.
     pub order: Option<Bounds>,
     /// Bounds on the order between the two finest levels.
     pub finest_pair: Option<Bounds>,
     /// Whether particles must (`true`) or must not change their cell on the finest level.
     pub crossings: Option<bool>,
+    /// Bounds on figures.
+    pub limits: Limits,
     /// The reason, in one line.
     pub because: String,
 }
@@ -32,14 +37,22 @@ pub struct Seen {
     pub finest_pair: Option<f64>,
     /// Crossings on the finest level.
     pub crossings: Option<u64>,
+    /// What limits speak of.
+    pub measured: Measured,
 }
 
 impl Expectation {
     /// Everything that did not come as expected, in words; empty if all did.
     pub fn unmet(&self, seen: &Seen) -> Vec<String> {
         let mut unmet = Vec::new();
-        if seen.verdict != self.verdict {
-            unmet.push(format!("expected the verdict `{}`, got `{}`", self.verdict, seen.verdict));
+        match self.verdict {
+            Some(verdict) if seen.verdict != verdict => {
+                unmet.push(format!("expected the verdict `{verdict}`, got `{}`", seen.verdict));
+            }
+            None if seen.verdict == Verdict::Failed => {
+                unmet.push("expected every level to run to its end".to_owned());
+            }
+            _ => {}
         }
         if let Some(bounds) = self.order {
             let inside =
@@ -63,17 +76,19 @@ impl Expectation {
             let got = seen.crossings.map_or("none counted".to_owned(), |n| n.to_string());
             unmet.push(format!("expected {wanted} crossings on the finest level, got {got}"));
         }
+        unmet.extend(self.limits.unmet(&seen.measured));
         unmet
     }
 
     /// The expectation in one line, for reports.
     pub fn summary(&self) -> String {
-        let mut parts = vec![self.verdict.to_string()];
+        let mut parts: Vec<String> = self.verdict.iter().map(Verdict::to_string).collect();
         parts.extend(self.order.map(|b| format!("order within {}", show(b))));
         parts.extend(self.finest_pair.map(|b| format!("finest pair within {}", show(b))));
         parts.extend(self.crossings.map(|some| {
             format!("{} crossings on the finest level", if some { "some" } else { "no" })
         }));
+        parts.extend(self.limits.summary());
         parts.join(", ")
     }
 }
@@ -97,14 +112,16 @@ mod tests {
         order: Some((1.95, 2.05)),
         finest_pair: Some(1.99),
         crossings: Some(0),
+        measured: Measured { errors: Some((1e-6, 1e-3)), observed: None, drift: None },
     };
 
     fn expectation() -> Expectation {
         Expectation {
-            verdict: Verdict::Converging,
+            verdict: Some(Verdict::Converging),
             order: Some((1.9, 2.1)),
             finest_pair: Some((1.9, 2.1)),
             crossings: Some(false),
+            limits: Limits { error_below: Some(1e-2), ..Limits::default() },
             because: "second-order scheme".to_owned(),
         }
     }
@@ -119,7 +136,18 @@ mod tests {
     #[case::nan_pair(Seen { finest_pair: Some(f64::NAN), ..SEEN }, 1)]
     #[case::crossings(Seen { crossings: Some(3), ..SEEN }, 1)]
     #[case::crossings_not_counted(Seen { crossings: None, ..SEEN }, 1)]
+    #[case::limit(Seen { measured: Measured { errors: None, ..SEEN.measured }, ..SEEN }, 1)]
     fn every_part_must_hold(#[case] seen: Seen, #[case] unmet: usize) {
         assert_eq!(expectation().unmet(&seen).len(), unmet, "{:?}", expectation().unmet(&seen));
+    }
+
+    #[test]
+    fn a_verdict_that_is_not_asked_for_may_be_any_but_a_failure() {
+        let bounded =
+            Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
+        assert!(bounded.unmet(&Seen { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
+        assert_eq!(bounded.unmet(&Seen { verdict: Verdict::Failed, ..SEEN }).len(), 1);
+        let summary = "no crossings on the finest level, largest error at most 1e-2";
+        assert_eq!(bounded.summary(), summary);
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`norm`](Norms) | the error of one level as a number |
+//! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
+//! | [`conservation`](Drift) | what a free motion keeps, watched over a run |
 //! | [`level`](Level), [`claim`](Claim) | what is judged, and against what |
 //! | [`pairwise`](observed_order) | the order between two levels |
 //! | [`fit`](Interval), [`student`](two_sided_95) | the order by regression, with its confidence interval |
@@ -10,6 +11,7 @@
 //! | `shape` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the questions, and the verdict |
 //! | [`richardson`](Richardson) | order and limit from three values |
+//! | [`expectation`](Expectation), [`limits`](Limits) | what must come out |
 //!
 //! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
 //! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by absolute numbers, so that no
@@ -18,15 +20,18 @@
 mod beta;
 mod claim;
 mod clock;
+mod conservation;
 mod expectation;
 mod figures;
 mod fit;
 mod judge;
 mod level;
+mod limits;
 mod norm;
 mod observer;
 mod outcome;
 mod pairwise;
+mod quantity;
 mod reason;
 mod richardson;
 mod run;
@@ -39,15 +44,18 @@ mod window;
 
 pub use claim::Claim;
 pub use clock::{Clock, MOST_STEPS};
+pub use conservation::{Conserved, Drift};
 pub use expectation::{Bounds, Expectation, Seen};
 pub use fit::Interval;
 pub use judge::{Judgement, judge};
 pub use level::Level;
+pub use limits::{Limits, Measured};
 pub use norm::Norms;
 pub use observer::{History, displacement_at};
 pub use outcome::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
 pub use pairwise::observed_order;
+pub use quantity::{Quantity, errors_of};
 pub use richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
-pub use run::{Run, errors, run};
+pub use run::{Comparison, Run, errors, run};
 pub use student::two_sided_95;
 pub use verdict::{UnknownVerdict, Verdict};

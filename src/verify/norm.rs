@@ -27,8 +27,22 @@ pub struct Norms {
 }
 
 impl Norms {
+    /// No error at all.
+    pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0 };
+
     /// Nothing was measured: all NaN.
     pub const NONE: Self = Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN };
+
+    /// The larger of two, norm by norm; NaN if either is.
+    #[must_use]
+    pub fn larger(self, other: Self) -> Self {
+        Self {
+            rms: larger(self.rms, other.rms),
+            l1: larger(self.l1, other.l1),
+            l2: larger(self.l2, other.l2),
+            linf: larger(self.linf, other.linf),
+        }
+    }
 
     /// The norms of `errors`, which holds `dimension` components for each label, one label after
     /// the other, with one weight for each label.
@@ -69,7 +83,7 @@ fn length(error: &[f64]) -> f64 {
 }
 
 /// The larger of two lengths; NaN if either is (`f64::max` would drop it).
-fn larger(a: f64, b: f64) -> f64 {
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 

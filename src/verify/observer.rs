@@ -35,32 +35,60 @@ impl History {
         self.velocity.push([t, samples.velocity[at * samples.dimension], exact[0]]);
     }
 
-    /// RMS over time of the velocity error, relative to the largest exact speed.
-    pub fn relative_error(&self) -> f64 {
+    /// RMS over time of the velocity error, relative to the largest exact speed; none where the
+    /// truth does not move.
+    pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.velocity.iter().map(|[_, v, e]| (v - e) * (v - e)).sum();
         let largest = self.velocity.iter().map(|[_, _, e]| e.abs()).fold(0.0, f64::max);
-        (square / self.velocity.len() as f64).sqrt() / largest
+        (largest > 0.0).then(|| (square / self.velocity.len() as f64).sqrt() / largest)
     }
 }
 
-/// First component of the displacement at a fixed place of a one-dimensional body: cubic Lagrange
-/// interpolation through the four labels around it, so that Richardson's extrapolation compares
-/// the same place on every level. `None` with fewer than four labels or in more dimensions.
-pub fn displacement_at(samples: &Samples, x: f64) -> Option<f64> {
-    let n = samples.len();
-    if samples.dimension != 1 || n < 4 {
+/// Labels on each axis that take part in an interpolation.
+const NEAR: usize = 4;
+
+/// The displacement at a fixed place of a body whose labels form a lattice: cubic Lagrange
+/// interpolation, axis by axis, through the four labels around it (all labels of an axis that has
+/// fewer), so that the same place is compared on every level. `None` where there is no lattice
+/// around the place.
+pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
+    let d = samples.dimension;
+    if d == 0 || place.len() != d || samples.is_empty() {
         return None;
     }
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|a, b| samples.label[*a].total_cmp(&samples.label[*b]));
-    let above = order.partition_point(|p| samples.label[*p] < x);
-    let first = above.saturating_sub(2).min(n - 4);
-    let near = &order[first..first + 4];
-    let weight = |p: usize| -> f64 {
-        let others = near.iter().filter(|q| **q != p);
-        others.map(|q| (x - samples.label[*q]) / (samples.label[p] - samples.label[*q])).product()
+    let axes: Vec<Vec<(f64, f64)>> = (0..d).map(|axis| near(samples, axis, place[axis])).collect();
+    let mut interpolated = vec![0.0; d];
+    for k in 0..axes.iter().map(Vec::len).product() {
+        let mut rest = k;
+        let corner = axes.iter().map(|near| {
+            let i = rest % near.len();
+            rest /= near.len();
+            near[i]
+        });
+        let (label, weights): (Vec<f64>, Vec<f64>) = corner.unzip();
+        let weight: f64 = weights.iter().product();
+        let p = samples.label.chunks_exact(d).position(|at| at == label)?;
+        for (sum, u) in interpolated.iter_mut().zip(&samples.displacement[p * d..]) {
+            *sum += weight * u;
+        }
+    }
+    Some(interpolated)
+}
+
+/// The coordinates of the lattice around `x` on an axis, each with its Lagrange weight.
+fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
+    let mut all: Vec<f64> =
+        samples.label.iter().skip(axis).step_by(samples.dimension).copied().collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    let above = all.partition_point(|c| *c < x);
+    let count = all.len().min(NEAR);
+    let first = above.saturating_sub(NEAR / 2).min(all.len() - count);
+    let near = &all[first..first + count];
+    let weight = |c: f64| -> f64 {
+        near.iter().filter(|other| **other != c).map(|other| (x - other) / (c - other)).product()
     };
-    Some(near.iter().map(|p| weight(*p) * samples.displacement[*p]).sum())
+    near.iter().map(|c| (*c, weight(*c))).collect()
 }
 
 #[cfg(test)]
@@ -87,8 +115,43 @@ mod tests {
     #[case(1.0)]
     fn a_cubic_is_interpolated_exactly(#[case] x: f64) {
         let samples = cubic(&[0.9, 0.1, 0.3, 0.5, 0.7, 0.2]);
-        let u = displacement_at(&samples, x).unwrap();
-        assert_relative_eq!(u, 1.0 - x + 3.0 * x * x * x, max_relative = 1e-12);
+        let u = displacement_at(&samples, &[x]).unwrap();
+        assert_relative_eq!(u[0], 1.0 - x + 3.0 * x * x * x, max_relative = 1e-12);
+    }
+
+    /// Five labels along X and two along Y, for a displacement that is cubic in X and linear in Y.
+    fn plate() -> Samples {
+        let labels = (0..10).map(|p| [f64::from(p % 5) / 4.0, f64::from(p / 5)]);
+        let field = |[x, y]: [f64; 2]| [x * x * x * (1.0 + y), 2.0 * y - x];
+        Samples {
+            dimension: 2,
+            label: labels.clone().flatten().collect(),
+            displacement: labels.flat_map(field).collect(),
+            weight: vec![1.0; 10],
+            ..Samples::default()
+        }
+    }
+
+    #[test]
+    fn a_lattice_is_interpolated_axis_by_axis() {
+        let u = displacement_at(&plate(), &[0.3, 0.7]).unwrap();
+        assert_relative_eq!(u[0], 0.027 * 1.7, max_relative = 1e-12);
+        assert_relative_eq!(u[1], 1.1, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn without_a_lattice_nothing_is_interpolated() {
+        let mut moved = plate();
+        moved.label[2] += 0.01;
+        assert_eq!(displacement_at(&moved, &[0.3, 0.7]), None);
+        assert_eq!(displacement_at(&Samples::default(), &[]), None);
+        assert_eq!(displacement_at(&plate(), &[0.3]), None);
+    }
+
+    #[test]
+    fn a_truth_at_rest_has_no_relative_velocity_error() {
+        let history = History { label: vec![0.0], velocity: vec![[0.0, 1e-9, 0.0]] };
+        assert_eq!(history.relative_error(), None);
     }
 
     #[test]

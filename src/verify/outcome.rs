@@ -1,7 +1,8 @@
 //! The results of a suite: all that reports are made of.
 
 use super::{
-    judge::Judgement, observer::History, richardson::Richardson, run::Run, verdict::Verdict,
+    conservation::Conserved, judge::Judgement, observer::History, quantity::Quantity,
+    richardson::Richardson, run::Run, verdict::Verdict,
 };
 
 /// One suite, run.
@@ -62,6 +63,15 @@ pub struct Convergence {
     pub formal_order: f64,
     /// Name of the error that was judged.
     pub norm: &'static str,
+    /// What it is an error of.
+    pub of: Quantity,
+    /// What it was divided by, if anything.
+    pub scale: Option<f64>,
+    /// Whether bounds on figures are all that binds the case: then no order is asked for, and
+    /// every usable level counts.
+    pub bounded: bool,
+    /// The totals whose drift was asked for.
+    pub drifts: Vec<Conserved>,
     /// The judge's finding.
     pub judgement: Judgement,
     /// The levels, coarse to fine.
@@ -69,7 +79,7 @@ pub struct Convergence {
     /// Richardson's extrapolation at the observed place, for each triple of cells n, 2n, 4n.
     pub richardson: Vec<([u64; 3], Richardson)>,
     /// Reference position that was observed (m).
-    pub observed_at: Option<f64>,
+    pub observed_at: Option<Vec<f64>>,
 }
 
 /// One level of a refinement plan.
@@ -85,6 +95,8 @@ pub struct LevelOutcome {
     pub ppc: Option<u64>,
     /// What the run has shown.
     pub run: Run,
+    /// The error that was judged.
+    pub error: f64,
     /// Whether the judge may count the level.
     pub usable: bool,
     /// Order between the next coarser level and this one.
@@ -132,6 +144,35 @@ impl Convergence {
     /// Verdict of the judge.
     pub fn verdict(&self) -> Verdict {
         self.judgement.verdict
+    }
+
+    /// The observed place, as titles write it.
+    pub fn place(&self) -> Option<String> {
+        let coordinates: Vec<String> =
+            self.observed_at.as_ref()?.iter().map(ToString::to_string).collect();
+        Some(if coordinates.len() == 1 {
+            coordinates.concat()
+        } else {
+            format!("({})", coordinates.join(", "))
+        })
+    }
+
+    /// Whether the judged error is not among the errors of the displacement that tables show.
+    pub fn is_judged_by_another_figure(&self) -> bool {
+        let shown = ["rms", "l1", "l2", "linf", "max_rms"].contains(&self.norm);
+        self.of != Quantity::Displacement || self.scale.is_some() || !shown
+    }
+
+    /// The judged error in words, with its unit.
+    pub fn judged(&self) -> String {
+        let (norm, of, unit) = (self.norm.replace('_', " "), self.of.words(), self.of.unit());
+        match self.scale {
+            Some(scale) => {
+                format!("{norm} error of {of} over {scale} {unit}").trim_end().to_owned()
+            }
+            None if unit.is_empty() => format!("{norm} error of {of}"),
+            None => format!("{norm} error of {of} ({unit})"),
+        }
     }
 
     /// The observed label's history on the finest level that has one.

@@ -2,8 +2,10 @@
 
 use super::{
     clock::Clock,
-    norm::Norms,
+    conservation::{Balance, Drift},
+    norm::{Norms, larger},
     observer::{History, displacement_at},
+    quantity::{Quantity, errors_of},
 };
 use crate::{
     exact::Truth,
@@ -17,6 +19,12 @@ pub struct Run {
     pub errors: Norms,
     /// Largest RMS error over the instants (m); NaN if the run failed.
     pub max_rms: f64,
+    /// Errors of the compared quantity at the end; all NaN if the run failed.
+    pub at_end: Norms,
+    /// The largest of each over the instants; all NaN if the run failed.
+    pub largest: Norms,
+    /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
+    pub drift: Option<Drift>,
     /// Counters at the end, or at the failure.
     pub census: Census,
     /// Steps taken.
@@ -25,47 +33,72 @@ pub struct Run {
     pub failure: Option<String>,
     /// The observed label, if one was asked for and the run came to its end.
     pub history: Option<History>,
-    /// Displacement at the observed place at the end (m).
-    pub displacement: Option<f64>,
+    /// Displacement at the observed place at the end (m), if it could be interpolated.
+    pub displacement: Option<Vec<f64>>,
+    /// Its distance (m) from the exact one.
+    pub observed_error: Option<f64>,
+}
+
+/// What is compared in a run, besides the displacement.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Comparison<'a> {
+    /// The quantity that is judged.
+    pub of: Quantity,
+    /// Place to be observed (m).
+    pub observe: Option<&'a [f64]>,
 }
 
 /// Steps `subject` through `clock` and takes its error against `truth` at every instant, at the
-/// subject's own reference labels; watches the label nearest to `observe`.
+/// subject's own reference labels; watches the label nearest to the observed place.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
     clock: &Clock,
-    observe: Option<&[f64]>,
+    comparison: &Comparison<'_>,
 ) -> Run {
-    let mut watch = Watch::new(subject, truth, observe);
+    let mut watch = Watch::new(subject, truth, comparison);
     for step in 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
-            return failed(subject, step, clock.time(step), &failure);
+            return watch.failed(subject, step, clock.time(step), &failure);
         }
         watch.look(subject, clock, step);
     }
-    watch.finished(subject, clock.steps, observe)
+    watch.finished(subject, clock)
 }
 
 /// The state of the comparison while a subject runs.
 struct Watch<'a> {
     truth: &'a dyn Truth,
+    comparison: &'a Comparison<'a>,
     samples: Samples,
     errors: Norms,
     max_rms: f64,
+    at_end: Norms,
+    largest: Norms,
+    balance: Option<Balance>,
     history: Option<(usize, History)>,
 }
 
 impl<'a> Watch<'a> {
-    fn new(subject: &dyn Subject, truth: &'a dyn Truth, observe: Option<&[f64]>) -> Self {
+    fn new(subject: &dyn Subject, truth: &'a dyn Truth, comparison: &'a Comparison<'a>) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
-        let history = observe.map(|place| {
+        let history = comparison.observe.map(|place| {
             let (at, mut history) = History::start(&samples, place);
             history.record(at, &samples, truth, 0.0);
             (at, history)
         });
-        Self { truth, samples, errors: Norms::NONE, max_rms: 0.0, history }
+        Self {
+            truth,
+            comparison,
+            samples,
+            errors: Norms::NONE,
+            max_rms: 0.0,
+            at_end: Norms::NONE,
+            largest: Norms::ZERO,
+            balance: subject.totals().map(Balance::start),
+            history,
+        }
     }
 
     fn look(&mut self, subject: &dyn Subject, clock: &Clock, step: u64) {
@@ -75,48 +108,62 @@ impl<'a> Watch<'a> {
         subject.sample(&mut self.samples);
         let t = clock.time(step);
         self.errors = errors(&self.samples, self.truth, t);
-        let rms = self.errors.rms;
-        self.max_rms = if rms.is_nan() { rms } else { self.max_rms.max(rms) };
+        self.max_rms = larger(self.max_rms, self.errors.rms);
+        self.at_end = match self.comparison.of {
+            Quantity::Displacement => self.errors,
+            other => errors_of(other, &self.samples, self.truth, t),
+        };
+        self.largest = self.largest.larger(self.at_end);
+        if let Some(balance) = &mut self.balance {
+            balance.look(subject.totals().as_ref());
+        }
         if let Some((at, history)) = &mut self.history {
             history.record(*at, &self.samples, self.truth, t);
         }
     }
 
-    fn finished(self, subject: &dyn Subject, steps: u64, observe: Option<&[f64]>) -> Run {
-        let place = observe.and_then(|place| place.first());
+    fn finished(self, subject: &dyn Subject, clock: &Clock) -> Run {
+        let place = self.comparison.observe;
+        let displacement = place.and_then(|place| displacement_at(&self.samples, place));
+        let distance = |(place, u): (&[f64], &Vec<f64>)| {
+            let mut exact = vec![0.0; u.len()];
+            self.truth.displacement(place, clock.until, &mut exact);
+            u.iter().zip(&exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
+        };
         Run {
             errors: self.errors,
             max_rms: self.max_rms,
+            at_end: self.at_end,
+            largest: self.largest,
+            drift: self.balance.as_ref().map(Balance::drift),
             census: subject.census(),
-            steps,
+            steps: clock.steps,
             failure: None,
-            displacement: place.and_then(|x| displacement_at(&self.samples, *x)),
+            observed_error: place.zip(displacement.as_ref()).map(distance),
+            displacement,
             history: self.history.map(|(_, history)| history),
         }
     }
-}
 
-/// A run that broke has no error, only a reason.
-fn failed(subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> Run {
-    Run {
-        errors: Norms::NONE,
-        max_rms: f64::NAN,
-        census: subject.census(),
-        steps: step,
-        failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
-        history: None,
-        displacement: None,
+    /// A run that broke has no error, only a reason.
+    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> Run {
+        Run {
+            errors: Norms::NONE,
+            max_rms: f64::NAN,
+            at_end: Norms::NONE,
+            largest: Norms::NONE,
+            drift: self.balance.map(|_| Drift::NONE),
+            census: subject.census(),
+            steps: step,
+            failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
+            history: None,
+            displacement: None,
+            observed_error: None,
+        }
     }
 }
 
 /// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.
 pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
-    let d = samples.dimension;
-    let mut exact = vec![0.0; d];
-    let mut error = Vec::with_capacity(samples.displacement.len());
-    for (label, u) in samples.label.chunks(d).zip(samples.displacement.chunks(d)) {
-        truth.displacement(label, t, &mut exact);
-        error.extend(u.iter().zip(&exact).map(|(u, e)| u - e));
-    }
-    Norms::of(&error, d, &samples.weight)
+    errors_of(Quantity::Displacement, samples, truth, t)
 }

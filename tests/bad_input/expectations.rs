@@ -35,7 +35,10 @@ use rstest::rstest;
 )]
 #[case::neither_order_nor_verdict(
     &[("- case: \"mpm-*\"\n    verdict: too_few_levels\n", "- ▸case: \"mpm-*\"\n")],
-    &["this expects neither an order nor a verdict", "add `order: [1.9, 2.1]` or `verdict: divergent`"]
+    &[
+        "this expects neither an order nor a verdict nor a bound",
+        "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`",
+    ]
 )]
 fn expectations_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);

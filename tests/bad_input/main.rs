@@ -8,6 +8,7 @@ mod expectations;
 mod formulas;
 mod grammar;
 mod numbers;
+mod quantities;
 mod random;
 mod samples;
 mod scenes;

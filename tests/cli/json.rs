@@ -17,7 +17,7 @@ const CASE: [&str; 11] = [
     "forces",
 ];
 
-const LEVEL: [&str; 13] = [
+const LEVEL: [&str; 15] = [
     "cells",
     "h",
     "dt",
@@ -29,6 +29,8 @@ const LEVEL: [&str; 13] = [
     "left_domain",
     "min_j",
     "errors",
+    "judged",
+    "drift",
     "order",
     "failure",
 ];
@@ -69,6 +71,10 @@ fn every_key_is_there_and_no_other() {
             for level in list(&case["levels"]) {
                 has(level, &LEVEL);
                 has(&level["errors"], &["rms", "l1", "l2", "linf", "max_rms"]);
+                if case["subject"] == "mpm" {
+                    let sums = ["mass", "momentum", "angular_momentum", "kinetic_energy"];
+                    has(&level["drift"], &sums);
+                }
             }
             for force in case["forces"].as_array().into_iter().flatten() {
                 has(force, &["position", "n_left", "n_right", "force", "predicted"]);
@@ -97,6 +103,7 @@ fn a_case_that_converges_has_its_figures() {
     assert_eq!(cells, [4, 6, 8, 12]);
     assert_eq!((&levels[0]["order"], levels[1]["order"].is_number()), (&Value::Null, true));
     assert_eq!((&levels[0]["ppc"], &levels[0]["particles"]), (&4.into(), &16.into()));
+    assert_eq!(levels[0]["judged"], levels[0]["errors"]["rms"]);
     assert_eq!((&levels[0]["crossings"], &levels[0]["failure"]), (&0.into(), &Value::Null));
 }
 
@@ -108,7 +115,7 @@ fn null_stands_for_what_finite_elements_do_not_have() {
     let case = &document["suites"][0]["cases"][1];
     assert_eq!(case["subject"], "fem");
     for level in list(&case["levels"]) {
-        for key in ["ppc", "particles", "crossings", "left_domain"] {
+        for key in ["ppc", "particles", "crossings", "left_domain", "drift"] {
             assert_eq!(level[key], Value::Null, "{key}");
         }
         assert!(level["transfers"].is_u64() && level["errors"]["rms"].is_f64());

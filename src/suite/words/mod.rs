@@ -18,6 +18,7 @@ use crate::{
     mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
     named::named,
     subject::Start,
+    verify::Quantity,
 };
 use serde::Deserialize;
 
@@ -153,7 +154,11 @@ pub(in crate::suite) enum MethodWords {
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct JudgeWords {
     #[serde(default)]
+    pub(in crate::suite) of: Quantity,
+    #[serde(default)]
     pub(in crate::suite) norm: NormName,
+    /// What the error is divided by before it is judged.
+    pub(in crate::suite) scale: Option<NumberText>,
     #[serde(default)]
     pub(in crate::suite) crossing_levels: CrossingLevels,
 }
@@ -173,6 +178,12 @@ named! {
         Linf = "linf",
         /// Largest RMS over the instants.
         MaxRms = "max_rms",
+        /// Largest L1 over the instants.
+        MaxL1 = "max_l1",
+        /// Largest L2 over the instants.
+        MaxL2 = "max_l2",
+        /// Largest over labels and instants.
+        MaxLinf = "max_linf",
     }
 }
 
@@ -202,7 +213,23 @@ pub(in crate::suite) struct ExpectWords {
     pub(in crate::suite) order: Option<Vec<NumberText>>,
     pub(in crate::suite) finest_pair: Option<Vec<NumberText>>,
     pub(in crate::suite) crossings: Option<CrossingsName>,
+    /// Bounds on the judged error of every level that counts.
+    pub(in crate::suite) error_below: Option<NumberText>,
+    pub(in crate::suite) error_above: Option<NumberText>,
+    /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
+    pub(in crate::suite) observed_within: Option<NumberText>,
+    pub(in crate::suite) drift: Option<DriftWords>,
     pub(in crate::suite) because: String,
+}
+
+/// Bounds on the relative drift of sums over the body.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct DriftWords {
+    pub(in crate::suite) mass: Option<NumberText>,
+    pub(in crate::suite) momentum: Option<NumberText>,
+    pub(in crate::suite) angular_momentum: Option<NumberText>,
+    pub(in crate::suite) kinetic_energy: Option<NumberText>,
 }
 
 /// Whether particles change their cell on the finest level.

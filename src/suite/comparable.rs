@@ -1,0 +1,53 @@
+//! Whether what a suite judges is there to be compared: in every subject, and in every truth.
+
+use super::{
+    binder::Binder,
+    method::Method,
+    model::ConvergencePlan,
+    path::Path,
+    words::{ConvergenceWords, MethodWords},
+    yaml::Complaint,
+};
+use crate::verify::Limits;
+
+/// Refuses to judge a tensor that the reference FEM does not give.
+pub(super) fn check(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    plan: &ConvergencePlan,
+) -> Result<(), Complaint> {
+    if !plan.of.is_tensor() {
+        return Ok(());
+    }
+    let name = plan.of.words();
+    let help = "judge the displacement or the velocity";
+    if plan.reference.is_some() {
+        let message = format!("a reference has no {name} to compare with, which this suite judges");
+        return Err(binder.complain_key(&Path::top("reference"), &message).with_help(help));
+    }
+    let fem = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
+    match words.methods.iter().position(fem) {
+        Some(i) => {
+            let message = format!("the reference FEM gives no {name}, which this suite judges");
+            let complaint = binder.complain(&Path::top("methods").then(i), &message);
+            Err(complaint.with_help(help))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses to bound the drift of sums that the reference FEM does not give; `path` is that of the
+/// expectation.
+pub(super) fn check_drift(
+    binder: &Binder<'_>,
+    path: &Path,
+    limits: &Limits,
+    method: Method,
+) -> Result<(), Complaint> {
+    if limits.drift.is_empty() || !matches!(method, Method::Fem { .. }) {
+        return Ok(());
+    }
+    let message = "the reference FEM does not give the sums whose drift is bound here";
+    let complaint = binder.complain_key(&path.then("drift"), message);
+    Err(complaint.with_help("let this expectation speak of MPM cases only"))
+}

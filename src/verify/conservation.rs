@@ -1,0 +1,167 @@
+//! What a motion without outer forces keeps, watched over a run.
+//!
+//! A drift is the largest change since t = 0, over the instants, relative to the largest size met:
+//! the total itself for mass and kinetic energy, the sum of the magnitudes of its terms for the
+//! momenta (which may themselves be zero).
+
+use super::norm::larger;
+use crate::{named::named, subject::Totals};
+
+named! {
+    /// A sum over the body.
+    pub enum Conserved {
+        /// Total mass.
+        Mass = "mass",
+        /// Linear momentum.
+        Momentum = "momentum",
+        /// Angular momentum about the origin; there is none in 1-D.
+        AngularMomentum = "angular_momentum",
+        /// Kinetic energy, which only a motion without stress keeps.
+        KineticEnergy = "kinetic_energy",
+    }
+}
+
+impl Conserved {
+    /// The name in a sentence.
+    pub fn words(self) -> String {
+        self.name().replace('_', " ")
+    }
+
+    /// The sum, and the size that a change of it is relative to.
+    fn of(self, totals: &Totals) -> ([f64; 3], f64) {
+        match self {
+            Self::Mass => ([totals.mass, 0.0, 0.0], totals.mass.abs()),
+            Self::Momentum => (totals.momentum, totals.momentum_size),
+            Self::AngularMomentum => (totals.angular_momentum, totals.angular_momentum_size),
+            Self::KineticEnergy => ([totals.kinetic_energy, 0.0, 0.0], totals.kinetic_energy),
+        }
+    }
+}
+
+/// The relative drift of every sum; NaN if one became NaN or the run failed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drift([f64; Conserved::ALL.len()]);
+
+impl Drift {
+    /// Of a run that failed.
+    pub const NONE: Self = Self([f64::NAN; Conserved::ALL.len()]);
+
+    /// The drift of one sum.
+    pub fn of(&self, sum: Conserved) -> f64 {
+        self.0[sum as usize]
+    }
+
+    /// The larger of two, sum by sum; NaN if either is.
+    #[must_use]
+    pub fn larger(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| larger(self.0[i], other.0[i])))
+    }
+}
+
+/// Totals from instant to instant.
+#[derive(Debug, Clone)]
+pub(super) struct Balance {
+    start: Totals,
+    change: [f64; Conserved::ALL.len()],
+    size: [f64; Conserved::ALL.len()],
+}
+
+impl Balance {
+    pub(super) fn start(start: Totals) -> Self {
+        let zero = [0.0; Conserved::ALL.len()];
+        let mut balance = Self { start, change: zero, size: zero };
+        balance.look(Some(&start));
+        balance
+    }
+
+    /// Takes the totals of an instant; a subject that no longer says them has kept nothing.
+    pub(super) fn look(&mut self, now: Option<&Totals>) {
+        for (i, sum) in Conserved::ALL.iter().enumerate() {
+            let (before, _) = sum.of(&self.start);
+            let (after, size) = now.map_or(([f64::NAN; 3], f64::NAN), |now| sum.of(now));
+            let change = (0..3).fold(0.0, |all, k| libm::hypot(all, after[k] - before[k]));
+            self.change[i] = larger(self.change[i], change);
+            self.size[i] = larger(self.size[i], size);
+        }
+    }
+
+    /// No change of nothing is no drift.
+    pub(super) fn drift(&self) -> Drift {
+        let relative = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
+        Drift(std::array::from_fn(|i| relative(self.change[i], self.size[i])))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    const START: Totals = Totals {
+        mass: 2.0,
+        momentum: [1.0, -1.0, 0.0],
+        momentum_size: 4.0,
+        angular_momentum: [0.0, 0.0, 3.0],
+        angular_momentum_size: 6.0,
+        kinetic_energy: 8.0,
+    };
+
+    fn drift(later: &[Option<Totals>]) -> Drift {
+        let mut balance = Balance::start(START);
+        for totals in later {
+            balance.look(totals.as_ref());
+        }
+        balance.drift()
+    }
+
+    #[rstest]
+    #[case::mass(Totals { mass: 1.0, ..START }, Conserved::Mass, 0.5)]
+    #[case::momentum(Totals { momentum: [4.0, 3.0, 0.0], ..START }, Conserved::Momentum, 1.25)]
+    #[case::spin(
+        Totals { angular_momentum: [0.0; 3], ..START },
+        Conserved::AngularMomentum,
+        0.5
+    )]
+    #[case::energy(Totals { kinetic_energy: 6.0, ..START }, Conserved::KineticEnergy, 0.25)]
+    #[case::a_size_that_grew(
+        Totals { momentum: [1.0, 4.0, 0.0], momentum_size: 50.0, ..START },
+        Conserved::Momentum,
+        0.1
+    )]
+    fn a_drift_is_the_largest_change_over_the_size(
+        #[case] later: Totals,
+        #[case] sum: Conserved,
+        #[case] expected: f64,
+    ) {
+        let found = drift(&[Some(later), Some(START)]);
+        for &other in Conserved::ALL {
+            let expected = if other == sum { expected } else { 0.0 };
+            assert_relative_eq!(found.of(other), expected, max_relative = 1e-15);
+        }
+    }
+
+    #[rstest]
+    #[case::then_a_number(&[Some(Totals { momentum: [f64::NAN, 0.0, 0.0], ..START }), Some(START)])]
+    #[case::a_size(&[Some(Totals { momentum: [0.0; 3], momentum_size: f64::NAN, ..START })])]
+    #[case::of_a_subject_that_falls_silent(&[None, Some(START)])]
+    fn nan_stays(#[case] later: &[Option<Totals>]) {
+        assert!(drift(later).of(Conserved::Momentum).is_nan());
+    }
+
+    #[test]
+    fn a_body_at_rest_does_not_drift_and_one_that_starts_by_itself_does() {
+        let rest = Totals::default();
+        let mut balance = Balance::start(rest);
+        balance.look(Some(&rest));
+        assert_eq!(balance.drift(), Drift([0.0; 4]));
+        balance.look(Some(&Totals { momentum: [1.0, 0.0, 0.0], ..rest }));
+        assert_eq!(balance.drift().of(Conserved::Momentum), f64::INFINITY);
+    }
+
+    #[test]
+    fn nan_is_larger_than_any_drift() {
+        let none = drift(&[]).larger(Drift::NONE);
+        assert!(Conserved::ALL.iter().all(|&sum| none.of(sum).is_nan()));
+    }
+}

@@ -1,0 +1,84 @@
+//! What is judged, and bounds on figures.
+
+use super::{Edits, refused, samples::BAR};
+use rstest::rstest;
+
+const EXPECTED: &str = "    verdict: too_few_levels\n    finest_pair: [1.5, 2.5]\n";
+const FEM: &str = "  - fem: {element: linear, mass: lumped}\n";
+const FEM_EXPECTED: &str = "  - case: \"fem-*\"\n    verdict: too_few_levels\n";
+
+#[rstest]
+#[case::an_unknown_quantity(
+    &[("{norm: rms}", "{of: ▸strain}")],
+    &["unknown name `strain`", "displacement", "deformation_gradient"]
+)]
+#[case::an_unknown_norm(&[("{norm: rms}", "{norm: ▸max_rsm}")], &["max_rsm", "max_rms"])]
+#[case::a_scale_of_zero(
+    &[("{norm: rms}", "{scale: ▸\"E - 100\"}")],
+    &["the scale of the error is 0, and must be above zero", "expected a positive number"]
+)]
+#[case::a_scale_that_is_no_number(
+    &[("{norm: rms}", "{scale: ▸\"1/(E - 100)\"}")],
+    &["which is not finite"]
+)]
+#[case::a_stress_that_finite_elements_lack(
+    &[("{norm: rms}", "{of: stress}"), ("- fem:", "- ▸fem:")],
+    &["the reference FEM gives no stress, which this suite judges"]
+)]
+#[case::a_gradient_that_finite_elements_lack(
+    &[("{norm: rms}", "{of: deformation_gradient}"), ("- fem:", "- ▸fem:")],
+    &["the reference FEM gives no deformation gradient", "judge the displacement or the velocity"]
+)]
+#[case::a_stress_that_a_reference_lacks(
+    &[
+        ("{norm: rms}", "{of: stress}"),
+        (FEM, ""),
+        ("run:", "▸reference:\n  equation: small_strain\n  fem: {element: linear, mass: lumped, cells: 100, dt: 1e-3}\nrun:"),
+    ],
+    &["a reference has no stress to compare with, which this suite judges"]
+)]
+fn a_comparison_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}
+
+#[rstest]
+#[case::an_error_below_zero("error_below: ▸-1e-9", &["a bound is -1e-9, and must be above zero"])]
+#[case::an_error_below_no_number("error_below: ▸.nan", &["finite"])]
+#[case::an_error_above_zero("error_above: ▸0", &["a bound is 0, and must be above zero"])]
+#[case::an_error_in_no_interval(
+    "error_below: 1e-9\n    error_above: ▸1e-6",
+    &["no error is below 1e-9 and above 1e-6"]
+)]
+#[case::a_drift_of_nothing("drift: ▸{}", &["this bounds no drift", "mass, momentum, angular_momentum"])]
+#[case::a_drift_of_something_else("drift: {▸momentun: 1e-12}", &["no key that is known here", "did you mean `momentum`?"])]
+#[case::a_drift_below_zero("drift: {momentum: ▸-1}", &["a bound is -1, and must be above zero"])]
+#[case::a_spin_of_a_bar(
+    "drift: {▸angular_momentum: 1e-12}",
+    &["there is no angular momentum in 1-D"]
+)]
+fn a_bound_with(#[case] bound: &str, #[case] words: &[&str]) {
+    refused(BAR, &[(EXPECTED, &format!("    {bound}\n"))], words);
+}
+
+#[test]
+fn a_place_that_is_not_observed() {
+    let edits = [("observe: {at: [12.5]}\n", ""), (EXPECTED, "    ▸observed_within: 1e-3\n")];
+    refused(BAR, &edits, &["nothing is observed", "add `observe: {at: [...]}` to the suite"]);
+}
+
+#[test]
+fn a_drift_of_finite_elements() {
+    let bound = FEM_EXPECTED.replace("verdict: too_few_levels", "▸drift: {momentum: 1e-12}");
+    let words = ["the reference FEM does not give the sums whose drift is bound here"];
+    refused(BAR, &[(FEM_EXPECTED, &bound)], &words);
+}
+
+#[test]
+fn a_suite_of_one_level_that_only_bounds_is_sound() {
+    let bounds = "    error_below: \"v0\"\n    error_above: 1e-9\n    drift: {mass: 1e-14}\n    observed_within: 1\n";
+    let text = BAR.replace(EXPECTED, bounds).replace("cells: [6, 12]", "cells: 12");
+    let text = text.replace("{norm: rms}", "{of: velocity, norm: max_linf, scale: v0}");
+    if let Err(complaint) = super::load(&text) {
+        panic!("{complaint}");
+    }
+}
