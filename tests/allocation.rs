@@ -7,8 +7,8 @@ use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        Driven, Fixed, Gravity, Prescribed, Roller, SchemeName, SetForce, Side, Solver, Traction,
-        Vector, VelocityField,
+        BasisName, Driven, Fixed, Gravity, MaterialPlan, Prescribed, Roller, SchemeName, SetForce,
+        Side, Solver, Traction, TransferName, Vector, VelocityField,
     },
     subject::{Samples, Start, Subject},
 };
@@ -60,6 +60,17 @@ fn an_mpm_step_after_the_first_allocates_nothing(
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
 ) {
     in_dimension!(dimension, mpm_holds_its_memory(scheme, start));
+}
+
+/// One material that keeps its own state, one that reads F and one that reads neither.
+#[rstest]
+#[case(MaterialPlan::J2 { young: 1.0, poisson: 0.3, r#yield: 1e-3, hardening: 0.0 })]
+#[case(MaterialPlan::Hencky { young: 1.0, poisson: 0.3 })]
+#[case(MaterialPlan::Newtonian { bulk: 1.0, viscosity: 0.1 })]
+fn a_material_allocates_in_the_first_step_only(#[case] plan: MaterialPlan) {
+    let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
+    setup.material = plan.build();
+    holds_its_memory(plan.name(), &mut Solver::new(setup).unwrap(), DT);
 }
 
 #[test]

@@ -46,7 +46,10 @@ pub use grid::Grid;
 pub use kernel::{Kernel, Shown};
 pub use loops::kernel;
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
-pub use material::{LinearElastic, Material, NeoHookean};
+pub use material::{
+    Hencky, J2, LinearElastic, Material, MaterialPlan, MaterialWords, NeoHookean, Newtonian,
+    Parameter, Range,
+};
 pub use moments::Moments;
 pub use particles::{Block, Particles};
 pub use scheme::SchemeName;

@@ -2,11 +2,13 @@
 
 use crate::mpm::particles::Particles;
 
-/// A constitutive law. It meets the solver between stages: one virtual call per step.
+/// A constitutive law, with the state that only it reads. It meets the solver between stages: one
+/// virtual call per step.
 pub trait Material<const D: usize>: Send {
     /// Whether the law reads F: the column exists only then, or if the basis asks for it.
     fn reads_deformation(&self) -> bool;
 
-    /// New stresses and volumes of all particles from their velocity gradients over `dt` (s).
-    fn update(&self, dt: f64, particles: &mut Particles<D>);
+    /// New stresses and volumes of all particles from their velocity gradients over `dt` (s). F,
+    /// where it exists, is that of the end of the step already. Allocates in the first call only.
+    fn update(&mut self, dt: f64, particles: &mut Particles<D>);
 }

@@ -1,9 +1,37 @@
-//! Materials: the family. A member is one file.
+//! Materials: the family. A member is one file and one line below; a parameter that no other
+//! material has is one line in [`parameter`].
 
+#[cfg(test)]
+mod closed_forms;
 mod contract;
+mod hencky;
+mod j2;
+#[cfg(test)]
+mod laws;
 mod linear_elastic;
 mod neo_hookean;
+mod newtonian;
+mod parameter;
+mod registry;
+#[cfg(test)]
+mod specimen;
+mod spectral;
 
 pub use contract::Material;
+pub use hencky::Hencky;
+pub use j2::J2;
 pub use linear_elastic::LinearElastic;
 pub use neo_hookean::NeoHookean;
+pub use newtonian::Newtonian;
+pub use parameter::{Parameter, Range};
+
+use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
+use registry::{key, materials};
+
+materials! {
+    "linear_elastic" => LinearElastic { young: YOUNG, poisson: POISSON },
+    "neo_hookean" => NeoHookean { young: YOUNG, poisson: POISSON },
+    "hencky" => Hencky { young: YOUNG, poisson: POISSON },
+    "j2" => J2 { young: YOUNG, poisson: POISSON, r#yield: YIELD, #[serde(default)] hardening: HARDENING },
+    "newtonian" => Newtonian { bulk: BULK, viscosity: VISCOSITY },
+}

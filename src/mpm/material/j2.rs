@@ -1,0 +1,105 @@
+//! J2 plasticity at finite strain: Hencky elasticity and radial return in logarithmic strain.
+//!
+//! `F = Fe Fp`, Kirchhoff stress `tau = J sigma = K tr(eps) I + 2 mu dev(eps)` of the elastic
+//! strain `eps = ln(be)/2`, yield where `sqrt(3/2) |dev tau| > Y + H alpha` (Simo 1992; de Souza
+//! Neto, Peric & Owen 2008, chapter 14): in `eps`, the radial return of small strain. What has
+//! flowed is kept as `Cp^-1` of `be = F Cp^-1 F^T`: the trial state follows from F alone, so a body
+//! that starts deformed needs no more than its F, and nothing drifts while it is elastic.
+//!
+//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
+
+use super::{
+    contract::Material,
+    linear_elastic::LinearElastic,
+    spectral::{assembled, half_log, spectral},
+};
+use crate::mpm::{
+    algebra::{Matrix, Vector, det},
+    particles::Particles,
+};
+
+/// Isotropic elasto-plasticity with linear hardening.
+#[derive(Debug, Clone, PartialEq)]
+pub struct J2 {
+    bulk: f64,
+    mu: f64,
+    yield_stress: f64,
+    hardening: f64,
+    /// One for each particle, from the first step on.
+    flowed: Vec<Flowed>,
+}
+
+/// What a particle remembers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Flowed {
+    /// `Cp^-1`, the inverse of the plastic right Cauchy-Green tensor.
+    inverse_metric: Matrix<3>,
+    /// Accumulated plastic strain, alpha.
+    strain: f64,
+}
+
+impl Flowed {
+    const NOT: Self = Self {
+        inverse_metric: Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        strain: 0.0,
+    };
+}
+
+impl J2 {
+    /// From Young's modulus (Pa), Poisson's ratio, the yield stress in tension Y (Pa) and the
+    /// hardening modulus H (Pa).
+    pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
+        let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+        let bulk = lambda + 2.0 / 3.0 * mu;
+        Self { bulk, mu, yield_stress, hardening, flowed: Vec::new() }
+    }
+
+    /// The Kirchhoff stress at F after return to the yield surface, and what has flowed then.
+    fn kirchhoff(&self, f: &Matrix<3>, before: Flowed) -> (Matrix<3>, Flowed) {
+        let trial = f * before.inverse_metric * f.transpose();
+        let (squares, axes) = spectral(&trial);
+        let strain = half_log(&squares);
+        let mean = strain.sum() / 3.0;
+        let deviator = strain.add_scalar(-mean);
+        let mises = 2.0 * self.mu * 1.5_f64.sqrt() * deviator.norm();
+        let excess = mises - (self.yield_stress + self.hardening * before.strain);
+        if !(excess > 0.0) {
+            return (self.stress(mean, &deviator, &axes), before);
+        }
+        let flow = excess / (3.0 * self.mu + self.hardening);
+        let deviator = deviator * (1.0 - 3.0 * self.mu * flow / mises);
+        let elastic = deviator.map(|eps| libm::exp(2.0 * (mean + eps)));
+        // An F without inverse ends the run for its volume.
+        let back = f.try_inverse().unwrap_or(*f);
+        let inverse_metric = back * assembled(&elastic, &axes) * back.transpose();
+        let after = Flowed { inverse_metric, strain: before.strain + flow };
+        (self.stress(mean, &deviator, &axes), after)
+    }
+
+    fn stress(&self, mean: f64, deviator: &Vector<3>, axes: &Matrix<3>) -> Matrix<3> {
+        assembled(&deviator.map(|eps| 3.0 * self.bulk * mean + 2.0 * self.mu * eps), axes)
+    }
+}
+
+impl<const D: usize> Material<D> for J2 {
+    fn reads_deformation(&self) -> bool {
+        true
+    }
+
+    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
+        self.flowed.resize(particles.len(), Flowed::NOT);
+        for p in 0..particles.len().min(particles.def_grad.len()) {
+            let f = &particles.def_grad[p];
+            let j = det(f);
+            let (stress, flowed) = self.kirchhoff(&in_space(f), self.flowed[p]);
+            self.flowed[p] = flowed;
+            particles.vol[p] = j * particles.vol0[p];
+            particles.sigma[p] = Matrix::from_fn(|i, k| stress[(i, k)] / j);
+        }
+    }
+}
+
+/// F in three dimensions: nothing stretches along the axes that are left out.
+fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
+    Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
+}

@@ -1,0 +1,110 @@
+//! Registration: one line makes a material known by name, with the words for its parameters.
+
+/// Declares the family of materials. A line
+///
+/// `"hencky" => Hencky { young: YOUNG, poisson: POISSON },`
+///
+/// names the material, its type and its parameters in the order in which `Hencky::new` takes them.
+/// Each word is the key that suites write; `#[serde(default)]` before it makes the key optional
+/// and zero. The density, which every material has and no law reads, is added to the words.
+macro_rules! materials {
+    ($($name:literal => $member:ident {
+        $($(#[$field_meta:meta])* $field:ident: $parameter:ident),+ $(,)?
+    },)+) => {
+        /// What suites write for a material: its name, its parameters and its density, each
+        /// an `N`, which stands for a number.
+        #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub enum MaterialWords<N> {
+            $(
+                #[doc = concat!("`", $name, "`, see [`", stringify!($member), "`].")]
+                #[serde(rename = $name)]
+                $member {
+                    $(
+                        $(#[$field_meta])*
+                        #[doc = concat!("See [`", stringify!($member), "::new`].")]
+                        $field: N,
+                    )+
+                    /// Reference density (kg/m^D).
+                    density: N,
+                },
+            )+
+        }
+
+        /// A material, ready to be built: its name and its parameters.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub enum MaterialPlan {
+            $(
+                #[doc = concat!("`", $name, "`, see [`", stringify!($member), "`].")]
+                $member {
+                    $(
+                        #[doc = concat!("See [`", stringify!($member), "::new`].")]
+                        $field: f64,
+                    )+
+                },
+            )+
+        }
+
+        impl<N> MaterialWords<N> {
+            /// The name as suites and reports spell it.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$member { .. } => $name,)+
+                }
+            }
+
+            /// The material and its density, once `number` has made a number of every word. It is
+            /// told the key and what stands there.
+            ///
+            /// # Errors
+            /// The first that `number` returns.
+            pub fn numbers<E>(
+                &self,
+                mut number: impl FnMut(&'static str, &Parameter, &N) -> Result<f64, E>,
+            ) -> Result<(MaterialPlan, f64), E> {
+                match self {
+                    $(Self::$member { $($field,)+ density } => {
+                        $(let $field = number(key(stringify!($field)), &$parameter, $field)?;)+
+                        let density = number("density", &DENSITY, density)?;
+                        Ok((MaterialPlan::$member { $($field),+ }, density))
+                    })+
+                }
+            }
+        }
+
+        impl MaterialPlan {
+            /// The name as suites and reports spell it.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$member { .. } => $name,)+
+                }
+            }
+
+            /// Every parameter with its value, in the order of registration.
+            pub fn parameters(&self) -> Vec<(Parameter, f64)> {
+                match self {
+                    $(Self::$member { $($field),+ } => vec![$(($parameter, *$field)),+],)+
+                }
+            }
+
+            /// Builds the material for a body free of stress.
+            pub fn build<const D: usize>(&self) -> Box<dyn Material<D>> {
+                match *self {
+                    $(Self::$member { $($field),+ } => Box::new($member::new($($field),+)),)+
+                }
+            }
+
+            /// One of every registered material: what enrols them in the law tests.
+            #[cfg(test)]
+            fn every(value: impl Fn(&Parameter) -> f64) -> Vec<Self> {
+                vec![$(Self::$member { $($field: value(&$parameter)),+ }),+]
+            }
+        }
+    };
+}
+pub(super) use materials;
+
+/// The key of a field: `yield` for `r#yield`.
+pub(super) fn key(field: &'static str) -> &'static str {
+    field.trim_start_matches("r#")
+}

@@ -1,0 +1,71 @@
+//! One particle of each registered material, for the tests of the family.
+
+use super::{LinearElastic, Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    particles::{Block, Particles},
+};
+
+/// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
+/// Powers of two, so that velocity gradients times the step are exact.
+pub(super) const SLOW: f64 = 1_099_511_627_776.0;
+pub(super) const FAST: f64 = 1.0 / SLOW;
+
+/// One of every registered material.
+pub(super) fn every() -> Vec<MaterialPlan> {
+    MaterialPlan::every(|parameter| match *parameter {
+        YOUNG => 100.0,
+        POISSON => 0.3,
+        YIELD => 3.0,
+        VISCOSITY => 0.7,
+        _ => 40.0,
+    })
+}
+
+/// A material and the one particle that it acts on.
+pub(super) struct Specimen<const D: usize>(Box<dyn Material<D>>, Particles<D>);
+
+impl<const D: usize> Specimen<D> {
+    pub(super) fn new(plan: MaterialPlan) -> Self {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        particles.track_deformation();
+        Self(plan.build(), particles)
+    }
+
+    /// The stress after a step at this velocity gradient.
+    pub(super) fn flow(&mut self, grad_v: &Matrix<D>, dt: f64) -> Matrix<D> {
+        let Self(material, particles) = self;
+        particles.grad_v[0] = *grad_v;
+        particles.def_grad[0] = (Matrix::identity() + grad_v * dt) * particles.def_grad[0];
+        material.update(dt, particles);
+        particles.sigma[0]
+    }
+
+    /// The stress after a step in which F becomes `step * F`.
+    pub(super) fn deform(&mut self, step: &Matrix<D>, dt: f64) -> Matrix<D> {
+        self.flow(&((step - Matrix::identity()) / dt), dt)
+    }
+
+    pub(super) fn j(&self) -> f64 {
+        self.1.vol[0] / self.1.vol0[0]
+    }
+}
+
+/// The stress after one slow step from rest.
+pub(super) fn stress<const D: usize>(plan: MaterialPlan, f: &Matrix<D>) -> Matrix<D> {
+    Specimen::new(plan).deform(f, SLOW)
+}
+
+/// Lame's parameters (Pa).
+pub(super) fn lame(young: f64, poisson: f64) -> (f64, f64) {
+    let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+    (lambda, mu)
+}
+
+/// F of a stretch along the first axis.
+pub(super) fn diagonal<const D: usize>(first: f64) -> Matrix<D> {
+    let mut m = Matrix::identity();
+    m[(0, 0)] = first;
+    m
+}
