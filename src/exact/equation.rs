@@ -1,14 +1,13 @@
 //! Continuum problems that a motion can claim to solve.
 //!
-//! `rho0 u_tt = Div P(grad u) + rho0 b`, with the stress P by one of two laws. Written over any
+//! `rho0 u_tt = Div P(grad u) + rho0 b`, with the stress P by one of three laws. Written over any
 //! [`Number`]: over jets, the divergence of P follows from its formula by automatic
 //! differentiation.
 
-use super::formula::{Jet, Number};
-
-/// Stress or gradient in three dimensions; what lies beyond the problem's dimension is zero, so a
-/// motion in fewer dimensions is one of plane or uniaxial strain.
-type Tensor<T> = [[T; 3]; 3];
+use super::{
+    formula::{Jet, Number},
+    tensor::{Tensor, cofactor, det, log_strain, product, tensor, unit},
+};
 
 /// Lame parameters and the law that uses them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +22,7 @@ pub struct Equation {
 enum Law {
     SmallStrain,
     NeoHookean,
+    Hencky,
 }
 
 impl Equation {
@@ -37,6 +37,13 @@ impl Equation {
     /// ratio.
     pub fn neo_hookean(young: f64, poisson: f64) -> Self {
         Self::new(Law::NeoHookean, young, poisson)
+    }
+
+    /// Hencky elasticity, `P = tau F^-T`, `tau = lambda tr(eps) I + 2 mu eps`, `eps = ln(F F^T)/2`
+    /// (Hencky 1928; along the axes `P_ii = (lambda ln J + 2 mu ln F_ii)/F_ii`), from Young's modulus
+    /// (Pa) and Poisson's ratio.
+    pub fn hencky(young: f64, poisson: f64) -> Self {
+        Self::new(Law::Hencky, young, poisson)
     }
 
     fn new(law: Law, young: f64, poisson: f64) -> Self {
@@ -56,12 +63,19 @@ impl Equation {
                 })
             }
             Law::NeoHookean => {
-                let f = tensor(|i, j| grad[i][j] + T::from(f64::from(u8::from(i == j))));
+                let f = tensor(|i, j| grad[i][j] + unit(i, j));
                 let cofactor = tensor(|i, j| cofactor(&f, i, j));
-                let det =
-                    f[0][0] * cofactor[0][0] + f[0][1] * cofactor[0][1] + f[0][2] * cofactor[0][2];
+                let det = det(&f, &cofactor);
                 let pressure = lambda * Number::ln(det) - mu;
                 tensor(|i, j| pressure * cofactor[i][j] / det + mu * f[i][j])
+            }
+            Law::Hencky => {
+                let f = tensor(|i, j| grad[i][j] + unit(i, j));
+                let cofactor = tensor(|i, j| cofactor(&f, i, j));
+                let det = det(&f, &cofactor);
+                let (strain, pressure) = (log_strain(&f), lambda * Number::ln(det));
+                let tau = tensor(|i, j| pressure * unit(i, j) + (mu + mu) * strain[i][j]);
+                product(&tau, &tensor(|i, j| cofactor[i][j] / det))
             }
         }
     }
@@ -102,17 +116,6 @@ impl Equation {
     pub fn modulus(&self) -> f64 {
         self.lambda + 2.0 * self.mu
     }
-}
-
-fn tensor<T>(component: impl Fn(usize, usize) -> T) -> Tensor<T> {
-    std::array::from_fn(|i| std::array::from_fn(|j| component(i, j)))
-}
-
-/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`.
-fn cofactor<T: Number>(f: &Tensor<T>, i: usize, j: usize) -> T {
-    let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-    let (c, d) = ((j + 1) % 3, (j + 2) % 3);
-    f[a][c] * f[b][d] - f[a][d] * f[b][c]
 }
 
 #[cfg(test)]
@@ -164,23 +167,63 @@ mod tests {
         assert_eq!(solid.cauchy(&grad), solid.piola(&grad));
     }
 
-    /// P is the derivative of `W = lambda/2 ln(J)^2 + mu/2 (tr(F^T F) - 3) - mu ln J`.
+    /// P is the derivative of `W = lambda/2 ln(J)^2 + mu/2 (tr(F^T F) - 3) - mu ln J` and of
+    /// `W = lambda/2 ln(J)^2 + mu eps : eps`.
     #[rstest]
-    fn neo_hookean_stress_is_the_derivative_of_its_energy(
+    fn stress_is_the_derivative_of_an_energy(
+        #[values(Law::NeoHookean, Law::Hencky)] law: Law,
         #[values(0, 1, 2)] i: usize,
         #[values(0, 1, 2)] j: usize,
     ) {
-        let solid = Equation::neo_hookean(50.0, 0.3);
+        let solid = Equation::new(law, 50.0, 0.3);
         let grad = [[0.2, -0.1, 0.05], [0.3, -0.2, 0.1], [0.0, 0.15, 0.1]];
+        let square = |t: &Tensor<f64>| t.iter().flatten().map(|c| c * c).sum::<f64>();
         let energy = |step: f64| {
             let mut f = tensor(|a, b| grad[a][b] + f64::from(u8::from(a == b)));
             f[i][j] += step;
-            let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
-            let square: f64 = f.iter().flatten().map(|c| c * c).sum();
-            let log = libm::log(det);
-            0.5 * solid.lambda * log * log + 0.5 * solid.mu * (square - 3.0) - solid.mu * log
+            let log = libm::log(det(&f, &tensor(|a, b| cofactor(&f, a, b))));
+            let shear = match law {
+                Law::Hencky => solid.mu * square(&log_strain(&f)),
+                _ => 0.5 * solid.mu * (square(&f) - 3.0) - solid.mu * log,
+            };
+            0.5 * solid.lambda * log * log + shear
         };
         let slope = (energy(1e-6) - energy(-1e-6)) / 2e-6;
         assert_relative_eq!(solid.piola(&grad)[i][j], slope, max_relative = 1e-7, epsilon = 1e-7);
+    }
+
+    /// Along the axes, also where stretches coincide, and turned: `P(Q F) = Q P(F)`.
+    #[test]
+    fn hencky_stress_has_its_closed_form_along_the_axes() {
+        let solid = Equation::hencky(50.0, 0.3);
+        let (c, s) = (libm::cos(0.7), libm::sin(0.7));
+        let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
+        for stretches in [[1.3, 0.6, 1.0], [1.2, 1.2, 1.2], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0]]
+        {
+            let f = tensor(|i, j| if i == j { stretches[i] } else { 0.0 });
+            let log: f64 = stretches.iter().map(|stretch| libm::log(*stretch)).sum();
+            let along = |i: usize| {
+                (solid.lambda * log + 2.0 * solid.mu * libm::log(stretches[i])) / stretches[i]
+            };
+            let wanted = tensor(|i, j| turn[i][j] * along(j));
+            let turned = product(&turn, &f);
+            let found = solid.piola(&tensor(|i, j| turned[i][j] - unit::<f64>(i, j)));
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
+                assert_relative_eq!(
+                    found[i][j],
+                    wanted[i][j],
+                    max_relative = 1e-11,
+                    epsilon = 1e-13
+                );
+            }
+        }
+    }
+
+    /// A stretch that the series does not reach is no number, rather than a wrong one.
+    #[test]
+    fn an_extreme_stretch_has_no_hencky_stress() {
+        let mut grad = [[0.0; 3]; 3];
+        grad[0][0] = 100.0;
+        assert!(Equation::hencky(50.0, 0.3).piola(&grad)[0][0].is_nan());
     }
 }

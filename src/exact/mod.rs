@@ -14,6 +14,7 @@ mod pointwise;
 mod problem;
 mod random;
 mod region;
+mod tensor;
 mod truth;
 mod violation;
 mod weak;
