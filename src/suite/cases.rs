@@ -5,9 +5,10 @@ use super::{
     dispatch::cell_size,
     expect,
     hold::Hold,
+    law,
     method::Method,
     methods::methods,
-    model::{Against, Case, ConvergencePlan, MaterialName},
+    model::{Against, Case, ConvergencePlan},
     path::Path,
     wording::shown,
     words::{ConvergenceWords, EquationName, MethodWords},
@@ -204,10 +205,8 @@ fn driven(plan: &ConvergencePlan) -> bool {
     plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Velocity(_)))
 }
 
-/// The law of an FEM case that names none: that of the scene's material.
+/// The law of an FEM case that names none: that of the scene's material. Where there is none, such
+/// a case has been refused (`law::check`).
 fn own_law(plan: &ConvergencePlan) -> EquationName {
-    match plan.scene.law {
-        MaterialName::LinearElastic => EquationName::SmallStrain,
-        MaterialName::NeoHookean => EquationName::NeoHookean,
-    }
+    law::own(&plan.scene.material).unwrap_or(EquationName::SmallStrain)
 }

@@ -4,15 +4,15 @@
 use super::{
     conditions::{boundary, of_time, on_sets, periodic, side},
     method::Method,
-    model::{ConvergencePlan, MaterialName, Scene, SceneFace},
+    model::{ConvergencePlan, Scene, SceneFace},
     words::EquationName,
 };
 use crate::{
     exact::{Problem, Region, formula::Formula},
     fem::{self, Bar, Sampling},
     mpm::{
-        Block, BodyForce, Effect, Gravity, Grid, Kernel, LinearElastic, Material, NeoHookean,
-        Particles, Solver, Traction, Vector, kernel,
+        Block, BodyForce, Effect, Gravity, Grid, Kernel, LinearElastic, MaterialPlan, Particles,
+        Solver, Traction, Vector, kernel,
     },
     subject::{Start, Subject},
     verify::Quantity,
@@ -84,7 +84,7 @@ fn mpm<const D: usize>(
         transfer: crate::mpm::transfer(transfer),
         mass: crate::mpm::mass_matrix(mass),
         frame,
-        material: material(scene),
+        material: scene.material.build(),
         effects,
         boundary: boundary(scene, &grid, basis),
         grid,
@@ -123,13 +123,6 @@ fn manufactured_force<const D: usize>(made: &Problem) -> Box<dyn Effect<D>> {
         let force = made.manufactured_force(x0.as_slice(), t);
         Vector::from_fn(|i, _| force[i])
     })))
-}
-
-fn material<const D: usize>(scene: &Scene) -> Box<dyn Material<D>> {
-    match scene.law {
-        MaterialName::LinearElastic => Box::new(LinearElastic::new(scene.young, scene.poisson)),
-        MaterialName::NeoHookean => Box::new(NeoHookean::new(scene.young, scene.poisson)),
-    }
 }
 
 /// The grid that the suite asks for, or the body's box with room beyond its free faces.
@@ -187,7 +180,7 @@ pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         element,
         mass,
         density: scene.density,
-        law: piola(law, scene.young, scene.poisson),
+        law: piola(law, &scene.material)?,
         fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
         body_force: body_force(scene, made.clone()),
         traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
@@ -225,17 +218,19 @@ fn end_traction(face: &SceneFace) -> Option<fem::History> {
 }
 
 /// P(F) (Pa) of a bar in uniaxial strain.
-fn piola(law: EquationName, young: f64, poisson: f64) -> fem::Field {
+fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::Field, String> {
+    let (young, poisson) = material.elasticity().ok_or("the material has no Young's modulus")?;
     let material = LinearElastic::new(young, poisson);
     let modulus = material.lambda + 2.0 * material.mu;
-    match law {
+    Ok(match law {
         EquationName::SmallStrain => Box::new(move |f| modulus * (f - 1.0)),
         EquationName::LogStrain => Box::new(move |f| modulus * libm::log(f)),
         EquationName::NeoHookean => {
             let LinearElastic { lambda, mu } = material;
             Box::new(move |f| lambda * libm::log(f) / f + mu * (f - 1.0 / f))
         }
-    }
+        EquationName::Hencky => Box::new(move |f| modulus * libm::log(f) / f),
+    })
 }
 
 /// The method that a reference is computed with.
@@ -246,5 +241,47 @@ pub(super) fn reference_method(plan: &super::model::ReferencePlan) -> Method {
         law: plan.equation,
         start: Start::HalfStepBack,
         sampling: Sampling::Inside,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{mpm::Matrix, suite::law};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// `J sigma F^-T` (Pa) of the MPM's material.
+    fn piola_of_mpm<const D: usize>(plan: &MaterialPlan, f: &Matrix<D>) -> Matrix<3> {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut one = Particles::<D>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        one.track_deformation();
+        one.def_grad[0] = *f;
+        plan.build().update(0.0, &mut one);
+        let mut space = Matrix::<3>::identity();
+        space.fixed_view_mut::<D, D>(0, 0).copy_from(f);
+        let mut sigma = Matrix::<3>::zeros();
+        sigma.fixed_view_mut::<D, D>(0, 0).copy_from(&one.sigma[0]);
+        sigma * space.try_inverse().unwrap().transpose() * space.determinant()
+    }
+
+    /// A law is written three times, in three ways: no part can agree with another's slip.
+    #[rstest]
+    #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]
+    #[case(MaterialPlan::Hencky { young: 100.0, poisson: 0.3 })]
+    fn mpm_fem_and_truth_mean_the_same_law(#[case] plan: MaterialPlan) {
+        let truth = law::manufactured(&plan).unwrap();
+        let bar = piola(law::own(&plan).unwrap(), &plan).unwrap();
+        for stretch in [0.7, 1.0 + 1e-6, 1.4] {
+            let stress = piola_of_mpm(&plan, &Matrix::<1>::new(stretch))[(0, 0)];
+            assert_relative_eq!(bar(stretch), stress, max_relative = 1e-9);
+        }
+        let f = Matrix::<3>::new(1.2, -0.1, 0.05, 0.3, 0.8, 0.1, 0.0, 0.15, 1.1);
+        let grad = f - Matrix::identity();
+        let stress = truth.piola(&[0, 1, 2].map(|i| [0, 1, 2].map(|j| grad[(i, j)])));
+        let expected = piola_of_mpm(&plan, &f);
+        for (k, expected) in expected.iter().enumerate() {
+            assert_relative_eq!(stress[k % 3][k / 3], *expected, epsilon = 1e-11);
+        }
     }
 }

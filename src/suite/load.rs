@@ -3,7 +3,7 @@
 use super::{
     bar_limits,
     binder::{Binder, Parameter},
-    cases, comparable, force,
+    cases, comparable, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
     scene, size, truth,
@@ -53,6 +53,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let dimension = scene.dimension();
     let reference = words.reference.as_ref().map(|words| reference(&binder, words, dimension));
     let reference = reference.transpose()?;
+    law::check(&binder, &words, &scene)?;
     if exact.is_none() && reference.is_none() {
         let message = "no truth: a convergence study needs `exact`, `manufactured` or `reference`";
         return Err(binder.complain_key(&Path::top("suite"), message));

@@ -21,6 +21,7 @@ mod expect;
 mod force;
 mod hold;
 mod judged;
+mod law;
 mod limits;
 mod load;
 mod method;
@@ -41,7 +42,7 @@ pub use execute::{Progress, Runner};
 pub use hold::Hold;
 pub use method::Method;
 pub use model::{
-    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, MaterialName,
-    ReferencePlan, Scene, SceneFace, StudyPlan, Suite,
+    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,
+    SceneFace, StudyPlan, Suite,
 };
 pub use words::{CrossingLevels, EquationName, NormName};

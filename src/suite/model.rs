@@ -8,8 +8,7 @@ use super::{
 use crate::{
     exact::{Problem, Region, formula::Formula},
     fem::{Element, Mass},
-    mpm::BasisName,
-    named::named,
+    mpm::{BasisName, MaterialPlan},
     verify::{Expectation, Quantity},
 };
 
@@ -96,16 +95,6 @@ pub enum Against {
     Reference,
 }
 
-named! {
-    /// Names of the materials that suites may choose.
-    pub enum MaterialName {
-        /// Linear elasticity, integrated in rate form.
-        LinearElastic = "linear_elastic",
-        /// Compressible neo-Hookean elasticity.
-        NeoHookean = "neo_hookean",
-    }
-}
-
 /// The body and what acts on it.
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -115,12 +104,8 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Grid that the suite asks for, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
-    /// Constitutive law.
-    pub law: MaterialName,
-    /// Young's modulus (Pa).
-    pub young: f64,
-    /// Poisson's ratio.
-    pub poisson: f64,
+    /// The material, but for its density.
+    pub material: MaterialPlan,
     /// Reference density (kg/m^D).
     pub density: f64,
     /// The 2 D faces: low and high, axis by axis.

@@ -3,14 +3,17 @@
 use super::{
     binder::Binder,
     hold::{self, FACES, face},
-    model::{MaterialName, Scene, SceneFace},
+    model::{Scene, SceneFace},
     path::Path,
     sets,
     wording::shown,
-    words::{BodyWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords, SetWords},
+    words::{BodyWords, BoxWords, LoadWords, SceneWords, SetWords},
     yaml::{Complaint, NumberText},
 };
-use crate::exact::{Region, formula::Formula};
+use crate::{
+    exact::{Region, formula::Formula},
+    mpm::{MaterialPlan, MaterialWords, Range},
+};
 
 /// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
 const SHORTEST: f64 = 1e-30;
@@ -36,19 +39,13 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         .map(|grid| corners(binder, &path.then("grid"), grid, dimension))
         .transpose()?;
     let sets = declared_sets(binder, &path, words, (&from, &to))?;
-    let (law, ElasticWords { young, poisson, density }) = match &words.material {
-        MaterialWords::LinearElastic(words) => (MaterialName::LinearElastic, words),
-        MaterialWords::NeoHookean(words) => (MaterialName::NeoHookean, words),
-    };
-    let at = path.then("material").then(law.name());
+    let (material, density) = material(binder, &path.then("material"), &words.material)?;
     let mut scene = Scene {
         from,
         to,
         grid,
-        law,
-        young: binder.positive(&at.then("young"), young, "Young's modulus")?,
-        poisson: poissons_ratio(binder, &at.then("poisson"), poisson)?,
-        density: binder.positive(&at.then("density"), density, "the density")?,
+        material,
+        density,
         faces: faces(binder, &path, words, dimension)?,
         sets,
         gravity: None,
@@ -98,6 +95,37 @@ fn corners(
         }
     }
     Ok((from, to))
+}
+
+/// The material and its density (kg/m^D).
+fn material(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &MaterialWords<NumberText>,
+) -> Result<(MaterialPlan, f64), Complaint> {
+    let path = path.then(words.name());
+    words.numbers(|key, parameter, text| {
+        let at = path.then(key);
+        match parameter.range {
+            Range::Positive => binder.positive(&at, text, parameter.what),
+            Range::NotNegative => not_negative(binder, &at, text, parameter.what),
+            Range::PoissonsRatio => poissons_ratio(binder, &at, text),
+        }
+    })
+}
+
+fn not_negative(
+    binder: &Binder<'_>,
+    path: &Path,
+    text: &NumberText,
+    what: &str,
+) -> Result<f64, Complaint> {
+    let value = binder.number(path, text)?;
+    if value >= 0.0 {
+        return Ok(value);
+    }
+    let message = format!("{what} is {}, and must not be below zero", shown(value));
+    Err(binder.complain(path, &message).with_label("expected zero or a positive number"))
 }
 
 fn poissons_ratio(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<f64, Complaint> {

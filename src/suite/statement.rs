@@ -4,11 +4,15 @@ use super::{
     hold::Hold,
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
 };
-use crate::exact::{Problem, formula::Formula};
+use crate::{
+    exact::{Problem, formula::Formula},
+    mpm::{MaterialPlan, Parameter},
+};
 
 const SMALL_STRAIN: &str = "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)";
 const NEO_HOOKEAN: &str =
     "neo-Hookean, rho0 u_tt = Div P + rho0 b, P = lambda ln(J) F^-T + mu (F - F^-T)";
+const HENCKY: &str = "Hencky, rho0 u_tt = Div P + rho0 b, P = (lambda ln(J) I + mu ln(F F^T)) F^-T";
 
 /// Rows for the whole suite.
 pub fn rows(suite: &Suite) -> Vec<(String, String)> {
@@ -55,7 +59,8 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
         if problem.manufactured {
             push(rows, "motion", &problem.motion.source());
             push(rows, "body force", "manufactured, b = u_tt - Div P / rho0");
-            push(rows, "equation", NEO_HOOKEAN);
+            let hencky = matches!(plan.scene.material, MaterialPlan::Hencky { .. });
+            push(rows, "equation", if hencky { HENCKY } else { NEO_HOOKEAN });
         } else {
             push(rows, "equation", SMALL_STRAIN);
         }
@@ -88,9 +93,7 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     if let Some((from, to)) = &scene.grid {
         push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
     }
-    let (young, poisson) = (scene.young, scene.poisson);
-    let law = scene.law.name().replace('_', " ");
-    push(rows, "material", &format!("{law}, E = {young} Pa, nu = {poisson}"));
+    push(rows, "material", &material(&scene.material));
     for face in &scene.faces {
         let state = match (&face.traction, &face.hold) {
             (Some(value), _) => format!("traction {} Pa", sources(value)),
@@ -114,6 +117,15 @@ fn scene(scene: &Scene, rows: &mut Rows) {
         push(rows, "gravity", &format!("{} m/s2", sources(gravity)));
     }
     push(rows, "initial velocity", &sources(&scene.initial_velocity));
+}
+
+/// The material's name and parameters: `linear elastic, E = 100 Pa, nu = 0`.
+fn material(plan: &MaterialPlan) -> String {
+    let written = |(Parameter { symbol, unit, .. }, value): (Parameter, f64)| {
+        format!(", {symbol} = {value} {unit}").trim_end().to_owned()
+    };
+    let parameters: String = plan.parameters().into_iter().map(written).collect();
+    plan.name().replace('_', " ") + &parameters
 }
 
 fn sources(formulas: &[Formula]) -> String {

@@ -3,13 +3,17 @@
 use super::{
     binder::Binder,
     hold::Hold,
-    model::{MaterialName, Scene, SceneFace},
+    law,
+    model::{Scene, SceneFace},
     path::Path,
     scene::coordinates_and_time,
     words::{ConvergenceWords, EquationName},
     yaml::{Complaint, NumberText},
 };
-use crate::exact::{Condition, Equation, Face, Motion, Problem};
+use crate::{
+    exact::{Condition, Equation, Face, Motion, Problem},
+    mpm::MaterialPlan,
+};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 const TOLERANCE: f64 = 1e-8;
@@ -34,11 +38,11 @@ pub(super) fn exact(
         let message = "a solution is either exact or manufactured";
         return Err(binder.complain_key(&Path::top("manufactured"), message));
     }
-    if scene.law != MaterialName::LinearElastic {
+    let MaterialPlan::LinearElastic { young, poisson } = scene.material else {
         let message = "`small_strain` is the problem of a linear elastic material";
         let complaint = binder.complain(&path.then("equation"), message);
         return Err(complaint.with_help("state the motion under `manufactured`"));
-    }
+    };
     if exact.equation != EquationName::SmallStrain {
         let message = "a formula is checked against `small_strain` only";
         let complaint = binder.complain(&path.then("equation"), message);
@@ -48,7 +52,7 @@ pub(super) fn exact(
         tolerance: tolerance(binder, &path, exact.tolerance.as_ref())?,
         ..problem(
             scene,
-            Equation::small_strain(scene.young, scene.poisson),
+            Equation::small_strain(young, poisson),
             motion(binder, &path, &exact.displacement, scene.dimension())?,
             until,
         )
@@ -66,13 +70,10 @@ fn manufactured(
 ) -> Result<Option<Problem>, Complaint> {
     let Some(made) = &words.manufactured else { return Ok(None) };
     let path = Path::top("manufactured");
-    if scene.law != MaterialName::NeoHookean {
-        let message = "a force is manufactured for a `neo_hookean` material";
-        let complaint = binder.complain_key(&path, message);
-        return Err(
-            complaint.with_help("a law in rate form has no stress of the deformation alone")
-        );
-    }
+    let equation = law::manufactured(&scene.material).map_err(|reason| {
+        let message = "a force is manufactured for a `neo_hookean` or `hencky` material";
+        binder.complain_key(&path, message).with_help(reason)
+    })?;
     if !scene.initial_velocity.is_empty() {
         let message = "the initial velocity follows from the motion";
         let at = Path::top("scene").then("initial_velocity");
@@ -82,7 +83,7 @@ fn manufactured(
         manufactured: true,
         ..problem(
             scene,
-            Equation::neo_hookean(scene.young, scene.poisson),
+            equation,
             motion(binder, &path, &made.displacement, scene.dimension())?,
             until,
         )

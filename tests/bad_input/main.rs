@@ -7,6 +7,7 @@ mod boundaries;
 mod expectations;
 mod formulas;
 mod grammar;
+mod materials;
 mod numbers;
 mod quantities;
 mod random;

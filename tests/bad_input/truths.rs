@@ -2,7 +2,7 @@
 
 use super::{
     Edits, refused,
-    samples::{BAR, COLUMN, PULLED},
+    samples::{BAR, COLUMN, PLATE, PULLED},
 };
 use rstest::rstest;
 
@@ -124,7 +124,15 @@ fn a_manufactured_motion_must_fit_the_scene(#[case] edits: Edits<'_>, #[case] wo
 #[rstest]
 #[case::a_law_in_rate_form(
     &[("neo_hookean: {young", "linear_elastic: {young"), ("manufactured:  #", "▸manufactured:  #")],
-    &["a force is manufactured for a `neo_hookean` material"]
+    &["a force is manufactured for a `neo_hookean` or `hencky` material", "a law in rate form has no stress"]
+)]
+#[case::plastic_flow(
+    &[("neo_hookean: {young: E, poisson: 0", "j2: {young: E, poisson: 0, yield: 1"), ("manufactured:  #", "▸manufactured:  #")],
+    &["a force is manufactured for a `neo_hookean` or `hencky` material", "plastic flow depends on the whole history"]
+)]
+#[case::a_fluid(
+    &[("neo_hookean: {young: E, poisson: 0", "newtonian: {bulk: E, viscosity: 1"), ("manufactured:  #", "▸manufactured:  #")],
+    &["a force is manufactured for a `neo_hookean` or `hencky` material", "viscous stress depends on the rate"]
 )]
 #[case::an_initial_velocity(
     &[("\nmanufactured:", "  ▸initial_velocity: [0]\n\nmanufactured:")],
@@ -136,4 +144,28 @@ fn a_manufactured_motion_must_fit_the_scene(#[case] edits: Edits<'_>, #[case] wo
 )]
 fn a_manufactured_motion_is_refused_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(FORCED, edits, words);
+}
+
+/// Shear, and principal stretches that coincide at times: two differentiations of the stress agree
+/// and the weak form is balanced, or the suite would be refused.
+#[rstest]
+#[case::bar(FORCED, &[])]
+#[case::plate(
+    PLATE,
+    &[
+        ("boundary: {left: fixed}", "boundary: {left: fixed, right: fixed, bottom: fixed, top: fixed}"),
+        ("  initial_velocity: [\"sin(pi*X/2)\", 0]\n", ""),
+        ("exact:\n  equation: small_strain", "manufactured:"),
+        ("\"sin(pi*X/2)*sin(omega*t)/omega\", 0", "\"0.05*sin(pi*X)*sin(2*pi*Y)*sin(omega*t)\", \"0.1*sin(2*pi*X)*sin(2*pi*Y)*sin(omega*t)\""),
+    ]
+)]
+fn a_force_is_manufactured_for_hencky_as_well(#[case] sound: &str, #[case] edits: Edits<'_>) {
+    let mut text = sound.replace("neo_hookean", "hencky").replace("linear_elastic", "hencky");
+    for (right, other) in edits {
+        assert!(text.contains(right), "the suite does not say `{right}`");
+        text = text.replacen(right, other, 1);
+    }
+    if let Err(complaint) = super::load(&text) {
+        panic!("{complaint}");
+    }
 }

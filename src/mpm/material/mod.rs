@@ -35,3 +35,12 @@ materials! {
     "j2" => J2 { young: YOUNG, poisson: POISSON, r#yield: YIELD, #[serde(default)] hardening: HARDENING },
     "newtonian" => Newtonian { bulk: BULK, viscosity: VISCOSITY },
 }
+
+impl MaterialPlan {
+    /// Young's modulus (Pa) and Poisson's ratio of a solid.
+    pub fn elasticity(&self) -> Option<(f64, f64)> {
+        let parameters = self.parameters();
+        let value = |wanted| parameters.iter().find(|(known, _)| *known == wanted);
+        Some((value(YOUNG)?.1, value(POISSON)?.1))
+    }
+}

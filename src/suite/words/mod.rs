@@ -8,8 +8,7 @@ mod scene;
 
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
 pub(in crate::suite) use scene::{
-    BodyWords, BoundaryWords, BoxWords, ElasticWords, LoadWords, MaterialWords, SceneWords,
-    SetWords,
+    BodyWords, BoundaryWords, BoxWords, LoadWords, SceneWords, SetWords,
 };
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
@@ -96,6 +95,8 @@ named! {
         LogStrain = "log_strain",
         /// `P = lambda ln(J) F^-T + mu (F - F^-T)`.
         NeoHookean = "neo_hookean",
+        /// `P = (lambda ln(J) I + mu ln(F F^T)) F^-T`.
+        Hencky = "hencky",
     }
 }
 

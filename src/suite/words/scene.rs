@@ -1,6 +1,9 @@
 //! The words of a scene.
 
-use crate::suite::yaml::{NumberText, Ordered};
+use crate::{
+    mpm::MaterialWords,
+    suite::yaml::{NumberText, Ordered},
+};
 use serde::Deserialize;
 
 #[derive(Debug, Clone, Deserialize)]
@@ -9,7 +12,7 @@ pub(in crate::suite) struct SceneWords {
     pub(in crate::suite) dimension: NumberText,
     pub(in crate::suite) body: BodyWords,
     pub(in crate::suite) grid: Option<BoxWords>,
-    pub(in crate::suite) material: MaterialWords,
+    pub(in crate::suite) material: MaterialWords<NumberText>,
     #[serde(default)]
     pub(in crate::suite) boundary: Ordered<BoundaryWords>,
     pub(in crate::suite) initial_velocity: Option<Vec<NumberText>>,
@@ -30,21 +33,6 @@ pub(in crate::suite) enum BodyWords {
 pub(in crate::suite) struct BoxWords {
     pub(in crate::suite) from: Vec<NumberText>,
     pub(in crate::suite) to: Vec<NumberText>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(in crate::suite) enum MaterialWords {
-    LinearElastic(ElasticWords),
-    NeoHookean(ElasticWords),
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::suite) struct ElasticWords {
-    pub(in crate::suite) young: NumberText,
-    pub(in crate::suite) poisson: NumberText,
-    pub(in crate::suite) density: NumberText,
 }
 
 /// Boundary conditions on a face; a face that is not named is free.

@@ -16,6 +16,13 @@ pub enum NumberText {
     Formula(String),
 }
 
+/// Zero: what an optional number is that a suite does not give.
+impl Default for NumberText {
+    fn default() -> Self {
+        Self::Number(0.0)
+    }
+}
+
 impl fmt::Display for NumberText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

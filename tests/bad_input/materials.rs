@@ -1,0 +1,83 @@
+//! Materials and their parameters.
+
+use super::{Edits, load, refused, samples::BAR};
+use rstest::rstest;
+
+const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
+
+#[rstest]
+#[case::an_unknown_material(&[("linear_elastic", "▸linear_elastik")], &["unknown name `linear_elastik`", "did you mean `linear_elastic`?"])]
+#[case::no_such_material(&[("linear_elastic", "▸rubber")], &["unknown name `rubber`", "j2"])]
+#[case::two_materials(
+    &[(ELASTIC, "▸{hencky: {young: E, poisson: 0, density: rho}, j2: {}}")],
+    &["one name with its settings is expected here, found none or several"]
+)]
+#[case::a_parameter_of_another(
+    &[(ELASTIC, "{newtonian: {bulk: E, viscosity: 0, density: rho, ▸poisson: 0}}")],
+    &["unknown key `poisson`", "bulk"]
+)]
+#[case::a_misspelt_parameter(
+    &[(ELASTIC, "{newtonian: {bulk: E, ▸viscositi: 0, density: rho}}")],
+    &["unknown key `viscositi`", "did you mean `viscosity`?"]
+)]
+#[case::a_solid_without_yield_stress(
+    &[(ELASTIC, "{j2: ▸{young: E, poisson: 0, density: rho}}")],
+    &["missing key `yield` in `j2`", "add `yield: VALUE`"]
+)]
+#[case::a_yield_stress_of_zero(
+    &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: ▸0, density: rho}}")],
+    &["the yield stress is 0, and must be above zero"]
+)]
+#[case::softening(
+    &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, hardening: ▸\"-E\", density: rho}}")],
+    &["the hardening modulus is -100, and must not be below zero", "expected zero or a positive number"]
+)]
+#[case::a_fluid_without_stiffness(
+    &[(ELASTIC, "{newtonian: {bulk: ▸0, viscosity: 1, density: rho}}")],
+    &["the bulk modulus is 0, and must be above zero"]
+)]
+#[case::a_negative_viscosity(
+    &[(ELASTIC, "{newtonian: {bulk: E, viscosity: ▸-1, density: rho}}")],
+    &["the viscosity is -1, and must not be below zero"]
+)]
+#[case::a_hencky_solid_that_is_not_stable(
+    &[(ELASTIC, "{hencky: {young: E, poisson: ▸0.5, density: rho}}")],
+    &["Poisson's ratio is 0.5", "expected a number above -1 and below 0.5"]
+)]
+#[case::a_small_strain_truth_for_plastic_flow(
+    &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("small_strain", "▸small_strain")],
+    &["`small_strain` is the problem of a linear elastic material"]
+)]
+fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}
+
+const EXACT: &str =
+    "exact:\n  equation: small_strain\n  displacement: [\"v0/omega*mode(X)*sin(omega*t)\"]\n";
+const REFERENCE: &str = "reference:\n  equation: hencky\n  fem: {element: linear, mass: lumped, cells: 100, dt: \"1e-3/omega\"}\n";
+
+#[rstest]
+#[case::an_fem_bar_that_would_have_to_flow(
+    &[(EXACT, REFERENCE), (ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("- fem:", "- ▸fem:")],
+    &["the reference FEM has no `j2`", "name the `law` of an elastic bar"]
+)]
+#[case::a_fluid_as_reference(
+    &[(EXACT, REFERENCE), ("reference:", "▸reference:"), (ELASTIC, "{newtonian: {bulk: E, viscosity: 1, density: rho}}")],
+    &["the reference FEM is a solid bar, `newtonian` has no Young's modulus"]
+)]
+fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}
+
+/// Against an elastic reference that the suite names; the FEM case names its law too.
+#[test]
+fn a_plastic_bar_is_sound_with_a_reference_and_a_law() {
+    let solid = "{j2: {young: E, poisson: 0, yield: 1, hardening: 2, density: rho}}";
+    let sound = BAR
+        .replace(EXACT, REFERENCE)
+        .replace(ELASTIC, solid)
+        .replace("mass: lumped}\n\njudge", "mass: lumped, law: hencky}\n\njudge");
+    if let Err(complaint) = load(&sound) {
+        panic!("{complaint}");
+    }
+}
