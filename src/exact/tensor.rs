@@ -38,8 +38,14 @@ pub(super) fn product<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> Tensor<T> {
 ///
 /// From `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse, `X + X^3/3 + X^5/5 + ...`
 /// (Higham 2008, *Functions of Matrices*, section 11.4): no eigenvalues, whose derivatives would not
-/// exist where they coincide. NaN where [`MOST_TERMS`] do not suffice.
+/// exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears, and with
+/// no derivative either, the strains are logarithms, which is quicker.
 pub(super) fn log_strain<T: Number>(f: &Tensor<T>) -> Tensor<T> {
+    let zero = T::from(0.0);
+    let sheared = |i: usize| (0..3).any(|j| j != i && f[i][j] != zero);
+    if !(0..3).any(sheared) {
+        return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { zero });
+    }
     let b: Tensor<T> = tensor(|i, j| f[i][0] * f[j][0] + f[i][1] * f[j][1] + f[i][2] * f[j][2]);
     let sum = tensor(|i, j| b[i][j] + unit(i, j));
     // b + I is symmetric, and so are its cofactors.

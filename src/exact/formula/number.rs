@@ -24,6 +24,7 @@ macro_rules! elementary {
 /// `Number::sin(x)`, if the bits have to be the same everywhere.
 pub trait Number:
     Copy
+    + PartialEq
     + From<f64>
     + Add<Output = Self>
     + Sub<Output = Self>
