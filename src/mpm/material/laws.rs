@@ -145,7 +145,16 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm());
 }
 
+/// What has been kept of a step, plastic flow too, gives the same stress again.
+fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
+    let mut specimen = Specimen::<D>::new(plan);
+    let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
+    let again = specimen.flow(&Matrix::zeros(), SLOW);
+    assert_abs_diff_eq!(again, first, epsilon = 1e-11);
+}
+
 fn hold<const D: usize>(plan: MaterialPlan) {
+    rest_keeps_the_stress::<D>(plan);
     no_strain_means_no_stress::<D>(plan);
     waves_have_their_speed::<D>(plan);
     rotation_in_a_step_only_turns_the_stress::<D>(plan);
