@@ -5,10 +5,14 @@ mod common;
 use allocation_counter::measure;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
+    exact::{
+        Equation, Forcing, Motion, Problem,
+        formula::{Expr, Formula, Scope},
+    },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, Driven, Fixed, Gravity, MaterialPlan, Prescribed, Roller, SchemeName, SetForce,
-        Side, Solver, Traction, TransferName, Vector, VelocityField,
+        BasisName, BodyForce, Driven, Fixed, Gravity, MaterialPlan, Prescribed, Roller, SchemeName,
+        SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
     },
     subject::{Samples, Start, Subject},
 };
@@ -27,7 +31,29 @@ fn holds_its_memory(name: &str, subject: &mut dyn Subject, dt: f64) {
     assert!(!samples.is_empty(), "{name}: there was something to sample");
 }
 
-/// A body under gravity, pulled at its far end, with a force on some particles and others driven,
+/// The force of a small manufactured motion that has a part of every kind: of X, of t and of both.
+fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
+    let names: Vec<&str> = ["X", "Y", "Z"][..D].iter().chain(&["t"]).copied().collect();
+    let expr = Expr::parse("sum(n, 1, 3, 1e-5*sin(n*X)*cos(t))*cos(X*t)").unwrap();
+    let formula = Formula::bind(&expr, &Scope::new(), &names).unwrap();
+    let problem = Problem {
+        from: vec![0.0; D],
+        to: vec![1.0; D],
+        density: 1.0,
+        equation: Equation::neo_hookean(1.0, 0.3),
+        gravity: Vec::new(),
+        regions: Vec::new(),
+        manufactured: true,
+        faces: Vec::new(),
+        initial_velocity: Vec::new(),
+        until: 1.0,
+        motion: Motion::new(vec![formula; D]),
+        tolerance: 1e-8,
+    };
+    Forcing::new(&problem, labels.iter().map(Vector::as_slice))
+}
+
+/// A body under gravity and a manufactured force, pulled at its far end, with a force on some particles and others driven,
 /// between walls of every kind.
 fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
     for method in methods() {
@@ -39,8 +65,17 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         let force = SetForce::on(&setup.particles, &[0, 1], pull);
         let drive = || -> VelocityField<D> { Box::new(|x, t| x * t) };
         let driven = Driven::on(&setup.particles, &[2, 3], drive());
-        setup.effects =
-            vec![Box::new(gravity), Box::new(traction), Box::new(force), Box::new(driven)];
+        let mut forcing = forcing(&setup.particles.x0);
+        let made = BodyForce::new(Box::new(move |t, _, b| {
+            forcing.at(t, b, |force| Vector::<D>::from_fn(|i, _| force[i]));
+        }));
+        setup.effects = vec![
+            Box::new(gravity),
+            Box::new(traction),
+            Box::new(force),
+            Box::new(driven),
+            Box::new(made),
+        ];
         let (grid, last) = (&setup.grid, D - 1);
         setup.boundary = vec![
             Box::new(Prescribed::face(grid, method.0, last, Side::High, drive())),

@@ -1,12 +1,12 @@
 //! Continuum problems that a motion can claim to solve.
 //!
 //! `rho0 u_tt = Div P(grad u) + rho0 b`, with the stress P by one of three laws. Written over any
-//! [`Number`]: over jets, the divergence of P follows from its formula by automatic
+//! [`Number`]: over slopes, the divergence of P follows from its formula by automatic
 //! differentiation.
 
 use super::{
-    formula::{Jet, Number},
-    tensor::{Tensor, cofactor, det, log_strain, product, tensor, unit},
+    formula::{Number, Slope},
+    tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit},
 };
 
 /// Lame parameters and the law that uses them.
@@ -52,26 +52,26 @@ impl Equation {
     }
 
     /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
-    pub fn piola<T: Number>(&self, grad: &Tensor<T>) -> Tensor<T> {
+    pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let (lambda, mu) = (T::from(self.lambda), T::from(self.mu));
         match self.law {
             Law::SmallStrain => {
-                let pressure = lambda * (grad[0][0] + grad[1][1] + grad[2][2]);
+                let pressure = lambda * sum::<T, D>(|i| grad[i][i]);
                 tensor(|i, j| {
                     let shear = mu * (grad[i][j] + grad[j][i]);
                     if i == j { pressure + shear } else { shear }
                 })
             }
             Law::NeoHookean => {
-                let f = tensor(|i, j| grad[i][j] + unit(i, j));
-                let cofactor = tensor(|i, j| cofactor(&f, i, j));
+                let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+                let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
                 let det = det(&f, &cofactor);
                 let pressure = lambda * Number::ln(det) - mu;
                 tensor(|i, j| pressure * cofactor[i][j] / det + mu * f[i][j])
             }
             Law::Hencky => {
-                let f = tensor(|i, j| grad[i][j] + unit(i, j));
-                let cofactor = tensor(|i, j| cofactor(&f, i, j));
+                let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+                let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
                 let det = det(&f, &cofactor);
                 let (strain, pressure) = (log_strain(&f), lambda * Number::ln(det));
                 let tau = tensor(|i, j| pressure * unit(i, j) + (mu + mu) * strain[i][j]);
@@ -87,29 +87,42 @@ impl Equation {
         if self.law == Law::SmallStrain {
             return piola;
         }
-        let f = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
+        let f: Tensor<f64> = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
         let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
         tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
     }
 
-    /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`:
-    /// one jet along each of the `dimension` axes on which anything varies.
+    /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`,
+    /// where nothing varies beyond the first `dimension` axes.
     pub fn divergence(
         &self,
         dimension: usize,
         grad: &Tensor<f64>,
         second: &[Tensor<f64>; 3],
     ) -> [f64; 3] {
-        let along: Jet<1> = Jet::variable(0.0, 0);
-        let mut divergence = [0.0; 3];
-        for axis in 0..dimension {
-            let jets = tensor(|i, j| Jet::from(grad[i][j]) + along * Jet::from(second[i][j][axis]));
-            let stress = self.piola(&jets);
-            for (i, component) in divergence.iter_mut().enumerate() {
-                *component += stress[i][axis].d(0);
+        match dimension {
+            1 => {
+                let [x] = self.divergence_in(grad, second);
+                [x, 0.0, 0.0]
             }
+            2 => {
+                let [x, y] = self.divergence_in(grad, second);
+                [x, y, 0.0]
+            }
+            _ => self.divergence_in(grad, second),
         }
-        divergence
+    }
+
+    /// Div P in D dimensions: P once, with its slopes along all axes.
+    fn divergence_in<const D: usize>(
+        &self,
+        grad: &Tensor<f64>,
+        second: &[Tensor<f64>; 3],
+    ) -> [f64; D] {
+        let slopes = |i: usize, j: usize| std::array::from_fn(|axis| second[i][j][axis]);
+        let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
+        let stress = self.piola(&varying);
+        std::array::from_fn(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
     }
 
     /// Stiffest modulus, `lambda + 2 mu` (Pa): a bound for stresses of a given strain.
@@ -167,6 +180,23 @@ mod tests {
         assert_eq!(solid.cauchy(&grad), solid.piola(&grad));
     }
 
+    /// Fewer dimensions are three with zeros.
+    #[rstest]
+    fn plane_and_uniaxial_strain_are_special_cases(
+        #[values(Law::SmallStrain, Law::NeoHookean, Law::Hencky)] law: Law,
+        #[values(1, 2)] dimension: usize,
+    ) {
+        let solid = Equation { law, lambda: 2.0, mu: 3.0 };
+        let inside = |i: usize, j: usize, value| if i.max(j) < dimension { value } else { 0.0 };
+        let grad: Tensor<f64> =
+            tensor(|i, j| inside(i, j, [[0.2, -0.1], [0.3, -0.2]][i % 2][j % 2]));
+        let second =
+            std::array::from_fn(|k| tensor(|a, b| inside(k, a.max(b), 0.1 + (k + a + b) as f64)));
+        let whole = solid.divergence(3, &grad, &second);
+        assert!(whole[0] != 0.0, "something varies");
+        assert_eq!(solid.divergence(dimension, &grad, &second), whole);
+    }
+
     /// P is the derivative of `W = lambda/2 ln(J)^2 + mu/2 (tr(F^T F) - 3) - mu ln J` and of
     /// `W = lambda/2 ln(J)^2 + mu eps : eps`.
     #[rstest]
@@ -179,7 +209,7 @@ mod tests {
         let grad = [[0.2, -0.1, 0.05], [0.3, -0.2, 0.1], [0.0, 0.15, 0.1]];
         let square = |t: &Tensor<f64>| t.iter().flatten().map(|c| c * c).sum::<f64>();
         let energy = |step: f64| {
-            let mut f = tensor(|a, b| grad[a][b] + f64::from(u8::from(a == b)));
+            let mut f: Tensor<f64> = tensor(|a, b| grad[a][b] + f64::from(u8::from(a == b)));
             f[i][j] += step;
             let log = libm::log(det(&f, &tensor(|a, b| cofactor(&f, a, b))));
             let shear = match law {
@@ -206,7 +236,7 @@ mod tests {
         let along = |i: usize| {
             (solid.lambda * log + 2.0 * solid.mu * libm::log(stretches[i])) / stretches[i]
         };
-        let grad = tensor(|i, j| turn[i][j] * stretches[j] - unit::<f64>(i, j));
+        let grad: Tensor<f64> = tensor(|i, j| turn[i][j] * stretches[j] - unit::<f64>(i, j));
         let found = solid.piola(&grad);
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
             let wanted = turn[i][j] * along(j);

@@ -8,6 +8,7 @@ mod boundary;
 mod check;
 mod differences;
 mod equation;
+mod forcing;
 pub mod formula;
 mod motion;
 mod pointwise;
@@ -19,8 +20,12 @@ mod truth;
 mod violation;
 mod weak;
 
+#[cfg(test)]
+mod tests;
+
 pub use equation::Equation;
-pub use motion::{Derivatives, Motion};
+pub use forcing::Forcing;
+pub use motion::{Derivatives, Motion, Places};
 pub use problem::{Condition, Face, Problem};
 pub use region::Region;
 pub use truth::Truth;

@@ -1,7 +1,7 @@
 //! A motion given by formulas: displacement, velocity and every derivative that a check needs.
 
 use super::{
-    formula::{Formula, Jet},
+    formula::{Formula, Hoisted, Jet},
     truth::Truth,
 };
 
@@ -58,25 +58,72 @@ impl Motion {
         }
     }
 
+    /// The motion at `labels`, for which what does not depend on time is computed here and now.
+    pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
+        match self.dimension() {
+            1 => Box::new(self.hoisted::<2>(labels)),
+            2 => Box::new(self.hoisted::<3>(labels)),
+            _ => Box::new(self.hoisted::<4>(labels)),
+        }
+    }
+
     /// The derivatives over jets of N variables: N - 1 coordinates, and time as the last.
     fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Derivatives {
-        let time = N - 1;
         let seeds: [Jet<N>; N] =
-            std::array::from_fn(|a| Jet::variable(if a == time { t } else { label[a] }, a));
+            std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
         let mut all = Derivatives::default();
-        for (i, formula) in self.components.iter().enumerate() {
-            let jet = formula.eval(&seeds);
-            all.u[i] = jet.value();
-            all.velocity[i] = jet.d(time);
-            all.acceleration[i] = jet.dd(time, time);
-            for a in 0..time {
-                all.grad[i][a] = jet.d(a);
-                for b in 0..time {
-                    all.second[i][a][b] = jet.dd(a, b);
-                }
+        gather(self.components.iter().map(|formula| formula.eval(&seeds)), &mut all);
+        all
+    }
+
+    fn hoisted<'a, const N: usize>(
+        &self,
+        labels: impl Iterator<Item = &'a [f64]>,
+    ) -> Hoisted<Jet<N>> {
+        let mut places = Hoisted::new(&self.components, N);
+        for label in labels {
+            let seeds: [Jet<N>; N] =
+                std::array::from_fn(|a| Jet::variable(label.get(a).copied().unwrap_or(0.0), a));
+            places.add(&seeds[..N - 1]);
+        }
+        places
+    }
+}
+
+/// A motion at places that have been given once, at one time after another.
+pub trait Places: Send {
+    /// Moves on to the time `t` (s).
+    fn set_time(&mut self, t: f64);
+
+    /// Fills in the derivatives at a place, in the order in which they were given, with the bits
+    /// of [`Motion::derivatives`]; components and axes beyond the dimension are left alone.
+    /// Allocates nothing.
+    fn derivatives(&mut self, place: usize, into: &mut Derivatives);
+}
+
+impl<const N: usize> Places for Hoisted<Jet<N>> {
+    fn set_time(&mut self, t: f64) {
+        self.set_time(Jet::variable(t, N - 1));
+    }
+
+    fn derivatives(&mut self, place: usize, into: &mut Derivatives) {
+        gather(self.eval(place), into);
+    }
+}
+
+/// The derivatives from the jets of the components, whose last variable is the time.
+fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut Derivatives) {
+    let time = N - 1;
+    for (i, jet) in components.enumerate() {
+        all.u[i] = jet.value();
+        all.velocity[i] = jet.d(time);
+        all.acceleration[i] = jet.dd(time, time);
+        for a in 0..time {
+            all.grad[i][a] = jet.d(a);
+            for b in 0..time {
+                all.second[i][a][b] = jet.dd(a, b);
             }
         }
-        all
     }
 }
 

@@ -92,17 +92,26 @@ impl Problem {
     }
 
     /// The body force that the motion needs, `u_tt - Div P / rho0`.
-    fn balance(&self, now: &Derivatives) -> [f64; 3] {
+    pub(super) fn balance(&self, now: &Derivatives) -> [f64; 3] {
         let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
     }
 
     /// The body force (m/s2) that the problem states: gravity, and forces on parts of the body.
     fn given(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        let gravity = self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]));
+        self.gravity_at(i, t) + self.on_regions(i, label, t)
+    }
+
+    /// Component i of gravity (m/s2).
+    pub(super) fn gravity_at(&self, i: usize, t: f64) -> f64 {
+        self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]))
+    }
+
+    /// Component i of the forces on parts of the body, per unit mass (m/s2).
+    pub(super) fn on_regions(&self, i: usize, label: &[f64], t: f64) -> f64 {
         let body = (&self.from[..], &self.to[..]);
         let on = |region: &Region| region.force_density(i, label, t, body);
-        gravity + self.regions.iter().map(on).sum::<f64>() / self.density
+        self.regions.iter().map(on).sum::<f64>() / self.density
     }
 }
 

@@ -2,15 +2,28 @@
 
 use super::formula::Number;
 
-/// Stress or gradient in three dimensions; what lies beyond the problem's dimension is zero, so a
-/// motion in fewer dimensions is one of plane or uniaxial strain.
-pub(super) type Tensor<T> = [[T; 3]; 3];
+/// Stress or gradient; what lies beyond the dimension D is zero, so a motion in fewer dimensions than
+/// three is one of plane or uniaxial strain.
+pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
 /// Largest number of terms of the series below: enough for stretches up to about ten.
 const MOST_TERMS: i32 = 1000;
 
-pub(super) fn tensor<T>(component: impl Fn(usize, usize) -> T) -> Tensor<T> {
-    std::array::from_fn(|i| std::array::from_fn(|j| component(i, j)))
+pub(super) fn tensor<T: Number, const D: usize>(
+    component: impl Fn(usize, usize) -> T,
+) -> Tensor<T, D> {
+    let mut tensor = [[T::from(0.0); D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            tensor[i][j] = component(i, j);
+        }
+    }
+    tensor
+}
+
+/// The sum over all axes.
+pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
+    (1..D).fold(term(0), |sum, i| sum + term(i))
 }
 
 /// 1 on the diagonal, 0 elsewhere.
@@ -18,20 +31,31 @@ pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
 }
 
-/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`.
-pub(super) fn cofactor<T: Number>(f: &Tensor<T>, i: usize, j: usize) -> T {
-    let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-    let (c, d) = ((j + 1) % 3, (j + 2) % 3);
-    f[a][c] * f[b][d] - f[a][d] * f[b][c]
+/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer dimensions than three it is that of F with
+/// ones on the rest of its diagonal.
+pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j: usize) -> T {
+    match D {
+        1 => T::from(1.0),
+        2 if i == j => f[1 - i][1 - j],
+        2 => -f[1 - i][1 - j],
+        _ => {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+            f[a][c] * f[b][d] - f[a][d] * f[b][c]
+        }
+    }
 }
 
 /// det F, by its first row and the cofactors of that.
-pub(super) fn det<T: Number>(f: &Tensor<T>, cofactor: &Tensor<T>) -> T {
-    f[0][0] * cofactor[0][0] + f[0][1] * cofactor[0][1] + f[0][2] * cofactor[0][2]
+pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor<T, D>) -> T {
+    sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
-pub(super) fn product<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> Tensor<T> {
-    tensor(|i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j])
+pub(super) fn product<T: Number, const D: usize>(
+    a: &Tensor<T, D>,
+    b: &Tensor<T, D>,
+) -> Tensor<T, D> {
+    tensor(|i, j| sum::<T, D>(|k| a[i][k] * b[k][j]))
 }
 
 /// The logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
@@ -40,17 +64,17 @@ pub(super) fn product<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> Tensor<T> {
 /// (Higham 2008, *Functions of Matrices*, section 11.4): no eigenvalues, whose derivatives would not
 /// exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears, and with
 /// no derivative either, the strains are logarithms, which is quicker.
-pub(super) fn log_strain<T: Number>(f: &Tensor<T>) -> Tensor<T> {
+pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     let zero = T::from(0.0);
-    let sheared = |i: usize| (0..3).any(|j| j != i && f[i][j] != zero);
-    if !(0..3).any(sheared) {
+    let sheared = |i: usize| (0..D).any(|j| j != i && f[i][j] != zero);
+    if !(0..D).any(sheared) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { zero });
     }
-    let b: Tensor<T> = tensor(|i, j| f[i][0] * f[j][0] + f[i][1] * f[j][1] + f[i][2] * f[j][2]);
-    let sum = tensor(|i, j| b[i][j] + unit(i, j));
+    let b: Tensor<T, D> = tensor(|i, j| sum::<T, D>(|k| f[i][k] * f[j][k]));
+    let shifted: Tensor<T, D> = tensor(|i, j| b[i][j] + unit(i, j));
     // b + I is symmetric, and so are its cofactors.
-    let cofactors = tensor(|i, j| cofactor(&sum, i, j));
-    let determinant = det(&sum, &cofactors);
+    let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&shifted, i, j));
+    let determinant = det(&shifted, &cofactors);
     let inverse = tensor(|i, j| cofactors[i][j] / determinant);
     let x = product(&tensor(|i, j| b[i][j] - unit(i, j)), &inverse);
     let square = product(&x, &x);
@@ -67,6 +91,6 @@ pub(super) fn log_strain<T: Number>(f: &Tensor<T>) -> Tensor<T> {
     tensor(|_, _| T::from(f64::NAN))
 }
 
-fn size<T: Number>(t: &Tensor<T>) -> f64 {
+fn size<T: Number, const D: usize>(t: &Tensor<T, D>) -> f64 {
     t.iter().flatten().map(|c| c.value() * c.value()).sum::<f64>().sqrt()
 }

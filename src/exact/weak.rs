@@ -17,7 +17,9 @@ const TOLERANCE: f64 = 0.005;
 /// Longest patch, in times that a wave takes through the body: the points below must resolve it.
 const WAVES: f64 = 4.0;
 
-/// A box in space and time with the bump `phi = prod (1 - xi^2)^2` on it.
+/// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
+/// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten points
+/// on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07 %.
 struct Patch {
     centre: Vec<f64>,
     half: Vec<f64>,
@@ -38,16 +40,41 @@ impl Patch {
         Self { centre, half }
     }
 
-    /// phi and its derivatives with respect to every coordinate and t at `xi` in (-1, 1)^(D+1).
-    fn bump(&self, xi: &[f64]) -> (f64, Vec<f64>) {
-        let factor = |x: f64| (1.0 - x * x) * (1.0 - x * x);
-        let value = xi.iter().map(|x| factor(*x)).product();
-        let slope = (0..xi.len()).map(|a| {
-            let others: f64 = (0..xi.len()).filter(|b| *b != a).map(|b| factor(xi[b])).product();
-            -4.0 * xi[a] * (1.0 - xi[a] * xi[a]) / self.half[a] * others
-        });
-        (value, slope.collect())
+    /// Equally spaced points on the axis `a`, time being the last one.
+    fn axis(&self, a: usize, points: usize) -> Vec<Point> {
+        let point = |index: usize| {
+            let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
+            let inside = 1.0 - xi * xi;
+            Point {
+                at: self.centre[a] + self.half[a] * xi,
+                factor: inside * inside * inside,
+                slope: -6.0 * xi * inside * inside / self.half[a],
+            }
+        };
+        (0..points).map(point).collect()
     }
+}
+
+/// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
+/// derivative.
+#[derive(Clone, Copy)]
+struct Point {
+    at: f64,
+    factor: f64,
+    slope: f64,
+}
+
+/// phi and its derivatives along every axis, where the points of all axes meet.
+fn bump(points: &[Point]) -> (f64, [f64; 4]) {
+    let factors = |except: usize| {
+        let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
+        others.map(|(_, point)| point.factor).product::<f64>()
+    };
+    let mut slope = [0.0; 4];
+    for (a, point) in points.iter().enumerate() {
+        slope[a] = point.slope * factors(a);
+    }
+    (factors(points.len()), slope)
 }
 
 /// Time that a wave takes through the body, on its longest axis.
@@ -62,61 +89,72 @@ pub(super) fn momentum(problem: &Problem) -> Result<(), Violation> {
     let mut random = Random::new(6);
     for _ in 0..PATCHES {
         let patch = Patch::draw(&mut random, problem);
-        for i in 0..problem.dimension() {
-            balance(problem, &patch, i)?;
+        balance(problem, &patch)?;
+    }
+    Ok(())
+}
+
+/// The sums of one component over a patch.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    gain: f64,
+    loss: f64,
+    size: f64,
+}
+
+fn balance(problem: &Problem, patch: &Patch) -> Result<(), Violation> {
+    let d = problem.dimension();
+    for sums in &sums(problem, patch)[..d] {
+        if !((sums.gain - sums.loss).abs() <= TOLERANCE * sums.size) {
+            return Err(Violation {
+                condition: "momentum balance across wave fronts (the equation of motion in weak \
+                            form; shares of the sum of all terms)"
+                    .to_owned(),
+                label: patch.centre[..d].to_vec(),
+                t: patch.centre[d],
+                expected: Some(sums.loss / sums.size),
+                found: sums.gain / sums.size,
+                unit: "",
+            });
         }
     }
     Ok(())
 }
 
-fn balance(problem: &Problem, patch: &Patch, i: usize) -> Result<(), Violation> {
+/// The balance of every component, by the midpoint rule on a raster of the patch.
+fn sums(problem: &Problem, patch: &Patch) -> [Sums; 3] {
     let d = problem.dimension();
     let per_axis = [0, 64, 20, 10][d];
-    let (mut gain, mut loss, mut size) = (0.0, 0.0, 0.0);
-    for k in 0..usize::pow(per_axis, d as u32 + 1) {
-        let mut rest = k;
-        let xi: Vec<f64> = (0..=d)
-            .map(|_| {
-                let index = rest % per_axis;
-                rest /= per_axis;
-                (index as f64 + 0.5) / per_axis as f64 * 2.0 - 1.0
-            })
-            .collect();
-        let at = |a: usize| patch.centre[a] + patch.half[a] * xi[a];
-        let label: Vec<f64> = (0..d).map(at).collect();
-        let now = problem.motion.derivatives(&label, at(d));
-        let (inertia, stress, force) =
-            integrand(problem, &now, i, (&label, at(d)), &patch.bump(&xi));
-        gain -= inertia;
-        loss += force - stress;
-        size += inertia.abs() + stress.abs() + force.abs();
+    let axes: Vec<Vec<Point>> = (0..=d).map(|a| patch.axis(a, per_axis)).collect();
+    let spot = |k: usize| {
+        axes[..d].iter().scan(k, |k, axis| {
+            let point = axis[*k % per_axis];
+            *k /= per_axis;
+            Some(point)
+        })
+    };
+    let spots: Vec<Vec<Point>> = (0..per_axis.pow(d as u32)).map(|k| spot(k).collect()).collect();
+    let labels: Vec<Vec<f64>> = spots.iter().map(|s| s.iter().map(|p| p.at).collect()).collect();
+    let mut places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+    let (mut all, mut now) = ([Sums::default(); 3], Derivatives::default());
+    for time in &axes[d] {
+        places.set_time(time.at);
+        for (place, spot) in spots.iter().enumerate() {
+            places.derivatives(place, &mut now);
+            let mut points = [*time; 4];
+            points[..d].copy_from_slice(spot);
+            let (phi, slope) = bump(&points[..=d]);
+            let (piola, force) =
+                (problem.equation.piola(&now.grad), problem.force(&labels[place], &now, time.at));
+            for (i, sums) in all[..d].iter_mut().enumerate() {
+                let inertia = problem.density * now.velocity[i] * slope[d];
+                let stress: f64 = (0..d).map(|j| piola[i][j] * slope[j]).sum();
+                let force = problem.density * force[i] * phi;
+                sums.gain -= inertia;
+                sums.loss += force - stress;
+                sums.size += inertia.abs() + stress.abs() + force.abs();
+            }
+        }
     }
-    if (gain - loss).abs() <= TOLERANCE * size {
-        return Ok(());
-    }
-    Err(Violation {
-        condition: "momentum balance across wave fronts (the equation of motion in weak form; \
-                    shares of the sum of all terms)"
-            .to_owned(),
-        label: patch.centre[..d].to_vec(),
-        t: patch.centre[d],
-        expected: Some(loss / size),
-        found: gain / size,
-        unit: "",
-    })
-}
-
-/// The three terms of the weak form at one point.
-fn integrand(
-    problem: &Problem,
-    now: &Derivatives,
-    i: usize,
-    (label, t): (&[f64], f64),
-    (phi, slope): &(f64, Vec<f64>),
-) -> (f64, f64, f64) {
-    let d = problem.dimension();
-    let inertia = problem.density * now.velocity[i] * slope[d];
-    let piola = problem.equation.piola(&now.grad);
-    let stress = (0..d).map(|j| piola[i][j] * slope[j]).sum();
-    (inertia, stress, problem.density * problem.force(label, now, t)[i] * phi)
+    all
 }

@@ -8,7 +8,7 @@ use super::{
     words::EquationName,
 };
 use crate::{
-    exact::{Problem, Region, formula::Formula},
+    exact::{Forcing, Problem, Region, formula::Formula},
     fem::{self, Bar, Sampling},
     mpm::{
         Block, BodyForce, Effect, Gravity, Grid, Kernel, LinearElastic, MaterialPlan, Particles,
@@ -77,7 +77,7 @@ fn mpm<const D: usize>(
         *v = made.map_or_else(|| at(&scene.initial_velocity, x0), |made| velocity(made, x0));
     }
     let mut effects = effects(scene, &particles);
-    effects.extend(made.map(manufactured_force));
+    effects.extend(made.map(|made| manufactured_force(made, &particles)));
     effects.extend(on_sets(scene, &particles)?);
     let setup = crate::mpm::Setup {
         kernel,
@@ -117,11 +117,13 @@ fn velocity<const D: usize>(made: &Problem, x0: &Vector<D>) -> Vector<D> {
     Vector::from_fn(|i, _| now.velocity[i])
 }
 
-fn manufactured_force<const D: usize>(made: &Problem) -> Box<dyn Effect<D>> {
-    let made = made.clone();
-    Box::new(BodyForce(Box::new(move |x0: &Vector<D>, t| {
-        let force = made.manufactured_force(x0.as_slice(), t);
-        Vector::from_fn(|i, _| force[i])
+fn manufactured_force<const D: usize>(
+    made: &Problem,
+    particles: &Particles<D>,
+) -> Box<dyn Effect<D>> {
+    let mut forcing = Forcing::new(made, particles.x0.iter().map(Vector::as_slice));
+    Box::new(BodyForce::new(Box::new(move |t, _, b| {
+        forcing.at(t, b, |force| Vector::from_fn(|i, _| force[i]));
     })))
 }
 

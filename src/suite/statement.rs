@@ -5,7 +5,7 @@ use super::{
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
 };
 use crate::{
-    exact::{Problem, formula::Formula},
+    exact::{Derivatives, Problem, formula::Formula},
     mpm::{MaterialPlan, Parameter},
 };
 
@@ -136,21 +136,28 @@ fn sources(formulas: &[Formula]) -> String {
 /// and the run.
 fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
-    let d = problem.dimension();
+    let places: Vec<Vec<f64>> = (0..(PER_AXIS + 1).pow(problem.dimension() as u32))
+        .map(|k| {
+            let mut rest = k;
+            let corners = problem.from.iter().zip(&problem.to);
+            let coordinate = |(a, b): (&f64, &f64)| {
+                let share = (rest % (PER_AXIS + 1)) as f64 / PER_AXIS as f64;
+                rest /= PER_AXIS + 1;
+                a + (b - a) * share
+            };
+            corners.map(coordinate).collect()
+        })
+        .collect();
+    let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
-    for k in 0..(PER_AXIS + 1).pow(d as u32 + 1) {
-        let mut rest = k;
-        let mut share = || {
-            let index = rest % (PER_AXIS + 1);
-            rest /= PER_AXIS + 1;
-            index as f64 / PER_AXIS as f64
-        };
-        let t = problem.until * share();
-        let corners = problem.from.iter().zip(&problem.to);
-        let label: Vec<f64> = corners.map(|(a, b)| a + (b - a) * share()).collect();
-        let now = problem.motion.derivatives(&label, t);
-        displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));
-        gradient = now.grad.iter().flatten().fold(gradient, |a, b| a.max(b.abs()));
+    let mut now = Derivatives::default();
+    for step in 0..=PER_AXIS {
+        motion.set_time(problem.until * (step as f64 / PER_AXIS as f64));
+        for place in 0..places.len() {
+            motion.derivatives(place, &mut now);
+            displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));
+            gradient = now.grad.iter().flatten().fold(gradient, |a, b| a.max(b.abs()));
+        }
     }
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }

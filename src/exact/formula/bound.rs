@@ -94,6 +94,24 @@ impl Formula {
         }
     }
 
+    pub(super) fn variables(&self) -> usize {
+        self.variables
+    }
+
+    pub(super) fn code(&self) -> &[Instruction] {
+        &self.code
+    }
+
+    /// How many registers the code uses.
+    pub(super) fn registers(&self) -> usize {
+        self.registers
+    }
+
+    /// Where the code leaves the value.
+    pub(super) fn result(&self) -> Operand {
+        self.result
+    }
+
     fn run<T: Number>(&self, variables: &[T], registers: &mut [T]) -> T {
         run(&self.code, 0, variables, registers);
         read(self.result, variables, registers)

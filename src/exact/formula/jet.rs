@@ -1,9 +1,6 @@
 //! Automatic differentiation to second order.
 
-use std::{
-    array::from_fn,
-    ops::{Add, Div, Mul, Neg, Sub},
-};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{
     number::{Number, whole},
@@ -55,13 +52,21 @@ impl<const N: usize> Jet<N> {
         self.hessian[i][j]
     }
 
-    /// Builds a jet from its value and the formulas of its derivatives.
+    /// Builds a jet from its value and the formulas of its derivatives; `second` is symmetric.
     fn build(
         value: f64,
         first: impl Fn(usize) -> f64,
         second: impl Fn(usize, usize) -> f64,
     ) -> Self {
-        Self { value, gradient: from_fn(&first), hessian: from_fn(|i| from_fn(|j| second(i, j))) }
+        let mut jet = Self::from(value);
+        for i in 0..N {
+            jet.gradient[i] = first(i);
+            for j in 0..=i {
+                let second = second(i, j);
+                (jet.hessian[i][j], jet.hessian[j][i]) = (second, second);
+            }
+        }
+        jet
     }
 
     /// The chain rule for a function of one argument with derivatives `f1` and `f2` at `self`.
@@ -154,7 +159,10 @@ impl<const N: usize> Div for Jet<N> {
     /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''.
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
-        let gradient: [f64; N] = from_fn(|i| (self.gradient[i] - value * b.gradient[i]) / b.value);
+        let mut gradient = [0.0; N];
+        for i in 0..N {
+            gradient[i] = (self.gradient[i] - value * b.gradient[i]) / b.value;
+        }
         Self::build(
             value,
             |i| gradient[i],

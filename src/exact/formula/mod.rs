@@ -7,7 +7,8 @@
 //! 2. [`Formula::bind`] resolves every name against a [`Scope`] and a list of variables, puts the
 //!    bodies of user functions in place, folds what is constant and leaves a flat program.
 //! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
-//!    first and second derivatives along.
+//!    first and second derivatives along. [`Hoisted`] does so at many places and times, at less
+//!    cost.
 //!
 //! # Language
 //!
@@ -48,6 +49,7 @@ mod bound;
 mod builtin;
 mod error;
 mod hint;
+mod hoisted;
 mod jet;
 mod lambert;
 mod lexer;
@@ -55,6 +57,8 @@ mod number;
 mod parser;
 mod program;
 mod scope;
+mod slope;
+mod split;
 mod unary;
 
 #[cfg(test)]
@@ -64,7 +68,9 @@ pub use ast::Expr;
 pub use binary::Binary;
 pub use bound::Formula;
 pub use error::FormulaError;
+pub use hoisted::Hoisted;
 pub use jet::Jet;
 pub use number::Number;
 pub use scope::Scope;
+pub use slope::Slope;
 pub use unary::Unary;

@@ -40,12 +40,25 @@ pub(super) struct Loop {
 }
 
 impl Action {
-    /// Whether every argument satisfies `test`.
-    pub(super) fn reads_only(&self, test: impl Fn(Operand) -> bool) -> bool {
+    /// The arguments.
+    pub(super) fn arguments(&self) -> impl Iterator<Item = Operand> {
+        let (first, second) = match self {
+            Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => (*a, None),
+            Self::Binary(_, a, b) => (*a, Some(*b)),
+            Self::Next(end) => (end.term, None),
+        };
+        std::iter::once(first).chain(second)
+    }
+
+    /// The same action on other arguments.
+    pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
-            Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => test(*a),
-            Self::Binary(_, a, b) => test(*a) && test(*b),
-            Self::Next(end) => test(end.term),
+            Self::Copy(a) => Self::Copy(to(*a)),
+            Self::Negate(a) => Self::Negate(to(*a)),
+            Self::Unary(function, a) => Self::Unary(*function, to(*a)),
+            Self::Powi(a, exponent) => Self::Powi(to(*a), *exponent),
+            Self::Binary(function, a, b) => Self::Binary(*function, to(*a), to(*b)),
+            Self::Next(end) => Self::Next(Loop { term: to(end.term), ..end.clone() }),
         }
     }
 }

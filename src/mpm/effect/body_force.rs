@@ -5,22 +5,45 @@
 use super::contract::Effect;
 use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles};
 
-/// Force per unit mass (m/s2) as a function of reference position and time.
-pub type Field<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;
+/// Fills in the force per unit mass (m/s2) of every particle at a time (s), from their reference
+/// positions. The particles of a run, their order and their reference positions never change.
+pub type Field<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [Vector<D>]) + Send>;
 
 /// A body force b(X, t) (m/s2).
-pub struct BodyForce<const D: usize>(pub Field<D>);
+pub struct BodyForce<const D: usize> {
+    field: Field<D>,
+    /// Of every particle, at the present time.
+    b: Vec<Vector<D>>,
+}
+
+impl<const D: usize> BodyForce<D> {
+    /// A body force that `field` gives.
+    pub fn new(field: Field<D>) -> Self {
+        Self { field, b: Vec::new() }
+    }
+
+    /// A body force that is computed for one particle at a time, from X and t.
+    pub fn pointwise(b: impl Fn(&Vector<D>, f64) -> Vector<D> + Send + 'static) -> Self {
+        Self::new(Box::new(move |t, labels, into| {
+            for (into, label) in into.iter_mut().zip(labels) {
+                *into = b(label, t);
+            }
+        }))
+    }
+}
 
 impl<const D: usize> Effect<D> for BodyForce<D> {
     fn add_force(
-        &self,
+        &mut self,
         t: f64,
         particles: &Particles<D>,
         kernel: &dyn Kernel<D>,
         grid: &mut Grid<D>,
     ) -> u64 {
-        for (p, (x0, mass)) in particles.x0.iter().zip(&particles.mass).enumerate() {
-            kernel.p2g_point_force(particles, p, &((self.0)(x0, t) * *mass), grid);
+        self.b.resize(particles.len(), Vector::zeros());
+        (self.field)(t, &particles.x0, &mut self.b);
+        for (p, (b, mass)) in self.b.iter().zip(&particles.mass).enumerate() {
+            kernel.p2g_point_force(particles, p, &(b * *mass), grid);
         }
         particles.len() as u64 * kernel.support()
     }

@@ -7,7 +7,7 @@ pub trait Effect<const D: usize>: Send {
     /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
     /// Returns the particle-node pairs visited.
     fn add_force(
-        &self,
+        &mut self,
         t: f64,
         particles: &Particles<D>,
         kernel: &dyn Kernel<D>,

@@ -28,7 +28,7 @@ impl<const D: usize> Driven<D> {
 }
 
 impl<const D: usize> Effect<D> for Driven<D> {
-    fn add_force(&self, _: f64, _: &Particles<D>, _: &dyn Kernel<D>, _: &mut Grid<D>) -> u64 {
+    fn add_force(&mut self, _: f64, _: &Particles<D>, _: &dyn Kernel<D>, _: &mut Grid<D>) -> u64 {
         0
     }
 

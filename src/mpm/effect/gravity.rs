@@ -10,7 +10,13 @@ use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particl
 pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> Vector<D> + Send>);
 
 impl<const D: usize> Effect<D> for Gravity<D> {
-    fn add_force(&self, t: f64, _: &Particles<D>, _: &dyn Kernel<D>, grid: &mut Grid<D>) -> u64 {
+    fn add_force(
+        &mut self,
+        t: f64,
+        _: &Particles<D>,
+        _: &dyn Kernel<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
         let b = (self.0)(t);
         for (f, m) in grid.force.iter_mut().zip(&grid.mass) {
             *f += b * *m;

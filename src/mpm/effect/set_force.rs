@@ -27,7 +27,7 @@ impl<const D: usize> SetForce<D> {
 
 impl<const D: usize> Effect<D> for SetForce<D> {
     fn add_force(
-        &self,
+        &mut self,
         t: f64,
         particles: &Particles<D>,
         kernel: &dyn Kernel<D>,

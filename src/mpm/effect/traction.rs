@@ -39,7 +39,7 @@ impl<const D: usize> Traction<D> {
 
 impl<const D: usize> Effect<D> for Traction<D> {
     fn add_force(
-        &self,
+        &mut self,
         t: f64,
         particles: &Particles<D>,
         kernel: &dyn Kernel<D>,
@@ -70,7 +70,7 @@ mod tests {
         let kernel = kernel::<2>(BasisName::Linear);
         let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
         let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
-        let pull = Traction::on(&particles, 0, Side::High, value);
+        let mut pull = Traction::on(&particles, 0, Side::High, value);
         assert_eq!(pull.add_force(2.0, &particles, kernel.as_ref(), &mut grid), 16 * 4);
         let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
         assert_relative_eq!(total, Vector::<2>::new(12.0, 1.0), max_relative = 1e-14);

@@ -148,7 +148,7 @@ impl<'a> Binder<'a> {
 
     /// Appends an instruction with the result in the register `to`, or evaluates it at once.
     fn emit(&mut self, action: Action, to: usize) -> Operand {
-        if action.reads_only(|operand| matches!(operand, Operand::Constant(_))) {
+        if action.arguments().all(|operand| matches!(operand, Operand::Constant(_))) {
             let mut result = [0.0];
             run::<f64>(&[Instruction { action, to: 0 }], 0, &[], &mut result);
             return Operand::Constant(result[0]);

@@ -88,7 +88,7 @@ impl<'a> Binder<'a> {
             self.code.truncate(start);
             return Operand::Constant(0.0);
         }
-        if !self.code[start..].iter().all(|instruction| instruction.action.reads_only(own)) {
+        if !self.code[start..].iter().all(|instruction| instruction.action.arguments().all(own)) {
             return Operand::Register(at);
         }
         let mut registers = vec![0.0; self.registers];

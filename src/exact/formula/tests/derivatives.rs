@@ -3,7 +3,7 @@
 use rstest::rstest;
 
 use super::bind;
-use crate::exact::formula::{Formula, Jet, Number};
+use crate::exact::formula::{Formula, Jet, Number, Slope};
 
 const X: [&str; 2] = ["x", "y"];
 
@@ -70,7 +70,10 @@ fn derivatives_agree_with_differences(
     let formula = bind(source, &X).unwrap();
     let found = jet(&formula, x, y);
     assert_eq!(found.value().to_bits(), formula.eval(&[x, y]).to_bits());
+    let slope = formula.eval(&[Slope::new(x, [1.0, 0.0]), Slope::new(y, [0.0, 1.0])]);
+    assert_eq!(found.value().to_bits(), slope.value().to_bits());
     for i in 0..2 {
+        assert_eq!(found.d(i).to_bits(), slope.d(i).to_bits());
         let first = difference(|x, y| formula.eval(&[x, y]), x, y, i);
         approx::assert_relative_eq!(found.d(i), first, max_relative = 1e-8, epsilon = 1e-9);
         for j in 0..2 {

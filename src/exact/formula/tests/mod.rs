@@ -6,6 +6,7 @@
 mod derivatives;
 mod errors;
 mod functions;
+mod hoisted;
 mod language;
 mod limits;
 mod random;

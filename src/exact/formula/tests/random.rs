@@ -39,7 +39,7 @@ const TOKENS: &[&str] = &[
 
 /// A formula as text, every operation in parentheses, and its value for given `x` and `y`.
 #[derive(Debug, Clone)]
-enum Tree {
+pub(super) enum Tree {
     Number(u8),
     X,
     Y,
@@ -53,7 +53,7 @@ enum Tree {
 }
 
 impl Tree {
-    fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         self.nested(0)
     }
 
@@ -102,7 +102,7 @@ impl Tree {
     }
 }
 
-fn tree() -> impl Strategy<Value = Tree> {
+pub(super) fn tree() -> impl Strategy<Value = Tree> {
     let leaf = prop_oneof![any::<u8>().prop_map(Tree::Number), Just(Tree::X), Just(Tree::Y)];
     leaf.prop_recursive(6, 48, 2, |inner| {
         let call = |name, function: fn(f64) -> f64| {
@@ -123,7 +123,7 @@ fn tree() -> impl Strategy<Value = Tree> {
 }
 
 /// Binds a tree's text to x and y.
-fn grow(text: &str) -> Formula {
+pub(super) fn grow(text: &str) -> Formula {
     let mut scope = bar();
     declare(&mut scope, "h", &["a", "b"], "b-a*b+a");
     Formula::bind(&Expr::parse(text).unwrap(), &scope, &["x", "y"]).unwrap()
@@ -149,7 +149,7 @@ fn digest(source: &str) -> Result<(), FormulaError> {
 }
 
 /// Equality of bits, except that one NaN is as good as another.
-fn same(a: f64, b: f64) -> bool {
+pub(super) fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
 

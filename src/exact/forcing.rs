@@ -1,0 +1,41 @@
+//! The manufactured body force of a run: at the same places, step after step.
+
+use super::{
+    motion::{Derivatives, Places},
+    problem::Problem,
+};
+
+/// The manufactured body force at places that have been given once.
+pub struct Forcing {
+    problem: Problem,
+    places: Box<dyn Places>,
+    /// The places (m), where forces on parts of the body need them.
+    labels: Vec<Vec<f64>>,
+}
+
+impl Forcing {
+    /// The force of `problem` at `labels` (m), D numbers each.
+    pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
+        let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
+        let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+        let needed = !problem.regions.is_empty();
+        let labels = if needed { labels } else { Vec::new() };
+        Self { problem: problem.clone(), places, labels }
+    }
+
+    /// Fills in the force (m/s2) at each place at time `t` (s), as
+    /// [`Problem::manufactured_force`] gives it for one. Allocates nothing.
+    pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
+        let gravity: [f64; 3] = std::array::from_fn(|i| self.problem.gravity_at(i, t));
+        self.places.set_time(t);
+        let mut now = Derivatives::default();
+        for (place, force) in into.iter_mut().enumerate() {
+            self.places.derivatives(place, &mut now);
+            let whole = self.problem.balance(&now);
+            let label = self.labels.get(place);
+            let given =
+                |i| gravity[i] + label.map_or(0.0, |label| self.problem.on_regions(i, label, t));
+            *force = make(std::array::from_fn(|i| whole[i] - given(i)));
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Automatic differentiation to first order.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{
+    number::{Number, whole},
+    unary::Unary,
+};
+
+/// A value with its first derivatives along `N` directions: what a [`Jet`](super::Jet) is without
+/// its second derivatives, at a third of the cost.
+///
+/// Its bits are those of the jet. Only where the derivative of a function is infinite, a direction
+/// in which nothing varies is not told from one in which the slope happens to vanish: the
+/// derivative is NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slope<const N: usize> {
+    value: f64,
+    gradient: [f64; N],
+}
+
+impl<const N: usize> Slope<N> {
+    /// A value that varies as `gradient` says.
+    pub fn new(value: f64, gradient: [f64; N]) -> Self {
+        Self { value, gradient }
+    }
+
+    /// The derivative along the direction `i`.
+    ///
+    /// # Panics
+    /// If `i` is not below `N`.
+    pub fn d(&self, i: usize) -> f64 {
+        self.gradient[i]
+    }
+
+    fn build(value: f64, first: impl Fn(usize) -> f64) -> Self {
+        let mut slope = Self::from(value);
+        for i in 0..N {
+            slope.gradient[i] = first(i);
+        }
+        slope
+    }
+
+    fn chain(&self, value: f64, f1: f64) -> Self {
+        Self::build(value, |i| f1 * self.gradient[i])
+    }
+}
+
+impl<const N: usize> From<f64> for Slope<N> {
+    /// A constant.
+    fn from(value: f64) -> Self {
+        Self { value, gradient: [0.0; N] }
+    }
+}
+
+impl<const N: usize> Neg for Slope<N> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::build(-self.value, |i| -self.gradient[i])
+    }
+}
+
+impl<const N: usize> Add for Slope<N> {
+    type Output = Self;
+
+    fn add(self, b: Self) -> Self {
+        Self::build(self.value + b.value, |i| self.gradient[i] + b.gradient[i])
+    }
+}
+
+impl<const N: usize> Sub for Slope<N> {
+    type Output = Self;
+
+    fn sub(self, b: Self) -> Self {
+        Self::build(self.value - b.value, |i| self.gradient[i] - b.gradient[i])
+    }
+}
+
+// The rules of differentiation mix the operators.
+#[allow(clippy::suspicious_arithmetic_impl)]
+impl<const N: usize> Mul for Slope<N> {
+    type Output = Self;
+
+    fn mul(self, b: Self) -> Self {
+        let slope = |i: usize| self.value * b.gradient[i] + b.value * self.gradient[i];
+        Self::build(self.value * b.value, slope)
+    }
+}
+
+// The rules of differentiation mix the operators.
+#[allow(clippy::suspicious_arithmetic_impl)]
+impl<const N: usize> Div for Slope<N> {
+    type Output = Self;
+
+    fn div(self, b: Self) -> Self {
+        let value = self.value / b.value;
+        Self::build(value, |i| (self.gradient[i] - value * b.gradient[i]) / b.value)
+    }
+}
+
+impl<const N: usize> Number for Slope<N> {
+    fn value(&self) -> f64 {
+        self.value
+    }
+
+    fn unary(self, function: Unary) -> Self {
+        let value = function.value(self.value);
+        let (first, _) = function.derivatives(self.value, value);
+        self.chain(value, first)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        // The derivatives are those of atan(y/x), or of -atan(x/y) where that is safer.
+        let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
+            (self / x).unary(Unary::Atan)
+        } else {
+            -(x / self).unary(Unary::Atan)
+        };
+        Self { value: libm::atan2(self.value, x.value), ..quotient }
+    }
+
+    fn powi(self, exponent: i32) -> Self {
+        let n = f64::from(exponent);
+        let first = if exponent == 0 { 0.0 } else { n * Number::pow(self.value, n - 1.0) };
+        self.chain(Number::powi(self.value, exponent), first)
+    }
+
+    fn pow(self, exponent: Self) -> Self {
+        let (a, b) = (self.value, exponent.value);
+        if exponent.gradient.iter().all(|&slope| slope == 0.0) {
+            if let Some(exponent) = whole(b) {
+                return self.powi(exponent);
+            }
+            return self.chain(Number::pow(a, b), b * Number::pow(a, b - 1.0));
+        }
+        // a^b = exp(b*ln(a)), and the derivative of the exponential is its value.
+        let value = Number::pow(a, b);
+        (exponent * self.unary(Unary::Ln)).chain(value, value)
+    }
+}

@@ -1,0 +1,91 @@
+//! Hoisting changes when something is computed, never what.
+
+use proptest::prelude::*;
+use rstest::rstest;
+
+use super::{
+    bind,
+    random::{grow, same, tree},
+};
+use crate::exact::formula::{Formula, Hoisted, Jet};
+
+/// The variables of `grow`: y is the one that stands for the time.
+const VARIABLES: usize = 2;
+
+/// Every number of a jet.
+fn parts(jet: &Jet<2>) -> [f64; 7] {
+    let [second, mixed, last] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| jet.dd(i, j));
+    [jet.value(), jet.d(0), jet.d(1), second, mixed, jet.dd(1, 0), last]
+}
+
+/// Holds the hoisted formulas against the plain ones, bit for bit, at all places and all times.
+fn agree(formulas: &[Formula], places: &[f64], times: &[f64]) -> Result<(), TestCaseError> {
+    let mut hoisted = Hoisted::new(formulas, VARIABLES);
+    for x in places {
+        hoisted.add(&[Jet::variable(*x, 0)]);
+    }
+    for t in times {
+        let t = Jet::variable(*t, 1);
+        hoisted.set_time(t);
+        for (place, x) in places.iter().enumerate() {
+            let found: Vec<Jet<2>> = hoisted.eval(place).collect();
+            prop_assert_eq!(found.len(), formulas.len());
+            for (found, formula) in found.iter().zip(formulas) {
+                let plain = formula.eval(&[Jet::variable(*x, 0), t]);
+                let same = parts(found).into_iter().zip(parts(&plain)).all(|(a, b)| same(a, b));
+                prop_assert!(same, "{found:?} and {plain:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn hoisted_formulas_have_the_bits_of_plain_ones(
+        trees in prop::collection::vec(tree(), 1..4),
+        places in prop::collection::vec(-3.0..3.0, 1..4),
+        times in prop::collection::vec(-3.0..3.0, 1..4),
+    ) {
+        let formulas: Vec<Formula> = trees.iter().map(|tree| grow(&tree.text())).collect();
+        agree(&formulas, &places, &times)?;
+    }
+}
+
+/// How many operations are left for every place and time.
+#[rstest]
+#[case::nothing("2*pi", 0)]
+#[case::place("sin(pi*x)+sqrt(x)", 0)]
+#[case::time("E*cos(omega*t)^2", 0)]
+#[case::product("2*L*sin(pi*x)*sin(omega*t)", 1)]
+#[case::function("wave(x,t)", 1)]
+#[case::wave("sin(x-omega*t)", 2)]
+#[case::turn("x*cos(t*(1-x^2))-x", 4)]
+#[case::sum("sum(n,1,3,sin(n*x)*cos(n*t)/n)", 9)]
+fn what_stays_is_what_needs_both(#[case] source: &str, #[case] operations: usize) {
+    let formula = bind(source, &["x", "t"]).unwrap();
+    assert_eq!(Hoisted::<f64>::new(&[formula], VARIABLES).operations(), operations);
+}
+
+/// A step that two formulas share is taken once; 0 and -0 are not the same step.
+#[rstest]
+#[case("x*sin(x*t)", "t*sin(x*t)", 4)]
+#[case("(x*t)/0", "(x*t)/(-0)", 3)]
+fn what_is_shared_is_computed_once(#[case] one: &str, #[case] other: &str, #[case] left: usize) {
+    let formulas = [one, other].map(|source| bind(source, &["x", "t"]).unwrap());
+    assert_eq!(Hoisted::<f64>::new(&formulas, VARIABLES).operations(), left);
+    agree(&formulas, &[0.0, -0.3, 1.7], &[0.0, 0.4, -2.0]).unwrap();
+}
+
+/// A sum in a sum, a variable that is a result, and a register that is used again.
+#[rstest]
+#[case("sum(n,1,3,n*x*sum(m,0,2,cos(m*t)*(m-n)))")]
+#[case("sum(n,1,3,sin(n)*t)+sum(n,1,2,cos(n)*x)")]
+#[case("t")]
+#[case("x")]
+#[case("x/t-t/x")]
+#[case("(sin(x)*sin(t))*(cos(x)*cos(t))-tan(x)*(x-t)")]
+fn hoisting_keeps_the_bits_of(#[case] source: &str) {
+    let formula = bind(source, &["x", "t"]).unwrap();
+    agree(&[formula.clone(), formula], &[0.0, -0.3, 1.7], &[0.0, 0.4, -2.0]).unwrap();
+}

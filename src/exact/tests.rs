@@ -1,0 +1,71 @@
+//! A wave in a body that is held all around, in one, two and three dimensions: its force is
+//! manufactured.
+
+use super::{
+    Condition, Equation, Face, Forcing, Motion, Problem,
+    formula::{Expr, Formula, Scope},
+    random::Random,
+};
+use rstest::rstest;
+
+const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
+
+fn bind(source: &str, variables: &[&str]) -> Formula {
+    Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), variables).unwrap()
+}
+
+fn held(dimension: usize) -> Problem {
+    let names: Vec<&str> = NAMES[..dimension].iter().chain(&["t"]).copied().collect();
+    let shape: Vec<String> = NAMES[..dimension].iter().map(|x| format!("sin(pi*{x})")).collect();
+    let component = |i: usize| {
+        let source = format!("{}/50*{}*sin(3*pi*t)", i + 1, shape.join("*"));
+        bind(&source, &names)
+    };
+    let face = |axis: usize, high: bool| {
+        let name = if high { "high" } else { "low" };
+        Face { name, axis, high, condition: Condition::Fixed }
+    };
+    Problem {
+        from: vec![0.0; dimension],
+        to: vec![1.0; dimension],
+        density: 2.0,
+        equation: Equation::neo_hookean(10.0, 0.3),
+        gravity: vec![bind("-9.81*t", &["t"])],
+        regions: Vec::new(),
+        manufactured: true,
+        faces: (0..dimension).flat_map(|axis| [face(axis, false), face(axis, true)]).collect(),
+        initial_velocity: Vec::new(),
+        until: 1.0,
+        motion: Motion::new((0..dimension).map(component).collect()),
+        tolerance: 1e-8,
+    }
+}
+
+/// The raster of the weak form must be fine enough for it in every dimension.
+#[rstest]
+fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
+    held(dimension).check().unwrap();
+}
+
+/// The weak form needs no other check to see that a force is missing.
+#[rstest]
+fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
+    let unforced = Problem { manufactured: false, ..held(dimension) };
+    let found = super::weak::momentum(&unforced).unwrap_err();
+    assert!(found.condition.starts_with("momentum balance"), "{found}");
+}
+
+/// What a run asks for, all places at one time after another, has the bits of a single question.
+#[rstest]
+fn the_force_of_a_run_is_the_force(#[values(1, 2, 3)] dimension: usize) {
+    let (problem, mut random) = (held(dimension), Random::new(1));
+    let labels: Vec<Vec<f64>> = (0..5).map(|_| random.point(&problem.from, &problem.to)).collect();
+    let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
+    let mut found = [[0.0; 3]; 5];
+    for t in [0.0, 0.3, 0.7] {
+        forcing.at(t, &mut found, |force| force);
+        for (label, found) in labels.iter().zip(found) {
+            assert_eq!(found, problem.manufactured_force(label, t), "{label:?}, {t}");
+        }
+    }
+}
