@@ -22,6 +22,24 @@ pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
     }
 }
 
+/// The matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
+///
+/// # Panics
+/// For any other D: no such solver is ever built.
+pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
+    Matrix::from_fn(|i, j| match D {
+        1 => 1.0,
+        2 if i == j => m[(1 - i, 1 - j)],
+        2 => -m[(1 - i, 1 - j)],
+        3 => {
+            // The indices that follow in the cycle 0, 1, 2, which has the sign built in.
+            let ([i1, j1], [i2, j2]) = ([i, j].map(|k| (k + 1) % 3), [i, j].map(|k| (k + 2) % 3));
+            m[(i1, j1)] * m[(i2, j2)] - m[(i1, j2)] * m[(i2, j1)]
+        }
+        _ => unreachable!("1, 2 or 3 dimensions"),
+    })
+}
+
 /// The dyad a b^T.
 pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
@@ -38,5 +56,19 @@ mod tests {
         let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);
         assert_relative_eq!(det(&m2), m2.determinant(), max_relative = 1e-14);
         assert_relative_eq!(det(&m3), m3.determinant(), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn cofactors_make_the_inverse() {
+        let m1 = Matrix::<1>::new(2.0);
+        let m2 = Matrix::<2>::new(1.5, -0.25, 0.5, 2.0);
+        let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);
+        assert_relative_eq!(cofactor(&m1).transpose() * m1, Matrix::<1>::identity() * det(&m1));
+        assert_relative_eq!(cofactor(&m2).transpose() * m2, Matrix::<2>::identity() * det(&m2));
+        assert_relative_eq!(
+            cofactor(&m3).transpose() * m3,
+            Matrix::<3>::identity() * det(&m3),
+            epsilon = 1e-14
+        );
     }
 }

@@ -4,7 +4,20 @@
 ///
 /// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` makes the enum of
 /// names and a macro `with_basis!(name, B => expr)`, the one `match` that turns a name into a type.
+/// `"linear" => linear::Linear` also exports the member from its file.
 macro_rules! family {
+    (
+        $(#[$meta:meta])* pub enum $names:ident; $with:ident;
+        $($text:literal => $file:ident::$member:ident,)+
+    ) => {
+        $(pub use self::$file::$member;)+
+
+        $crate::mpm::family::family! {
+            $(#[$meta])*
+            pub enum $names; $with;
+            $($text => $member,)+
+        }
+    };
     ($(#[$meta:meta])* pub enum $names:ident; $with:ident; $($text:literal => $member:ident,)+) => {
         $crate::named::named! {
             $(#[$meta])*

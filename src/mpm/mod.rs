@@ -11,6 +11,8 @@
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
 //! ```
 
+pub mod adding_a_basis;
+
 mod algebra;
 mod basis;
 mod boundary;
@@ -33,11 +35,8 @@ mod totals;
 mod transfer;
 mod whereabouts;
 
-pub use algebra::{Matrix, Vector, det, dyad};
-pub use basis::{
-    Basis, BasisName, ContiguousGimp, CubicBSpline, Domain, Linear, QuadraticBSpline, Seen,
-    UniformGimp,
-};
+pub use algebra::{Matrix, Vector, cofactor, det, dyad};
+pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Prescribed, Roller, Side, VelocityField};
 pub use combination::combine;
 pub use effect::{BodyForce, Driven, Effect, Field, Gravity, SetForce, Traction};

@@ -26,10 +26,11 @@ pub struct Particles<const D: usize> {
     pub sigma: Vec<Matrix<D>>,
     /// Deformation gradients F; empty unless a basis or a material reads them.
     pub def_grad: Vec<Matrix<D>>,
-    /// Half-lengths of the particles' domains along the axes (m) at the start of the step; empty
-    /// unless a basis reads them. They follow F when positions move, not before: a domain that
+    /// Domains of the particles at the start of the step; empty unless a basis reads them. The
+    /// columns of each matrix are the vectors from the particle to the middles of its domain's
+    /// faces, F diag(spacing)/2 (m). They follow F when positions move, not before: a domain that
     /// changed within a step would put forces on nodes that have no mass.
-    pub half: Vec<Vector<D>>,
+    pub domain: Vec<Matrix<D>>,
     /// Velocity gradients of the present step (1/s), where the material meets the kernel.
     pub grad_v: Vec<Matrix<D>>,
     /// Reference spacing of the particles on each axis (m).
@@ -69,7 +70,7 @@ impl<const D: usize> Particles<D> {
             sigma: vec![Matrix::zeros(); total],
             moved: Vec::new(),
             def_grad: Vec::new(),
-            half: Vec::new(),
+            domain: Vec::new(),
             grad_v: vec![Matrix::zeros(); total],
             x0,
             spacing,
@@ -84,9 +85,9 @@ impl<const D: usize> Particles<D> {
     /// Adds the column of domains, or brings it up to date with F.
     pub fn track_domains(&mut self) {
         self.track_deformation();
-        self.half.resize(self.len(), Vector::zeros());
-        for (half, f) in self.half.iter_mut().zip(&self.def_grad) {
-            *half = Vector::from_fn(|axis, _| 0.5 * self.spacing[axis] * f[(axis, axis)].abs());
+        self.domain.resize(self.len(), Matrix::zeros());
+        for (domain, f) in self.domain.iter_mut().zip(&self.def_grad) {
+            *domain = Matrix::from_fn(|i, axis| 0.5 * self.spacing[axis] * f[(i, axis)]);
         }
     }
 
@@ -140,6 +141,7 @@ impl<const D: usize> Particles<D> {
             ("velocity", self.v.iter().position(|v| !vector(v))),
             ("mass", self.mass.iter().position(|m| !scalar(m))),
             ("volume", self.vol.iter().position(|vol| !scalar(vol))),
+            ("deformation gradient", self.def_grad.iter().position(|f| !matrix(f))),
             ("stress", self.sigma.iter().position(|sigma| !matrix(sigma))),
         ] {
             if let Some(p) = particle {

@@ -84,11 +84,11 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &["an expectation needs its reason"]
 )]
 #[case::a_basis_twice(
-    &[("- mpm: {basis: [linear, ugimp, cpgimp, quadratic_bspline, cubic_bspline]}", "▸- mpm: {basis: [linear, linear]}")],
+    &[("- mpm: {basis: [linear, ugimp, cpgimp, cpdi, quadratic_bspline, cubic_bspline]}", "▸- mpm: {basis: [linear, linear]}")],
     &["the case `mpm-linear` appears twice"]
 )]
 #[case::no_method(
-    &[("\n  - mpm: {basis: [linear, ugimp, cpgimp, quadratic_bspline, cubic_bspline]}", " ▸[]")],
+    &[("\n  - mpm: {basis: [linear, ugimp, cpgimp, cpdi, quadratic_bspline, cubic_bspline]}", " ▸[]")],
     &["a suite without methods has no case"]
 )]
 #[case::two_expectations_at_once(

@@ -29,7 +29,7 @@ fn run_is_what_happens_without_a_command() {
 #[test]
 fn brief_leaves_the_reports_out() {
     let found = Folder::new().call(&["run", "--brief", "grid-crossing"]);
-    assert_eq!((found.code, found.out.lines().count()), (SOUND, 6));
+    assert_eq!((found.code, found.out.lines().count()), (SOUND, 7));
     assert!(found.out.contains("  pass  grid-crossing::mpm-linear  "), "{}", found.out);
 }
 

@@ -117,7 +117,11 @@ type Spoil<const D: usize> = fn(&mut Particles<D>);
 
 /// The culprit has neighbours that see the same nodes, and would be found first.
 fn the_culprit_is_named<const D: usize>() {
-    let columns: [(&str, Spoil<D>); 4] = [
+    let columns: [(&str, Spoil<D>); 5] = [
+        ("deformation gradient", |particles| {
+            particles.track_deformation();
+            particles.def_grad[1][(0, D - 1)] = NAN;
+        }),
         ("velocity", |particles| particles.v[1][D - 1] = NAN),
         ("stress", |particles| particles.sigma[1][(0, D - 1)] = INF),
         ("mass", |particles| particles.mass[1] = NAN),
@@ -137,6 +141,26 @@ fn the_culprit_is_named<const D: usize>() {
 #[rstest]
 fn a_state_that_is_no_number_is_traced_to_its_particle(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, the_culprit_is_named());
+}
+
+/// Only those that follow the deformation read it; they have no gradient there.
+fn a_collapsed_domain_ends_the_run<const D: usize>() {
+    for basis in [BasisName::ContiguousGimp, BasisName::Cpdi] {
+        for &scheme in SchemeName::ALL {
+            let mut setup = free_body::<D>((basis, METHOD.1), scheme);
+            setup.particles.track_deformation();
+            setup.particles.def_grad[1].fill(0.0);
+            match Solver::new(setup).unwrap().step(DT) {
+                Err(Failure::NonFinite { quantity: "J" | "position", .. }) => {}
+                met => panic!("{D}-D {basis:?} {scheme:?}: {met:?}"),
+            }
+        }
+    }
+}
+
+#[rstest]
+fn a_domain_without_a_volume_is_no_silent_nan(#[values(1, 2, 3)] dimension: usize) {
+    in_dimension!(dimension, a_collapsed_domain_ends_the_run());
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
         sigma: rows.iter().map(|row| Matrix::from_fn(|i, j| row.2[i.min(j)][i.max(j)])).collect(),
         def_grad: vec![Matrix::identity(); rows.len()],
         moved: Vec::new(),
-        half: vec![Vector::from_element(0.5 * H); rows.len()],
+        domain: vec![Matrix::identity() * (0.5 * H); rows.len()],
         grad_v: vec![Matrix::zeros(); rows.len()],
         spacing: Vector::from_element(H),
     }

@@ -26,13 +26,17 @@ pub struct Seen<'a, const D: usize> {
     pub offset: Vector<D>,
 }
 
-/// A family of basis functions N_i on the grid.
+/// A family of basis functions N_i on the grid. How one is added: [`crate::mpm::adding_a_basis`].
 pub trait Basis: Sized + Sync + Send + 'static {
     /// Degree p of the polynomials that the basis reproduces on a smooth field.
     const DEGREE: u8;
 
     /// What the basis must know of a particle.
     const DOMAIN: Domain;
+
+    /// Whether grad N_i is the derivative of N_i as the particle moves and its domain does not.
+    /// Where it is not, as in CPDI, it is the average of a gradient over the domain.
+    const GRADIENT_OF_WEIGHT: bool = true;
 
     /// Functions along an axis of `cells` cells.
     fn count(cells: usize, periodic: bool) -> usize;
@@ -41,7 +45,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// positions x_i for which sum N_i x_i = x (Greville abscissae).
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
-    /// Calls `visit` for every node that particle `p` sees. Does nothing where the particle is
+    /// Calls `visit` for every node that particle `p` sees, once or several times: its weight and
+    /// its gradient are the sums over the visits. Does nothing where the particle is
     /// outside the grid: the solver reports that when it moves particles, not here.
     fn visit<const D: usize>(
         grid: &Grid<D>,
@@ -50,6 +55,6 @@ pub trait Basis: Sized + Sync + Send + 'static {
         visit: impl FnMut(Seen<'_, D>),
     );
 
-    /// Most nodes that a particle sees in D dimensions: the unit of the work counter.
+    /// Most visits to nodes that a particle makes in D dimensions: the unit of the work counter.
     fn support(dimension: usize) -> u64;
 }

@@ -73,8 +73,8 @@ fn visit<const D: usize>(
         return;
     }
     let axes: [Along<MOST>; D] = std::array::from_fn(|axis| {
-        let followed = particles.half.get(p).filter(|_| follows);
-        let half = followed.map_or(0.5 * particles.spacing[axis], |half| half[axis]);
+        let followed = particles.domain.get(p).filter(|_| follows);
+        let half = followed.map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)].abs());
         along(grid, grid.wrapped(x, axis), half * grid.inverse_h(), axis)
     });
     tensor::visit(grid, &axes, visit);

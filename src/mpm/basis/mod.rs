@@ -1,28 +1,28 @@
-//! Basis functions: the family. A member is one file and one line below.
+//! Basis functions: the family. A member is one file and one line below (and the `mod` that Rust
+//! wants).
 
 mod bspline;
 mod contract;
+mod cpdi;
 mod gimp;
 #[cfg(test)]
 mod laws;
 mod linear;
 mod tensor;
 
-pub use bspline::{CubicBSpline, QuadraticBSpline};
 pub use contract::{Basis, Domain, Seen};
-pub use gimp::{ContiguousGimp, UniformGimp};
-pub use linear::Linear;
 
 use super::{algebra::Vector, family::family, grid::Grid};
 
 family! {
     /// Names of the basis functions that suites may choose.
     pub enum BasisName; with_basis;
-    "linear" => Linear,
-    "ugimp" => UniformGimp,
-    "cpgimp" => ContiguousGimp,
-    "quadratic_bspline" => QuadraticBSpline,
-    "cubic_bspline" => CubicBSpline,
+    "linear" => linear::Linear,
+    "ugimp" => gimp::UniformGimp,
+    "cpgimp" => gimp::ContiguousGimp,
+    "cpdi" => cpdi::Cpdi,
+    "quadratic_bspline" => bspline::QuadraticBSpline,
+    "cubic_bspline" => bspline::CubicBSpline,
 }
 
 impl BasisName {

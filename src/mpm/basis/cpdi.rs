@@ -1,0 +1,296 @@
+//! CPDI: convected particle domain interpolation (Sadeghirad, Brannon & Burghardt 2011, IJNME 86,
+//! 1435-1456).
+//!
+//! A particle's domain is the segment, parallelogram or parallelepiped `x + R xi`, `-1 <= xi_a <= 1`,
+//! with the columns `r_a = F r_a0` of R. On it the hats `S_i` of the grid are replaced by their
+//! multilinear interpolation between the corners `x_c = x + R s_c`, `s_c = (+-1, ...)`:
+//! `sum_c M_c(xi) S_i(x_c)`, `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain the average of `M_c` is
+//! `1/2^D`, and that of `d M_c/d xi_a` is `s_ca/2^D`; by the chain rule `grad = R^-T d/d xi`. So
+//!
+//! ```text
+//! N_i      = 2^-D sum_c S_i(x_c)
+//! grad N_i = 2^-D sum_c S_i(x_c) R^-T s_c
+//! ```
+//!
+//! which in 2-D are the paper's, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and
+//! `(S_i(x + l) - S_i(x - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight.
+//! `grad N_i` is the average of a gradient, not the gradient of the average `N_i`. Both reproduce
+//! linear fields: `sum_i x_i N_i = x`, `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
+//!
+//! At walls the domain is squeezed along the axis until it ends there, as GIMP's is cut off: the
+//! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
+//! to the wall would not keep it.
+
+use super::contract::{Basis, Domain, Seen};
+use crate::mpm::{
+    algebra::{Matrix, Vector, cofactor, det},
+    grid::Grid,
+    particles::Particles,
+};
+
+/// CPDI with parallelogram domains.
+#[derive(Debug, Clone, Copy)]
+pub struct Cpdi;
+
+/// How far a domain may reach on a periodic axis, in cells: so far that its corners still have a
+/// place within a cell.
+const FAR: f64 = 1e6;
+
+/// The particle's place and its domain vectors, in cells, within the walls.
+fn within<const D: usize>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    p: usize,
+) -> (Vector<D>, Matrix<D>) {
+    let reference = || Matrix::from_diagonal(&(particles.spacing * 0.5));
+    let mut domain = particles.domain.get(p).copied().unwrap_or_else(reference) * grid.inverse_h();
+    let mut centre = Vector::from_fn(|axis, _| grid.wrapped(&particles.x[p], axis));
+    for axis in 0..D {
+        let reach: f64 = domain.row(axis).iter().map(|r| r.abs()).sum();
+        let (low, high) = if grid.periodic[axis] {
+            (centre[axis] - FAR, centre[axis] + FAR)
+        } else {
+            (0.0, grid.cells[axis] as f64)
+        };
+        if centre[axis] - reach < low || centre[axis] + reach > high {
+            let (low, high) = (low.max(centre[axis] - reach), high.min(centre[axis] + reach));
+            centre[axis] = 0.5 * (low + high);
+            domain.row_mut(axis).scale_mut(0.5 * (high - low) / reach);
+        }
+    }
+    (centre, domain)
+}
+
+/// The two hats along an axis that are not zero at some place.
+struct Hats {
+    index: [usize; 2],
+    weight: [f64; 2],
+    /// Where they sit, in cells.
+    place: [f64; 2],
+}
+
+/// The hats at `s` (in cells) along `axis`. Corners outside the grid by round-off are on the wall.
+#[inline]
+fn hats<const D: usize>(grid: &Grid<D>, s: f64, axis: usize) -> Hats {
+    let (index, low, xi) = if grid.periodic[axis] {
+        let cell = libm::floor(s);
+        ([cell, cell + 1.0].map(|node| grid.wrap_signed(node, axis)), cell, s - cell)
+    } else {
+        let cell = (s as usize).min(grid.cells[axis] - 1);
+        ([cell, cell + 1], cell as f64, (s - cell as f64).clamp(0.0, 1.0))
+    };
+    Hats { index, weight: [1.0 - xi, xi], place: [low, low + 1.0] }
+}
+
+/// Calls `visit` with node, weight and place (in cells) for each product of hats.
+#[inline]
+fn products<const D: usize>(
+    grid: &Grid<D>,
+    hats: &[Hats; D],
+    mut visit: impl FnMut(usize, f64, Vector<D>),
+) {
+    for near in 0..1_usize << D {
+        let (mut index, mut weight) = ([0; D], 1.0);
+        let place = Vector::from_fn(|axis, _| hats[axis].place[near >> axis & 1]);
+        for axis in 0..D {
+            let k = near >> axis & 1;
+            index[axis] = hats[axis].index[k];
+            weight *= hats[axis].weight[k];
+        }
+        visit(grid.node(&index), weight, place);
+    }
+}
+
+impl Basis for Cpdi {
+    const DEGREE: u8 = 1;
+    const DOMAIN: Domain = Domain::Follows;
+    const GRADIENT_OF_WEIGHT: bool = false;
+
+    fn count(cells: usize, periodic: bool) -> usize {
+        cells + usize::from(!periodic)
+    }
+
+    fn abscissa(index: usize, _: usize, _: bool) -> f64 {
+        index as f64
+    }
+
+    #[inline]
+    fn visit<const D: usize>(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        mut visit: impl FnMut(Seen<'_, D>),
+    ) {
+        if grid.cell(&particles.x[p]).is_none() {
+            return;
+        }
+        let own = Vector::from_fn(|axis, _| grid.wrapped(&particles.x[p], axis));
+        let (centre, domain) = within(grid, particles, p);
+        let corners = 1_usize << D;
+        let share = 1.0 / corners as f64;
+        let inverse_transposed = cofactor(&domain) * (grid.inverse_h() / det(&domain));
+        for corner in 0..corners {
+            let side = Vector::from_fn(|axis, _| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 });
+            let (at, outward) = (centre + domain * side, inverse_transposed * side);
+            let hats = std::array::from_fn(|axis| hats(grid, at[axis], axis));
+            products(grid, &hats, |node, weight, place| {
+                let (weight, offset) = (weight * share, (place - own) * grid.h);
+                visit(Seen { node, weight, gradient: &(outward * weight), offset });
+            });
+        }
+    }
+
+    /// The nodes of the cells of all corners: one that two corners see counts twice.
+    fn support(dimension: usize) -> u64 {
+        4_u64.pow(dimension as u32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{basis::Linear, particles::Block};
+    use approx::assert_abs_diff_eq;
+    use rstest::rstest;
+
+    const CELLS: usize = 6;
+
+    fn grid<const D: usize>(periodic: bool) -> Grid<D> {
+        let counts = [Cpdi::count(CELLS, periodic); D];
+        Grid::new(Vector::zeros(), 0.5, [CELLS; D], [periodic; D], counts)
+    }
+
+    fn particle<const D: usize>(x: Vector<D>, domain: Matrix<D>) -> Particles<D> {
+        let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
+        let mut particles = Particles::fill(&block, 1.0, 1);
+        (particles.x[0], particles.domain) = (x, vec![domain]);
+        particles
+    }
+
+    /// Weight and gradient of every node, and their number of visits.
+    fn seen<B: Basis, const D: usize>(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+    ) -> Vec<(f64, Vector<D>)> {
+        let mut seen = vec![(0.0, Vector::zeros()); grid.nodes()];
+        B::visit(grid, particles, 0, |i| {
+            seen[i.node].0 += i.weight;
+            seen[i.node].1 += i.gradient;
+        });
+        seen
+    }
+
+    /// The interpolated hats and their slopes along the domain vectors, `dN/dxi_a = r_a . grad N`,
+    /// averaged by two Gauss points an axis (exact: they are multilinear in xi).
+    fn averages<const D: usize>(periodic: bool) {
+        let grid = grid::<D>(periodic);
+        let x = Vector::from_fn(|axis, _| 1.4 + 0.07 * axis as f64);
+        let domain = Matrix::from_fn(|i, j| if i == j { 0.4 } else { 0.3 * (i as f64 - j as f64) });
+        let signs = |k: usize| Vector::<D>::from_fn(|a, _| 2.0 * (k >> a & 1) as f64 - 1.0);
+        let corners: Vec<_> = (0..1 << D)
+            .map(|c| seen::<Linear, D>(&grid, &particle(x + domain * signs(c), domain)))
+            .collect();
+        let field = |xi: &Vector<D>, i: usize| -> f64 {
+            let share = |c: usize| {
+                signs(c).iter().zip(xi).map(|(s, xi)| 0.5 * (1.0 + s * xi)).product::<f64>()
+            };
+            (0..1 << D).map(|c| share(c) * corners[c][i].0).sum()
+        };
+        let mean = |value: &dyn Fn(Vector<D>) -> f64| -> f64 {
+            (0..1 << D).map(|k| value(signs(k) / f64::sqrt(3.0))).sum::<f64>() / f64::from(1 << D)
+        };
+        for (i, (weight, gradient)) in
+            seen::<Cpdi, D>(&grid, &particle(x, domain)).iter().enumerate()
+        {
+            assert_abs_diff_eq!(*weight, mean(&|xi| field(&xi, i)), epsilon = 1e-14);
+            for axis in 0..D {
+                let mut step = Vector::zeros();
+                step[axis] = 0.25;
+                let slope = |xi| (field(&(xi + step), i) - field(&(xi - step), i)) / 0.5;
+                let along = domain.column(axis).dot(gradient);
+                assert_abs_diff_eq!(along, mean(&slope), epsilon = 1e-13);
+            }
+        }
+    }
+
+    #[rstest]
+    fn weight_and_gradient_are_averages_over_the_domain(#[values(false, true)] periodic: bool) {
+        averages::<1>(periodic);
+        averages::<2>(periodic);
+        averages::<3>(periodic);
+    }
+
+    /// Corners at 0.8 and 1.4 cells. The slopes of the middle hat there cancel, and so does the
+    /// derivative of its weight; its gradient does not.
+    #[test]
+    fn the_gradient_is_not_that_of_the_weight() {
+        let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));
+        let seen = seen::<Cpdi, 1>(&grid(false), &particle(x, domain));
+        for (i, weight, gradient) in
+            [(0, 0.1, -0.2 / 0.3), (1, 0.7, -0.2 / 0.3), (2, 0.2, 0.4 / 0.3)]
+        {
+            assert_abs_diff_eq!(seen[i].0, weight, epsilon = 1e-15);
+            assert_abs_diff_eq!(seen[i].1[0], gradient, epsilon = 1e-14);
+        }
+    }
+
+    /// The largest push of a uniform unit stress on the nodes well inside a sheared and turned body
+    /// that fills the middle of the grid, `|sum_p V_p grad N_i| / h`.
+    fn push<B: Basis>() -> f64 {
+        let (from, to) = (Vector::<2>::from_element(-1.0), Vector::from_element(1.0));
+        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 0.5, 3);
+        let shear = Matrix::<2>::new(0.8, -0.5, 0.6, 0.9);
+        particles.track_deformation();
+        particles.def_grad.fill(shear);
+        particles.track_domains();
+        let volume = particles.vol0[0] * det(&shear);
+        particles.x.iter_mut().for_each(|x| *x = shear * *x + Vector::<2>::new(1.57, 1.46));
+        let grid = grid::<2>(false);
+        let mut total = vec![Vector::<2>::zeros(); grid.nodes()];
+        for p in 0..particles.len() {
+            B::visit(&grid, &particles, p, |i| total[i.node] += i.gradient * (volume / grid.h));
+        }
+        let is_inside = |i: usize| (0..2).all(|axis| grid.index_on_axis(i, axis) == CELLS / 2);
+        (0..grid.nodes()).filter(|&i| is_inside(i)).map(|i| total[i].norm()).fold(0.0, f64::max)
+    }
+
+    /// What parallelograms are for: they tile a sheared body, and boxes do not.
+    #[test]
+    fn a_uniform_stress_does_not_push_a_sheared_body() {
+        assert_abs_diff_eq!(push::<Cpdi>(), 0.0, epsilon = 1e-14);
+        assert!(push::<crate::mpm::basis::ContiguousGimp>() > 1e-3);
+    }
+
+    /// In two dimensions, where F turns, shears and stretches without bound.
+    #[rstest]
+    #[case::longer_than_the_grid(20.0)]
+    #[case::far_longer(1e8)]
+    #[case::as_long_as_can_be(1e300)]
+    fn a_long_domain_still_gives_all_of_the_particle(
+        #[case] length: f64,
+        #[values(false, true)] periodic: bool,
+    ) {
+        let domain = Matrix::<2>::new(1.0, -0.5, 0.7, 0.2) * length;
+        let seen = seen::<Cpdi, 2>(&grid(periodic), &particle(Vector::<2>::new(0.0, 1.3), domain));
+        assert!(seen.iter().all(|(weight, _)| *weight >= 0.0));
+        assert_abs_diff_eq!(seen.iter().map(|s| s.0).sum::<f64>(), 1.0, epsilon = 1e-14);
+        assert_abs_diff_eq!(
+            seen.iter().map(|s| s.1).sum::<Vector<2>>().norm(),
+            0.0,
+            epsilon = 1e-13
+        );
+    }
+
+    #[rstest]
+    #[case::a_point(0.0)]
+    #[case::infinite(f64::INFINITY)]
+    #[case::no_number(f64::NAN)]
+    fn a_domain_without_a_volume_has_no_gradient(
+        #[case] length: f64,
+        #[values(false, true)] periodic: bool,
+    ) {
+        let domain = Matrix::<2>::new(1.0, -0.5, 0.7, 0.2) * length;
+        let seen = seen::<Cpdi, 2>(&grid(periodic), &particle(Vector::<2>::new(0.1, 1.3), domain));
+        assert!(seen.iter().any(|(_, gradient)| gradient.iter().any(|slope| slope.is_nan())));
+    }
+}
