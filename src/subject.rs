@@ -154,6 +154,9 @@ pub enum Failure {
         /// The determinant that was met.
         j: f64,
     },
+    /// A body starts deformed, and its law cannot tell the stress of that.
+    #[error("a law in rate form has no stress for a body that starts deformed")]
+    NotOfDeformation,
     /// A particle has no cell any more.
     #[error("{site} left the domain at x = {position:?}")]
     LeftDomain {

@@ -1,6 +1,6 @@
 //! Every condition that a problem puts on its motion.
 
-use super::{boundary, differences, pointwise, problem::Problem, violation::Violation, weak};
+use super::{boundary, differences, pointwise, problem::Problem, rims, violation::Violation, weak};
 
 impl Problem {
     /// Holds the motion against the equation (point by point and in weak form), the boundary and
@@ -13,6 +13,7 @@ impl Problem {
         pointwise::initial(self)?;
         boundary::boundary(self)?;
         boundary::driven(self)?;
+        rims::free(self)?;
         differences::differentiation(self)?;
         pointwise::equation(self)?;
         weak::momentum(self)

@@ -22,7 +22,7 @@ pub(super) fn differentiation(problem: &Problem) -> Result<(), Violation> {
     for _ in 0..POINTS / 4 {
         let mut last = Ok(());
         for _ in 0..3 {
-            let label = random.point(&problem.from, &problem.to);
+            let label = problem.point(&mut random);
             let event = Event { label, t: random.between(0.0, problem.until) };
             last = differences(problem, &event, speed, acceleration);
             if last.is_ok() {

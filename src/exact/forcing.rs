@@ -9,7 +9,7 @@ use super::{
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), where forces on parts of the body need them.
+    /// The places (m), where stated forces depend on them.
     labels: Vec<Vec<f64>>,
 }
 
@@ -18,7 +18,7 @@ impl Forcing {
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
-        let needed = !problem.regions.is_empty();
+        let needed = !(problem.regions.is_empty() && problem.body_force.is_empty());
         let labels = if needed { labels } else { Vec::new() };
         Self { problem: problem.clone(), places, labels }
     }
@@ -34,7 +34,7 @@ impl Forcing {
             let whole = self.problem.balance(&now);
             let label = self.labels.get(place);
             let given =
-                |i| gravity[i] + label.map_or(0.0, |label| self.problem.on_regions(i, label, t));
+                |i| gravity[i] + label.map_or(0.0, |label| self.problem.at_place(i, label, t));
             *force = make(std::array::from_fn(|i| whole[i] - given(i)));
         }
     }

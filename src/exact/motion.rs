@@ -24,6 +24,8 @@ pub struct Derivatives {
     pub acceleration: [f64; 3],
     /// `grad[i][j] = du_i/dX_j`.
     pub grad: [[f64; 3]; 3],
+    /// `grad_rate[i][j] = d2 u_i/dX_j dt` (1/s).
+    pub grad_rate: [[f64; 3]; 3],
     /// `second[k][a][b] = d2 u_k/dX_a dX_b` (1/m).
     pub second: [[[f64; 3]; 3]; 3],
 }
@@ -120,6 +122,7 @@ fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut De
         all.acceleration[i] = jet.dd(time, time);
         for a in 0..time {
             all.grad[i][a] = jet.d(a);
+            all.grad_rate[i][a] = jet.dd(a, time);
             for b in 0..time {
                 all.second[i][a][b] = jet.dd(a, b);
             }

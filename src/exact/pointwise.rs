@@ -46,7 +46,7 @@ impl Event {
 fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
     let mut random = Random::new(seed);
     let mut event = || {
-        let label = random.point(&problem.from, &problem.to);
+        let label = problem.point(&mut random);
         let t = random.between(0.0, problem.until);
         let all = problem.motion.derivatives(&label, t);
         (Event { label, t }, all)
@@ -67,6 +67,11 @@ pub(super) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
+/// Largest displacement gradient.
+pub(super) fn strain(problem: &Problem) -> f64 {
+    scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max))
+}
+
 /// The displacement is a number everywhere inside, and not zero everywhere.
 pub(super) fn presence(problem: &Problem) -> Result<(), Violation> {
     let points = interior(problem, 1);
@@ -83,7 +88,7 @@ pub(super) fn presence(problem: &Problem) -> Result<(), Violation> {
     Err(points[0].0.violation(condition, None, 0.0, "m"))
 }
 
-/// u(X, 0) = 0 and u_t(X, 0) = v0(X).
+/// u(X, 0) = u0(X) and u_t(X, 0) = v0(X).
 pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
     let size = scale(problem, |_, d| largest(&d.u));
     let speed = scale(problem, |_, d| largest(&d.velocity));
@@ -91,13 +96,12 @@ pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
         let event = Event { t: 0.0, ..event };
         let now = problem.motion.derivatives(&event.label, 0.0);
         for i in 0..problem.dimension() {
-            let name = format!("initial condition u_{}(X, 0) = 0", AXES[i]);
-            event.judge(problem.tolerance * size, name, (0.0, now.u[i]), "m")?;
-            if problem.manufactured {
-                continue;
-            }
-            let start = formula_at(&problem.initial_velocity, i, &event);
+            let zero = if problem.initial_displacement.is_empty() { "0" } else { "u0(X)" };
+            let name = format!("initial condition u_{}(X, 0) = {zero}", AXES[i]);
+            let start = start(problem, &problem.initial_displacement, i, &event, now.u[i]);
+            event.judge(problem.tolerance * size, name, (start, now.u[i]), "m")?;
             let name = format!("initial condition on the velocity in {}", AXES[i]);
+            let start = self::start(problem, &problem.initial_velocity, i, &event, now.velocity[i]);
             let allowed = problem.tolerance * speed.max(start.abs());
             event.judge(allowed, name, (start, now.velocity[i]), "m/s")?;
         }
@@ -105,18 +109,29 @@ pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
     Ok(())
 }
 
+/// Component i of an initial condition: what is `stated`, or else that of the motion (which must
+/// be a number: nothing is near to NaN or infinity) or zero.
+fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
+    if stated.is_empty() && problem.follows_motion {
+        return motion;
+    }
+    formula_at(stated, i, event)
+}
+
 fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
     let variables = super::motion::variables(&event.label, event.t);
     formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
 }
 
-/// `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation.
+/// `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. Where the problem
+/// declares a force, the two sides are put as forces: that which the motion needs, and that which
+/// is declared.
 pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
     let points = interior(problem, 4);
     let terms = |event: &Event, d: &Derivatives, i: usize| {
         let inertia = problem.density * d.acceleration[i];
         let stress = problem.equation.divergence(problem.dimension(), &d.grad, &d.second)[i];
-        (inertia, stress, problem.density * problem.force(&event.label, d, event.t)[i])
+        (inertia, stress, problem.density * problem.force(&event.label, event.t, d)[i])
     };
     let size = scale(problem, |event, d| {
         (0..problem.dimension())
@@ -128,8 +143,14 @@ pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
         for i in 0..problem.dimension() {
             let (inertia, stress, force) = terms(event, d, i);
             let name = format!("equation of motion in {}, rho0 u_tt = Div P + rho0 b,", AXES[i]);
-            let allowed = problem.tolerance * size;
-            event.judge(allowed, name, (stress + force, inertia), "N/m3")?;
+            let (allowed, rho0) = (problem.tolerance * size, problem.density);
+            if problem.body_force.is_empty() {
+                event.judge(allowed, name, (stress + force, inertia), "N/m3")?;
+            } else {
+                let (name, forces) =
+                    (name + " solved for b,", ((inertia - stress) / rho0, force / rho0));
+                event.judge(allowed / rho0, name, forces, "m/s2")?;
+            }
         }
     }
     Ok(())

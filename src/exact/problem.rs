@@ -3,8 +3,10 @@
 use super::{
     equation::Equation,
     formula::Formula,
-    motion::{Derivatives, Motion, write},
+    motion::{Derivatives, Motion, variables, write},
+    random::Random,
     region::Region,
+    round::Round,
     truth::Truth,
 };
 
@@ -38,13 +40,15 @@ pub struct Face {
     pub condition: Condition,
 }
 
-/// An initial-boundary-value problem on a box, with the motion that claims to solve it.
+/// An initial-boundary-value problem on a box or a round body, with the motion that claims to solve it.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// Lowest corner of the body (m).
+    /// Lowest corner of the body, or of the box around it (m).
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
+    /// The body, if it is no box; then there are no faces.
+    pub round: Option<Round>,
     /// Reference density (kg/m^D).
     pub density: f64,
     /// The equation of motion.
@@ -52,6 +56,9 @@ pub struct Problem {
     /// Uniform body force per unit mass (m/s2), one formula of t for each component; empty where
     /// there is none.
     pub gravity: Vec<Formula>,
+    /// Body force per unit mass (m/s2) that the problem states besides, one formula of the
+    /// coordinates and t for each component; empty where there is none.
+    pub body_force: Vec<Formula>,
     /// Whether a further body force is added that makes the motion a solution: the method of
     /// manufactured solutions (Roache 2002).
     pub manufactured: bool,
@@ -59,7 +66,12 @@ pub struct Problem {
     pub faces: Vec<Face>,
     /// Parts of the body on which something acts.
     pub regions: Vec<Region>,
-    /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty: at rest.
+    /// Whether the body starts as the motion does: then an initial condition that is not stated
+    /// follows from the motion, and otherwise it is zero.
+    pub follows_motion: bool,
+    /// Initial displacement (m), formulas of the coordinates and t (= 0); empty: not stated.
+    pub initial_displacement: Vec<Formula>,
+    /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty: not stated.
     pub initial_velocity: Vec<Formula>,
     /// End of the run (s).
     pub until: f64,
@@ -75,6 +87,19 @@ impl Problem {
         self.from.len()
     }
 
+    /// Whether the body holds a point of the box around it.
+    pub fn holds(&self, label: &[f64]) -> bool {
+        self.round.as_ref().is_none_or(|round| round.holds(label))
+    }
+
+    /// A random point of the body.
+    pub(super) fn point(&self, random: &mut Random) -> Vec<f64> {
+        match &self.round {
+            Some(round) => round.point(random),
+            None => random.point(&self.from, &self.to),
+        }
+    }
+
     /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what
     /// the problem states.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
@@ -82,13 +107,12 @@ impl Problem {
         std::array::from_fn(|i| balance[i] - self.given(i, label, t))
     }
 
-    /// The whole body force (m/s2) where the motion's derivatives are `now`.
-    pub(super) fn force(&self, label: &[f64], now: &Derivatives, t: f64) -> [f64; 3] {
+    /// The whole body force (m/s2) at `label` and `t`, where the motion's derivatives are `now`.
+    pub(super) fn force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.manufactured {
-            self.balance(now)
-        } else {
-            std::array::from_fn(|i| self.given(i, label, t))
+            return self.balance(now);
         }
+        std::array::from_fn(|i| self.given(i, label, t))
     }
 
     /// The body force that the motion needs, `u_tt - Div P / rho0`.
@@ -99,7 +123,7 @@ impl Problem {
 
     /// The body force (m/s2) that the problem states: gravity, and forces on parts of the body.
     fn given(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        self.gravity_at(i, t) + self.on_regions(i, label, t)
+        self.gravity_at(i, t) + self.at_place(i, label, t)
     }
 
     /// Component i of gravity (m/s2).
@@ -107,11 +131,13 @@ impl Problem {
         self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]))
     }
 
-    /// Component i of the forces on parts of the body, per unit mass (m/s2).
-    pub(super) fn on_regions(&self, i: usize, label: &[f64], t: f64) -> f64 {
+    /// Component i of the forces that depend on the place (m/s2): declared, and on parts of the body.
+    pub(super) fn at_place(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        let all = variables(label, t);
+        let declared = self.body_force.get(i).map_or(0.0, |b| b.eval(&all[..=label.len()]));
         let body = (&self.from[..], &self.to[..]);
         let on = |region: &Region| region.force_density(i, label, t, body);
-        self.regions.iter().map(on).sum::<f64>() / self.density
+        declared + self.regions.iter().map(on).sum::<f64>() / self.density
     }
 }
 

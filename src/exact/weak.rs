@@ -27,16 +27,16 @@ struct Patch {
 
 impl Patch {
     fn draw(random: &mut Random, problem: &Problem) -> Self {
-        let low = problem.from.iter().chain([&0.0]);
-        let high = problem.to.iter().chain([&problem.until]);
-        let longest = problem.to.iter().map(|_| f64::INFINITY).chain([WAVES * crossing(problem)]);
-        let (mut centre, mut half) = (Vec::new(), Vec::new());
-        for ((low, high), longest) in low.zip(high).zip(longest) {
-            let width = (high - low).min(longest) * random.between(0.2, 1.0);
-            let start = low + (high - low - width) * random.unit();
-            centre.push(start + 0.5 * width);
-            half.push(0.5 * width);
-        }
+        let (mut centre, mut half): (Vec<f64>, Vec<f64>) = match &problem.round {
+            None => {
+                let ends = problem.from.iter().zip(&problem.to);
+                ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip()
+            }
+            Some(round) => round.patch(random),
+        };
+        let (middle, duration) = interval(random, 0.0, problem.until, WAVES * crossing(problem));
+        centre.push(middle);
+        half.push(duration);
         Self { centre, half }
     }
 
@@ -77,6 +77,13 @@ fn bump(points: &[Point]) -> (f64, [f64; 4]) {
     (factors(points.len()), slope)
 }
 
+/// Middle and half-length of a random part of an interval, none longer than `longest`.
+fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
+    let width = (high - low).min(longest) * random.between(0.2, 1.0);
+    let start = low + (high - low - width) * random.unit();
+    (start + 0.5 * width, 0.5 * width)
+}
+
 /// Time that a wave takes through the body, on its longest axis.
 fn crossing(problem: &Problem) -> f64 {
     let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
@@ -88,8 +95,7 @@ fn crossing(problem: &Problem) -> f64 {
 pub(super) fn momentum(problem: &Problem) -> Result<(), Violation> {
     let mut random = Random::new(6);
     for _ in 0..PATCHES {
-        let patch = Patch::draw(&mut random, problem);
-        balance(problem, &patch)?;
+        balance(problem, &Patch::draw(&mut random, problem))?;
     }
     Ok(())
 }
@@ -145,7 +151,7 @@ fn sums(problem: &Problem, patch: &Patch) -> [Sums; 3] {
             points[..d].copy_from_slice(spot);
             let (phi, slope) = bump(&points[..=d]);
             let (piola, force) =
-                (problem.equation.piola(&now.grad), problem.force(&labels[place], &now, time.at));
+                (problem.equation.piola(&now.grad), problem.force(&labels[place], time.at, &now));
             for (i, sums) in all[..d].iter_mut().enumerate() {
                 let inertia = problem.density * now.velocity[i] * slope[d];
                 let stress: f64 = (0..d).map(|j| piola[i][j] * slope[j]).sum();

@@ -21,6 +21,7 @@ mod effect;
 mod family;
 mod frame;
 mod grid;
+mod initial;
 mod kernel;
 mod loops;
 mod mass;

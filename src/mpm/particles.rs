@@ -1,6 +1,6 @@
 //! Particles: one column per quantity.
 
-use super::algebra::{Matrix, Vector};
+use super::algebra::{Matrix, Vector, det};
 use crate::subject::{Failure, Site};
 
 /// The material points, structure of arrays. `n` particles; a column exists only if some member
@@ -48,19 +48,43 @@ pub struct Block<const D: usize> {
     pub density: f64,
 }
 
+impl<const D: usize> Block<D> {
+    /// The centres of the equal shares, see [`Particles::fill`].
+    pub fn centres(&self, h: f64, per_axis: usize) -> impl Iterator<Item = Vector<D>> {
+        let (length, count) = (self.to - self.from, self.counts(h, per_axis));
+        (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
+    }
+
+    /// Shares along each axis.
+    fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
+        std::array::from_fn(|axis| {
+            let length = self.to[axis] - self.from[axis];
+            libm::round(length * per_axis as f64 / h).max(1.0) as usize
+        })
+    }
+}
+
 impl<const D: usize> Particles<D> {
     /// Fills `block` with equally spaced particles, each at the centre of its share, as near to
     /// `per_axis` particles per cell of size `h` on each axis as the length of the body allows
     /// (exactly so where the body is a whole number of cells long). At rest and free of stress.
     pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
-        let length = block.to - block.from;
-        let count: [usize; D] = std::array::from_fn(|axis| {
-            libm::round(length[axis] * per_axis as f64 / h).max(1.0) as usize
-        });
+        Self::fill_where(block, h, per_axis, |_| true)
+    }
+
+    /// Fills `block` and keeps the particles whose reference position is `inside`, each with the
+    /// whole of its share.
+    pub fn fill_where(
+        block: &Block<D>,
+        h: f64,
+        per_axis: usize,
+        inside: impl Fn(&Vector<D>) -> bool,
+    ) -> Self {
+        let (length, count) = (block.to - block.from, block.counts(h, per_axis));
         let spacing = Vector::<D>::from_fn(|axis, _| length[axis] / count[axis] as f64);
         let volume = spacing.iter().product::<f64>();
-        let total = count.iter().product();
-        let x0: Vec<Vector<D>> = (0..total).map(|p| centre(p, block, &length, &count)).collect();
+        let x0: Vec<Vector<D>> = block.centres(h, per_axis).filter(inside).collect();
+        let total = x0.len();
         Self {
             x: x0.clone(),
             v: vec![Vector::zeros(); total],
@@ -82,6 +106,23 @@ impl<const D: usize> Particles<D> {
         self.def_grad.resize(self.len(), Matrix::identity());
     }
 
+    /// Starts the body deformed: `state` gives the displacement (m) and F of each particle, by its
+    /// index. Stresses and domains follow when a solver is made of them.
+    pub fn deform(&mut self, state: impl Fn(usize) -> (Vector<D>, Matrix<D>)) {
+        self.track_deformation();
+        for p in 0..self.len() {
+            let (u, f) = state(p);
+            self.x[p] = self.x0[p] + u;
+            self.def_grad[p] = f;
+            self.vol[p] = det(&f) * self.vol0[p];
+        }
+    }
+
+    /// Whether any particle starts with another F than the identity, or with NaN.
+    pub(super) fn is_deformed(&self) -> bool {
+        self.def_grad.iter().any(|f| *f != Matrix::<D>::identity())
+    }
+
     /// Adds the column of domains, or brings it up to date with F.
     pub fn track_domains(&mut self) {
         self.track_deformation();
@@ -89,6 +130,13 @@ impl<const D: usize> Particles<D> {
         for (domain, f) in self.domain.iter_mut().zip(&self.def_grad) {
             *domain = Matrix::from_fn(|i, axis| 0.5 * self.spacing[axis] * f[(i, axis)]);
         }
+    }
+
+    /// Enters the total-Lagrangian frame: from now on the basis sees reference positions.
+    pub(super) fn stay_in_reference(&mut self) {
+        self.track_deformation();
+        self.moved.clone_from(&self.x);
+        self.x.clone_from(&self.x0);
     }
 
     /// Current position of particle `p` (m), in either frame.
@@ -181,6 +229,20 @@ mod tests {
         assert_eq!(particles.len(), 8 * 16);
         assert_relative_eq!(particles.mass.iter().sum::<f64>(), 6.0, max_relative = 1e-14);
         assert_relative_eq!(particles.x[0], Vector::<2>::new(0.0625, 1.0625));
+    }
+
+    #[test]
+    fn a_round_body_keeps_whole_shares_of_the_lattice() {
+        let (from, to) = (Vector::<2>::new(-2.0, -2.0), Vector::<2>::new(2.0, 2.0));
+        let block = Block { from, to, density: 1.0 };
+        let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
+        let particles = Particles::fill_where(&block, 0.125, 2, ring);
+        // In half spacings, centres are odd and the radii 24 and 40: exact in whole numbers.
+        let odd = || (-63..64_i32).step_by(2);
+        let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
+        let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();
+        assert_eq!(particles.len(), inside);
+        assert!(particles.vol0.iter().all(|vol| *vol == 0.0625 * 0.0625));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::{
     effect::Effect,
     frame::FrameName,
     grid::Grid,
+    initial,
     kernel::Kernel,
     mass::MassMatrix,
     material::Material,
@@ -61,23 +62,18 @@ impl<const D: usize> Solver<D> {
     ///
     /// # Errors
     /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
-    /// starts outside the grid.
+    /// starts outside the grid; [`Failure::Inverted`] or [`Failure::NotOfDeformation`] if the body
+    /// starts deformed in a way that has no meaning.
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
-        if setup.kernel.domain() == Domain::Follows {
-            setup.particles.track_domains();
-        }
-        if setup.material.reads_deformation() || setup.frame == FrameName::Total {
-            setup.particles.track_deformation();
-        }
+        let Setup { particles, kernel, material, .. } = &mut setup;
+        let min_j = initial::complete(particles, kernel.as_ref(), material.as_mut())?;
         if setup.frame == FrameName::Total {
-            setup.particles.moved.clone_from(&setup.particles.x);
-            setup.particles.x.clone_from(&setup.particles.x0);
+            setup.particles.stay_in_reference();
         }
-        setup.particles.all_finite()?;
         let whereabouts = Whereabouts::new(&setup.grid, &setup.particles)?;
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
-        let (time, stands, started, transfers, min_j) = (0.0, 0.0, false, 0, 1.0);
+        let (time, stands, started, transfers) = (0.0, 0.0, false, 0);
         Ok(Self { setup, time, stands, started, transfers, min_j, whereabouts })
     }
 

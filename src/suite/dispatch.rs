@@ -3,16 +3,18 @@
 
 use super::{
     conditions::{boundary, of_time, on_sets, periodic, side},
+    filling,
     method::Method,
     model::{ConvergencePlan, Scene, SceneFace},
+    start::Initial,
     words::EquationName,
 };
 use crate::{
     exact::{Forcing, Problem, Region, formula::Formula},
     fem::{self, Bar, Sampling},
     mpm::{
-        Block, BodyForce, Effect, Gravity, Grid, Kernel, LinearElastic, MaterialPlan, Particles,
-        Solver, Traction, Vector, kernel,
+        BodyForce, Effect, Gravity, Grid, Kernel, LinearElastic, MaterialPlan, Particles, Solver,
+        Traction, Vector, kernel,
     },
     subject::{Start, Subject},
     verify::Quantity,
@@ -48,6 +50,19 @@ pub(super) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     (to[0] - from[0]) / cells as f64
 }
 
+/// Whether a level with cells of size `h` has no particle.
+pub(super) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
+    fn vacant<const D: usize>(scene: &Scene, h: f64, per_axis: usize) -> bool {
+        let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
+        filling::is_empty(scene, &origin, h, per_axis)
+    }
+    match scene.dimension() {
+        1 => vacant::<1>(scene, h, per_axis),
+        2 => vacant::<2>(scene, h, per_axis),
+        _ => vacant::<3>(scene, h, per_axis),
+    }
+}
+
 /// Particles along each axis of a cell, if `ppc` is a whole power.
 pub(super) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
     let root = libm::round(libm::pow(ppc as f64, 1.0 / dimension as f64)) as u64;
@@ -67,17 +82,13 @@ fn mpm<const D: usize>(
     let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
     let grid = grid(scene, h, kernel.as_ref());
-    let (from, to) = (vector(&scene.from), vector(&scene.to));
-    let mut particles = Particles::fill(&Block { from, to, density: scene.density }, h, per_axis);
+    let mut particles = filling::particles(scene, &grid.origin, h, per_axis);
     if plan.of == Quantity::DeformationGradient {
         particles.track_deformation();
     }
-    let made = manufactured(plan);
-    for (v, x0) in particles.v.iter_mut().zip(&particles.x0) {
-        *v = made.map_or_else(|| at(&scene.initial_velocity, x0), |made| velocity(made, x0));
-    }
+    Initial::of(plan).put(&mut particles);
     let mut effects = effects(scene, &particles);
-    effects.extend(made.map(|made| manufactured_force(made, &particles)));
+    effects.extend(manufactured(plan).map(|made| manufactured_force(made, &particles)));
     effects.extend(on_sets(scene, &particles)?);
     let setup = crate::mpm::Setup {
         kernel,
@@ -96,25 +107,16 @@ fn mpm<const D: usize>(
     Ok(Box::new(solver))
 }
 
-fn vector<const D: usize>(components: &[f64]) -> Vector<D> {
-    Vector::from_fn(|axis, _| components[axis])
-}
-
-fn at<const D: usize>(formulas: &[Formula], x0: &Vector<D>) -> Vector<D> {
+fn at<const D: usize>(formulas: &[Formula], x0: &Vector<D>, t: f64) -> Vector<D> {
     let mut variables = [0.0; 4];
     variables[..D].copy_from_slice(x0.as_slice());
+    variables[D] = t;
     Vector::from_fn(|i, _| formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=D])))
 }
 
 /// The problem whose force is manufactured, if it is.
 fn manufactured(plan: &ConvergencePlan) -> Option<&Problem> {
     plan.exact.as_ref().filter(|problem| problem.manufactured)
-}
-
-/// The motion's velocity at the start.
-fn velocity<const D: usize>(made: &Problem, x0: &Vector<D>) -> Vector<D> {
-    let now = made.motion.derivatives(x0.as_slice(), 0.0);
-    Vector::from_fn(|i, _| now.velocity[i])
 }
 
 fn manufactured_force<const D: usize>(
@@ -148,14 +150,18 @@ pub(super) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
 fn roomy(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     let (from, to) = (scene.from[axis], scene.to[axis]);
     let spare = (SPARE_CELLS + libm::ceil(0.1 * (to - from) / h)) * h;
-    let free = |face: &SceneFace| if face.hold.is_free() { spare } else { 0.0 };
-    (from - free(&scene.faces[2 * axis]), to + free(&scene.faces[2 * axis + 1]))
+    let held = |i: usize| scene.faces.get(i).is_some_and(|face: &SceneFace| !face.hold.is_free());
+    let free = |i: usize| if held(i) { 0.0 } else { spare };
+    (from - free(2 * axis), to + free(2 * axis + 1))
 }
 
 fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<dyn Effect<D>>> {
     let mut effects: Vec<Box<dyn Effect<D>>> = Vec::new();
     if let Some(formulas) = &scene.gravity {
         effects.push(Box::new(Gravity(of_time(formulas))));
+    }
+    if let Some(formulas) = scene.body_force.clone() {
+        effects.push(Box::new(BodyForce::pointwise(move |x0, t| at(&formulas, x0, t))));
     }
     for face in &scene.faces {
         if let Some(formulas) = &face.traction {
@@ -174,7 +180,7 @@ pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     let scene = &plan.scene;
     let (from, to) = (scene.from[0], scene.to[0]);
     let elements = libm::round((to - from) / cell_size(scene, cells)).max(1.0);
-    let (start_velocity, made) = (scene.initial_velocity.clone(), manufactured(plan).cloned());
+    let [deformed, moving] = [Initial::of(plan), Initial::of(plan)];
     let setup = fem::Setup {
         from,
         to,
@@ -184,23 +190,21 @@ pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         density: scene.density,
         law: piola(law, &scene.material)?,
         fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
-        body_force: body_force(scene, made.clone()),
+        body_force: body_force(scene, manufactured(plan).cloned()),
         traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
-        initial_displacement: Box::new(|_| 0.0),
-        initial_velocity: Box::new(move |x| {
-            let x = Vector::<1>::new(x);
-            made.as_ref().map_or_else(|| at(&start_velocity, &x), |made| velocity(made, &x))[0]
-        }),
+        initial_displacement: Box::new(move |x| deformed.at(&[x]).u[0]),
+        initial_velocity: Box::new(move |x| moving.at(&[x]).velocity[0]),
         start,
         sampling,
     };
     Bar::new(setup).map_err(|error| error.to_string())
 }
 
-/// Gravity, forces on sets and manufactured force of a bar, if it has any.
+/// Gravity, declared and manufactured force and forces on sets of a bar, if it has any.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
     let scene = scene.clone();
-    if scene.gravity.is_none() && scene.sets.is_empty() && made.is_none() {
+    let stated = scene.gravity.is_some() || scene.body_force.is_some() || !scene.sets.is_empty();
+    if !stated && made.is_none() {
         return None;
     }
     Some(Box::new(move |x, t| {
@@ -208,7 +212,8 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
         let body = (&scene.from[..], &scene.to[..]);
         let on = |set: &Region| set.force_density(0, &[x], t, body) / scene.density;
         let sets: f64 = scene.sets.iter().map(on).sum();
-        made + scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t])) + sets
+        let declared = scene.body_force.as_ref().map_or(0.0, |b| b[0].eval(&[x, t]));
+        made + declared + scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t])) + sets
     }))
 }
 
@@ -256,7 +261,7 @@ mod tests {
     /// `J sigma F^-T` (Pa) of the MPM's material.
     fn piola_of_mpm<const D: usize>(plan: &MaterialPlan, f: &Matrix<D>) -> Matrix<3> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        let mut one = Particles::<D>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut one = Particles::<D>::fill(&crate::mpm::Block { from, to, density: 1.0 }, 1.0, 1);
         one.track_deformation();
         one.def_grad[0] = *f;
         plan.build().update(0.0, &mut one);

@@ -162,6 +162,10 @@ fn observed(
             return Err(binder.complain(&path.then(axis), &message).with_label(&label));
         }
     }
+    if scene.round.as_ref().is_some_and(|round| !round.holds(&place)) {
+        let complaint = binder.complain(&path, "this place is outside the body");
+        return Err(complaint.with_label("expected a place between the rims"));
+    }
     Ok(place)
 }
 

@@ -11,6 +11,7 @@
 
 mod bar_limits;
 mod binder;
+mod body;
 mod cases;
 mod comparable;
 mod conditions;
@@ -18,6 +19,7 @@ mod dispatch;
 pub mod embedded;
 mod execute;
 mod expect;
+mod filling;
 mod force;
 mod hold;
 mod judged;
@@ -32,6 +34,7 @@ mod reference;
 mod scene;
 mod sets;
 mod size;
+mod start;
 pub mod statement;
 mod truth;
 mod wording;

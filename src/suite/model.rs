@@ -6,7 +6,7 @@ use super::{
     words::{CrossingLevels, EquationName, NormName},
 };
 use crate::{
-    exact::{Problem, Region, formula::Formula},
+    exact::{Problem, Region, Round, formula::Formula},
     fem::{Element, Mass},
     mpm::{BasisName, MaterialPlan},
     verify::{Expectation, Quantity},
@@ -98,23 +98,29 @@ pub enum Against {
 /// The body and what acts on it.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Lowest corner of the body (m); its length is the number of dimensions.
+    /// Lowest corner of the body, or of the box around it (m); its length is the number of dimensions.
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
+    /// The body, if it is no box.
+    pub round: Option<Round>,
     /// Grid that the suite asks for, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
     /// The material, but for its density.
     pub material: MaterialPlan,
     /// Reference density (kg/m^D).
     pub density: f64,
-    /// The 2 D faces: low and high, axis by axis.
+    /// The 2 D faces of a box: low and high, axis by axis. A round body has none.
     pub faces: Vec<SceneFace>,
     /// Sets of particles, each with what acts on it.
     pub sets: Vec<Region>,
     /// Uniform acceleration (m/s2), formulas of t.
     pub gravity: Option<Vec<Formula>>,
-    /// Initial velocity (m/s), formulas of the coordinates and t; empty: at rest.
+    /// Force per unit mass (m/s2), formulas of the coordinates and t.
+    pub body_force: Option<Vec<Formula>>,
+    /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
+    pub initial_displacement: Vec<Formula>,
+    /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.
     pub initial_velocity: Vec<Formula>,
 }
 

@@ -2,22 +2,20 @@
 
 use super::{
     binder::Binder,
+    body,
     hold::{self, FACES, face},
+    law,
     model::{Scene, SceneFace},
     path::Path,
     sets,
     wording::shown,
-    words::{BodyWords, BoxWords, LoadWords, SceneWords, SetWords},
+    words::{LoadWords, SceneWords, SetWords},
     yaml::{Complaint, NumberText},
 };
 use crate::{
     exact::{Region, formula::Formula},
     mpm::{MaterialPlan, MaterialWords, Range},
 };
-
-/// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
-const SHORTEST: f64 = 1e-30;
-const LONGEST: f64 = 1e30;
 
 /// Names of the coordinates in formulas.
 pub(super) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
@@ -31,12 +29,22 @@ pub(super) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
 pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Complaint> {
     let path = Path::top("scene");
     let dimension = dimension(binder, &path, &words.dimension)?;
-    let BodyWords::Box(body) = &words.body;
-    let (from, to) = corners(binder, &path.then("body").then("box"), body, dimension)?;
+    let at = path.then("body");
+    let (from, to, round) = match body::round(binder, &at, &words.body, dimension)? {
+        Ok(round) => {
+            body::rims_are_free(binder, &path, words, &round)?;
+            let (from, to) = round.corners();
+            (from, to, Some(round))
+        }
+        Err(words) => {
+            let (from, to) = body::corners(binder, &at.then("box"), words, dimension)?;
+            (from, to, None)
+        }
+    };
     let grid = words
         .grid
         .as_ref()
-        .map(|grid| corners(binder, &path.then("grid"), grid, dimension))
+        .map(|grid| body::corners(binder, &path.then("grid"), grid, dimension))
         .transpose()?;
     let sets = declared_sets(binder, &path, words, (&from, &to))?;
     let (material, density) = material(binder, &path.then("material"), &words.material)?;
@@ -44,11 +52,14 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         from,
         to,
         grid,
+        initial_displacement: initial_displacement(binder, &path, words, dimension, &material)?,
         material,
         density,
-        faces: faces(binder, &path, words, dimension)?,
+        faces: if round.is_some() { Vec::new() } else { faces(binder, &path, words, dimension)? },
+        round,
         sets,
         gravity: None,
+        body_force: None,
         initial_velocity: initial_velocity(binder, &path, words, dimension)?,
     };
     for (i, load) in words.loads.iter().enumerate() {
@@ -56,6 +67,9 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
     }
     sets::refuse_idle(binder, &path, &scene.sets)?;
     grid_holds_body(binder, &path, &scene)?;
+    if let Some(round) = &scene.round {
+        body::fits(binder, &path, round, scene.grid.as_ref())?;
+    }
     Ok(scene)
 }
 
@@ -68,33 +82,6 @@ fn dimension(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<usiz
             .complain(&path, &format!("a scene of dimension {}", shown(dimension)))
             .with_label("expected 1, 2 or 3")),
     }
-}
-
-fn corners(
-    binder: &Binder<'_>,
-    path: &Path,
-    words: &BoxWords,
-    dimension: usize,
-) -> Result<(Vec<f64>, Vec<f64>), Complaint> {
-    let from = binder.point(&path.then("from"), &words.from, dimension)?;
-    let to = binder.point(&path.then("to"), &words.to, dimension)?;
-    for axis in 0..dimension {
-        if !(from[axis] < to[axis]) {
-            let (from, to) = (shown(from[axis]), shown(to[axis]));
-            let message = format!("the box ends at {to} and starts at {from}");
-            let complaint = binder.complain(&path.then("to").then(axis), &message);
-            return Err(complaint.with_label("expected a number above that of `from`"));
-        }
-        // Squares of lengths appear in second derivatives, cubes in volumes.
-        let length = to[axis] - from[axis];
-        if !(SHORTEST..=LONGEST).contains(&length) {
-            let message = format!("the box is {} m long", shown(length));
-            let complaint = binder.complain(&path.then("to").then(axis), &message);
-            let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
-            return Err(complaint.with_label(&label));
-        }
-    }
-    Ok((from, to))
 }
 
 /// The material and its density (kg/m^D).
@@ -159,18 +146,36 @@ fn declared_sets(
     binder: &Binder<'_>,
     path: &Path,
     words: &SceneWords,
-    body: (&[f64], &[f64]),
+    corners: (&[f64], &[f64]),
 ) -> Result<Vec<Region>, Complaint> {
     let declare = |(name, SetWords::Box(words)): &(String, SetWords)| {
         let at = path.then("sets").then(name.as_str());
         sets::refuse_face_name(binder, &at, name)?;
         let at = at.then("box");
-        let (from, to) = corners(binder, &at, words, body.0.len())?;
+        let (from, to) = body::corners(binder, &at, words, corners.0.len())?;
         let set = Region { name: name.clone(), from, to, force: None, velocity: None };
-        sets::refuse_outside(binder, &at, &set, body)?;
+        sets::refuse_outside(binder, &at, &set, corners)?;
         Ok(set)
     };
     words.sets.as_slice().iter().map(declare).collect()
+}
+
+fn initial_displacement(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+    dimension: usize,
+    material: &MaterialPlan,
+) -> Result<Vec<Formula>, Complaint> {
+    let path = path.then("initial_displacement");
+    let Some(texts) = &words.initial_displacement else { return Ok(Vec::new()) };
+    if law::manufactured(material).is_err() {
+        let message = format!("a `{}` body cannot start deformed", material.name());
+        let complaint = binder.complain_key(&path, &message);
+        let help = "its stress is integrated from the start on; a `neo_hookean` one can";
+        return Err(complaint.with_help(help));
+    }
+    binder.vector(&path, texts, dimension, &coordinates_and_time(dimension))
 }
 
 fn initial_velocity(
@@ -201,6 +206,13 @@ fn add_load(
                 return Err(binder.complain(&path, "gravity appears twice"));
             }
             scene.gravity = Some(binder.vector(&path, texts, d, &["t"])?);
+        }
+        LoadWords::BodyForce(texts) => {
+            let path = path.then("body_force");
+            if scene.body_force.is_some() {
+                return Err(binder.complain(&path, "a body force appears twice"));
+            }
+            scene.body_force = Some(binder.vector(&path, texts, d, &coordinates_and_time(d))?);
         }
         LoadWords::Traction { on, value } => {
             let path = path.then("traction");

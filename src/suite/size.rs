@@ -2,7 +2,7 @@
 
 use super::{
     binder::Binder,
-    dispatch::{cell_size, grid_axis, per_axis},
+    dispatch::{cell_size, grid_axis, is_vacant, per_axis},
     model::{ConvergencePlan, Scene},
     path::Path,
     wording::shown,
@@ -49,6 +49,13 @@ fn level(
             let complaint = binder.complain(path, &message);
             return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
         }
+    }
+    let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, plan.scene.dimension()));
+    if plan.scene.round.is_some() && per_axis.is_some_and(|n| is_vacant(&plan.scene, h, n)) {
+        let message =
+            format!("with {cells} cells along the first axis no particle lies in the body");
+        let label = "expected cells small enough for the body to hold one";
+        return Err(binder.complain(path, &message).with_label(label));
     }
     held_faces(binder, path, &plan.scene, cells)?;
     sets(binder, path, plan, cells)

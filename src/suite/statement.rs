@@ -59,10 +59,9 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
         if problem.manufactured {
             push(rows, "motion", &problem.motion.source());
             push(rows, "body force", "manufactured, b = u_tt - Div P / rho0");
-            let hencky = matches!(plan.scene.material, MaterialPlan::Hencky { .. });
-            push(rows, "equation", if hencky { HENCKY } else { NEO_HOOKEAN });
+            push(rows, "equation", equation(&plan.scene.material));
         } else {
-            push(rows, "equation", SMALL_STRAIN);
+            push(rows, "equation", equation(&plan.scene.material));
         }
         push(rows, "amplitude", &amplitude(problem));
     }
@@ -89,7 +88,16 @@ fn judged(plan: &ConvergencePlan) -> String {
 fn scene(scene: &Scene, rows: &mut Rows) {
     let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     let (from, to) = (corner(&scene.from), corner(&scene.to));
-    push(rows, "body", &format!("({from}) to ({to}) m, density {}", scene.density));
+    let body = match &scene.round {
+        None => format!("({from}) to ({to}) m"),
+        Some(round) => {
+            let (kind, centre, outer) = (round.name(), corner(&round.centre), round.outer);
+            let inner =
+                if round.inner > 0.0 { format!("{} to ", round.inner) } else { String::new() };
+            format!("{kind} about ({centre}), radius {inner}{outer} m, free rims")
+        }
+    };
+    push(rows, "body", &format!("{body}, density {}", scene.density));
     if let Some((from, to)) = &scene.grid {
         push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
     }
@@ -116,6 +124,10 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     if let Some(gravity) = &scene.gravity {
         push(rows, "gravity", &format!("{} m/s2", sources(gravity)));
     }
+    if let Some(force) = &scene.body_force {
+        push(rows, "body force", &format!("{} m/s2", sources(force)));
+    }
+    push(rows, "initial displacement", &sources(&scene.initial_displacement));
     push(rows, "initial velocity", &sources(&scene.initial_velocity));
 }
 
@@ -132,6 +144,15 @@ fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }
 
+/// The problem that a formula solves in a body of this material.
+fn equation(material: &MaterialPlan) -> &'static str {
+    match material {
+        MaterialPlan::NeoHookean { .. } => NEO_HOOKEAN,
+        MaterialPlan::Hencky { .. } => HENCKY,
+        _ => SMALL_STRAIN,
+    }
+}
+
 /// Largest displacement and displacement gradient of the exact solution, on a raster of the body
 /// and the run.
 fn amplitude(problem: &Problem) -> String {
@@ -145,8 +166,9 @@ fn amplitude(problem: &Problem) -> String {
                 rest /= PER_AXIS + 1;
                 a + (b - a) * share
             };
-            corners.map(coordinate).collect()
+            corners.map(coordinate).collect::<Vec<f64>>()
         })
+        .filter(|place| problem.holds(place))
         .collect();
     let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);

@@ -38,27 +38,47 @@ pub(super) fn exact(
         let message = "a solution is either exact or manufactured";
         return Err(binder.complain_key(&Path::top("manufactured"), message));
     }
-    let MaterialPlan::LinearElastic { young, poisson } = scene.material else {
-        let message = "`small_strain` is the problem of a linear elastic material";
-        let complaint = binder.complain(&path.then("equation"), message);
-        return Err(complaint.with_help("state the motion under `manufactured`"));
-    };
-    if exact.equation != EquationName::SmallStrain {
-        let message = "a formula is checked against `small_strain` only";
-        let complaint = binder.complain(&path.then("equation"), message);
-        return Err(complaint.with_help("give other equations a `reference`"));
-    }
     let problem = Problem {
         tolerance: tolerance(binder, &path, exact.tolerance.as_ref())?,
         ..problem(
             scene,
-            Equation::small_strain(young, poisson),
+            equation(binder, &path.then("equation"), exact.equation, scene)?,
             motion(binder, &path, &exact.displacement, scene.dimension())?,
             until,
         )
     };
     check(binder, &path, &problem)?;
     Ok(Some(problem))
+}
+
+/// The equation that a formula is checked against, which must be that of the scene's material.
+fn equation(
+    binder: &Binder<'_>,
+    path: &Path,
+    name: EquationName,
+    scene: &Scene,
+) -> Result<Equation, Complaint> {
+    let (message, help) = match (name, &scene.material) {
+        (EquationName::SmallStrain, MaterialPlan::LinearElastic { young, poisson }) => {
+            return Ok(Equation::small_strain(*young, *poisson));
+        }
+        (EquationName::NeoHookean, MaterialPlan::NeoHookean { young, poisson }) => {
+            return Ok(Equation::neo_hookean(*young, *poisson));
+        }
+        (EquationName::Hencky, MaterialPlan::Hencky { young, poisson }) => {
+            return Ok(Equation::hencky(*young, *poisson));
+        }
+        (EquationName::LogStrain, _) => (
+            "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only"
+                .to_owned(),
+            "give other equations a `reference`",
+        ),
+        (name, material) => (
+            format!("`{}` is not the problem of a `{}` material", name.name(), material.name()),
+            "a linear elastic material has `small_strain`, others have the equation of their name",
+        ),
+    };
+    Err(binder.complain(path, &message).with_help(help))
 }
 
 /// The problem whose body force follows from the motion that the suite states.
@@ -74,10 +94,21 @@ fn manufactured(
         let message = "a force is manufactured for a `neo_hookean` or `hencky` material";
         binder.complain_key(&path, message).with_help(reason)
     })?;
-    if !scene.initial_velocity.is_empty() {
-        let message = "the initial velocity follows from the motion";
-        let at = Path::top("scene").then("initial_velocity");
-        return Err(binder.complain_key(&at, message).with_help("remove it"));
+    for (key, what, stated) in [
+        ("initial_displacement", "displacement", &scene.initial_displacement),
+        ("initial_velocity", "velocity", &scene.initial_velocity),
+    ] {
+        if !stated.is_empty() {
+            let message = format!("the initial {what} follows from the motion");
+            let at = Path::top("scene").then(key);
+            return Err(binder.complain_key(&at, &message).with_help("remove it"));
+        }
+    }
+    if scene.body_force.is_some() {
+        let message = "the body force follows from the motion, and the scene states one besides";
+        let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
+                    have the force checked";
+        return Err(binder.complain_key(&path, message).with_help(help));
     }
     let problem = Problem {
         manufactured: true,
@@ -97,12 +128,16 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
     Problem {
         from: scene.from.clone(),
         to: scene.to.clone(),
+        round: scene.round.clone(),
         density: scene.density,
         equation,
         gravity: scene.gravity.clone().unwrap_or_default(),
+        body_force: scene.body_force.clone().unwrap_or_default(),
         manufactured: false,
         faces: scene.faces.iter().map(face).collect(),
         regions: scene.sets.clone(),
+        follows_motion: law::manufactured(&scene.material).is_ok(),
+        initial_displacement: scene.initial_displacement.clone(),
         initial_velocity: scene.initial_velocity.clone(),
         until,
         motion,
@@ -115,7 +150,7 @@ fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Comp
         let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
         complaint
             .with_label("this is not a solution of the problem that the scene states")
-            .with_help("correct the formula, or the scene: loads, boundary, initial velocity")
+            .with_help("correct the formula, or the scene: loads, boundary, initial state")
     })
 }
 

@@ -15,6 +15,7 @@ mod samples;
 mod scenes;
 mod sizes;
 mod truths;
+mod vortex;
 
 use mpm_verify::suite::{
     Suite,

@@ -20,6 +20,10 @@ use rstest::rstest;
     &[("[\"v0*mode(X)\"]", "▸[\"v0*mode(X)\", 0]")],
     &["2 components in a scene of dimension 1", "expected 1"]
 )]
+#[case::a_deformed_start_of_a_law_in_rate_form(
+    &[("  initial_velocity:", "  ▸initial_displacement: [0]\n  initial_velocity:")],
+    &["a `linear_elastic` body cannot start deformed"]
+)]
 #[case::a_grid_the_wrong_way_round(&[("to: [L + 5]", "to: [▸-5]")], &["the box ends at -5 and starts at 0"])]
 #[case::a_body_that_sticks_out_of_the_grid(
     &[("to: [L + 5]", "to: [▸L - 5]")],
@@ -55,7 +59,7 @@ use rstest::rstest;
 )]
 #[case::a_formula_for_another_equation(
     &[("small_strain", "▸log_strain")],
-    &["a formula is checked against `small_strain` only", "give other equations a `reference`"]
+    &["a formula is checked against `small_strain` or `neo_hookean` only", "give other equations a `reference`"]
 )]
 fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);

@@ -113,9 +113,9 @@ const FORCED: &str = include_str!("../../verification/mms-fixed-bar-small.yaml")
     &[("[\"G*sin(pi*X)*sin(c*pi*t)\"]", "[▸\"G*cos(pi*X)*sin(c*pi*t)\"]")],
     &["boundary condition: left is fixed, u_X = 0"]
 )]
-#[case::a_motion_that_starts_displaced(
-    &[("[\"G*sin(pi*X)*sin(c*pi*t)\"]", "[▸\"G*sin(pi*X)*cos(c*pi*t)\"]")],
-    &["initial condition u_X(X, 0) = 0"]
+#[case::a_motion_that_is_not_there_at_the_start(
+    &[("[\"G*sin(pi*X)*sin(c*pi*t)\"]", "[▸\"G*sin(pi*X)/t\"]")],
+    &["initial condition u_X(X, 0) = 0", "t = 0.000000"]
 )]
 fn a_manufactured_motion_must_fit_the_scene(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     violated(FORCED, edits, words);
@@ -137,6 +137,14 @@ fn a_manufactured_motion_must_fit_the_scene(#[case] edits: Edits<'_>, #[case] wo
 #[case::an_initial_velocity(
     &[("\nmanufactured:", "  ▸initial_velocity: [0]\n\nmanufactured:")],
     &["the initial velocity follows from the motion"]
+)]
+#[case::an_initial_displacement(
+    &[("\nmanufactured:", "  ▸initial_displacement: [0]\n\nmanufactured:")],
+    &["the initial displacement follows from the motion"]
+)]
+#[case::a_body_force_besides(
+    &[("\nmanufactured:", "  loads: [{body_force: [0]}]\n\n▸manufactured:")],
+    &["the body force follows from the motion, and the scene states one besides", "to have the force checked"]
 )]
 #[case::two_truths(
     &[("\nmanufactured:", "\nexact: {equation: small_strain, displacement: [0]}\n▸manufactured:")],
@@ -168,4 +176,54 @@ fn a_force_is_manufactured_for_hencky_as_well(#[case] sound: &str, #[case] edits
     if let Err(complaint) = super::load(&text) {
         panic!("{complaint}");
     }
+}
+/// The same motion with the force that it needs (for nu = 0), which the suite now states itself.
+fn with_its_force(force: &str) -> String {
+    let load =
+        format!("  loads: [{{body_force: [\"{force}\"]}}]\n\nexact:\n  equation: neo_hookean\n");
+    let motion = "u(x, s): \"G*sin(pi*x)*sin(c*pi*s)\"\n  f(x, s): \"1 + pi*G*cos(pi*x)*sin(c*pi*s)\"\n\nscene:";
+    let (head, tail) = FORCED.split_once("\nmanufactured:").expect("a motion");
+    let tail = tail.split_once('\n').expect("a comment").1;
+    format!("{head}{load}{tail}")
+        .replacen("scene:", &format!("functions:\n  {motion}"), 1)
+        .replace("[\"G*sin(pi*X)*sin(c*pi*t)\"]", "[\"u(X, t)\"]")
+}
+
+const FORCE: &str = "pi^2*u(X, t)/rho*E*(0.5*(1 + 1/f(X, t)^2) - 1)";
+
+#[test]
+fn a_stated_force_that_is_right_is_taken() {
+    if let Err(complaint) = super::load(&with_its_force(FORCE)) {
+        panic!("{complaint}");
+    }
+}
+
+#[rstest]
+#[case::a_force_of_the_wrong_sign(
+    &[("[\"pi^2", "[\"-pi^2"), ("[\"u(X, t)\"]", "[▸\"u(X, t)\"]")],
+    &["equation of motion in X, rho0 u_tt = Div P + rho0 b, solved for b,", "m/s2 (off by "]
+)]
+#[case::a_start_that_is_not_that_of_the_motion(
+    &[("  loads:", "  initial_displacement: [\"1e-3*G*X\"]\n  loads:"), ("[\"u(X, t)\"]", "[▸\"u(X, t)\"]")],
+    &["initial condition u_X(X, 0) = u0(X)"]
+)]
+#[case::a_velocity_that_is_not_that_of_the_motion(
+    &[("  loads:", "  initial_velocity: [0]\n  loads:"), ("[\"u(X, t)\"]", "[▸\"u(X, t)\"]")],
+    &["initial condition on the velocity in X"]
+)]
+fn a_stated_force_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    violated(&with_its_force(FORCE), edits, words);
+}
+
+#[rstest]
+#[case::the_equation_of_another_material(
+    &[("equation: neo_hookean", "equation: ▸small_strain")],
+    &["`small_strain` is not the problem of a `neo_hookean` material"]
+)]
+#[case::two_forces(
+    &[("loads: [", "loads: [{body_force: [0]}, "), ("{body_force: [\"pi", "{body_force: ▸[\"pi")],
+    &["a body force appears twice"]
+)]
+fn a_stated_force_is_refused_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(&with_its_force(FORCE), edits, words);
 }

@@ -8,7 +8,7 @@ mod scene;
 
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
 pub(in crate::suite) use scene::{
-    BodyWords, BoundaryWords, BoxWords, LoadWords, SceneWords, SetWords,
+    AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, RoundWords, SceneWords, SetWords,
 };
 
 use super::yaml::{NumberText, OneOrMany, Ordered};

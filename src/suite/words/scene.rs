@@ -15,6 +15,7 @@ pub(in crate::suite) struct SceneWords {
     pub(in crate::suite) material: MaterialWords<NumberText>,
     #[serde(default)]
     pub(in crate::suite) boundary: Ordered<BoundaryWords>,
+    pub(in crate::suite) initial_displacement: Option<Vec<NumberText>>,
     pub(in crate::suite) initial_velocity: Option<Vec<NumberText>>,
     #[serde(default)]
     pub(in crate::suite) sets: Ordered<SetWords>,
@@ -26,6 +27,9 @@ pub(in crate::suite) struct SceneWords {
 #[serde(rename_all = "snake_case")]
 pub(in crate::suite) enum BodyWords {
     Box(BoxWords),
+    Annulus(AnnulusWords),
+    Disk(RoundWords),
+    Ball(RoundWords),
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -33,6 +37,21 @@ pub(in crate::suite) enum BodyWords {
 pub(in crate::suite) struct BoxWords {
     pub(in crate::suite) from: Vec<NumberText>,
     pub(in crate::suite) to: Vec<NumberText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct AnnulusWords {
+    pub(in crate::suite) centre: Vec<NumberText>,
+    pub(in crate::suite) inner: NumberText,
+    pub(in crate::suite) outer: NumberText,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct RoundWords {
+    pub(in crate::suite) centre: Vec<NumberText>,
+    pub(in crate::suite) radius: NumberText,
 }
 
 /// Boundary conditions on a face; a face that is not named is free.
@@ -62,6 +81,8 @@ pub(in crate::suite) enum SetWords {
 pub(in crate::suite) enum LoadWords {
     /// Uniform acceleration (m/s2), formulas of t.
     Gravity(Vec<NumberText>),
+    /// Force per unit mass (m/s2), formulas of the coordinates and t.
+    BodyForce(Vec<NumberText>),
     /// Force per reference area on one face (Pa), formulas of t.
     Traction { on: String, value: Vec<NumberText> },
     /// Total force on a set (N), formulas of t.

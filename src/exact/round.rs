@@ -1,0 +1,142 @@
+//! Round bodies: an annulus or a disk in the plane, a ball in space.
+//!
+//! Their rims carry no traction, which is all that a suite can say of them.
+
+use super::random::Random;
+use std::f64::consts::PI;
+
+/// The points at a distance from `inner` to `outer` (m) of a centre; `inner` is zero for a disk
+/// and a ball.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Round {
+    /// Centre (m), two or three coordinates.
+    pub centre: Vec<f64>,
+    /// Inner radius (m).
+    pub inner: f64,
+    /// Outer radius (m).
+    pub outer: f64,
+}
+
+/// A rim of a round body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rim {
+    pub(super) name: &'static str,
+    pub(super) radius: f64,
+    /// Sign of the outward normal along the radius.
+    pub(super) outwards: f64,
+}
+
+impl Round {
+    /// Whether the point with reference position `label` belongs to the body.
+    pub fn holds(&self, label: &[f64]) -> bool {
+        let square: f64 = label.iter().zip(&self.centre).map(|(x, c)| (x - c) * (x - c)).sum();
+        (self.inner..=self.outer).contains(&square.sqrt())
+    }
+
+    /// Lowest and highest corner of the box around the body (m).
+    pub fn corners(&self) -> (Vec<f64>, Vec<f64>) {
+        let shifted = |by: f64| self.centre.iter().map(|c| c + by).collect();
+        (shifted(-self.outer), shifted(self.outer))
+    }
+
+    /// The names that the body and its kind go by.
+    pub fn name(&self) -> &'static str {
+        match self.centre.len() {
+            2 if self.inner > 0.0 => "annulus",
+            2 => "disk",
+            _ => "ball",
+        }
+    }
+
+    /// The rims, the inner first.
+    pub(super) fn rims(&self) -> impl Iterator<Item = Rim> {
+        let inner = Rim { name: "inner", radius: self.inner, outwards: -1.0 };
+        let outer = Rim { name: "outer", radius: self.outer, outwards: 1.0 };
+        [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
+    }
+
+    /// A point of a rim and the unit vector from the centre to it.
+    pub(super) fn on_rim(&self, random: &mut Random, rim: Rim) -> (Vec<f64>, [f64; 3]) {
+        let direction = self.direction(random);
+        (self.along(&direction, rim.radius), direction)
+    }
+
+    /// A point inside, uniform in the body.
+    pub(super) fn point(&self, random: &mut Random) -> Vec<f64> {
+        let d = self.centre.len() as f64;
+        let power = |radius: f64| libm::pow(radius / self.outer, d);
+        let radius = self.outer * libm::pow(random.between(power(self.inner), 1.0), 1.0 / d);
+        let direction = self.direction(random);
+        self.along(&direction, radius.clamp(self.inner, self.outer))
+    }
+
+    /// Centre and half-lengths of a box inside the body, between the rims.
+    pub(super) fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
+        let radius = self.inner + (self.outer - self.inner) * random.between(0.25, 0.75);
+        let reach =
+            self.rims().map(|rim| (rim.radius - radius).abs()).fold(f64::INFINITY, f64::min);
+        let direction = self.direction(random);
+        let corner = reach / (self.centre.len() as f64).sqrt();
+        let half = self.centre.iter().map(|_| corner * random.between(0.2, 1.0)).collect();
+        (self.along(&direction, radius), half)
+    }
+
+    /// A random direction, all equally likely (Archimedes: so is every height on a sphere).
+    fn direction(&self, random: &mut Random) -> [f64; 3] {
+        let angle = random.between(-PI, PI);
+        let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
+        let flat = (1.0 - height * height).sqrt();
+        [flat * libm::cos(angle), flat * libm::sin(angle), height]
+    }
+
+    fn along(&self, direction: &[f64; 3], radius: f64) -> Vec<f64> {
+        self.centre.iter().zip(direction).map(|(c, n)| c + radius * n).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use rstest::rstest;
+
+    proptest! {
+        #[test]
+        fn what_is_drawn_lies_in_the_body(
+            seed: u64,
+            d in 2..=3_usize,
+            inner in prop_oneof![Just(0.0), 0.1..0.99],
+        ) {
+            let body = Round { centre: vec![3.0, -2.0, 0.5][..d].to_vec(), inner, outer: 1.0 };
+            let mut random = Random::new(seed);
+            // The roots of a distance are known but for rounding.
+            let wide = Round { inner: inner - 1e-12, outer: 1.0 + 1e-12, ..body.clone() };
+            prop_assert!(wide.holds(&body.point(&mut random)));
+            let (centre, half) = body.patch(&mut random);
+            for corner in 0..1 << d {
+                let sign = |a: usize| if corner >> a & 1 == 1 { 1.0 } else { -1.0 };
+                let label: Vec<f64> = (0..d).map(|a| centre[a] + sign(a) * half[a]).collect();
+                prop_assert!(wide.holds(&label), "{label:?}");
+            }
+            for rim in body.rims() {
+                let (label, _) = body.on_rim(&mut random, rim);
+                prop_assert!(wide.holds(&label), "{label:?}");
+            }
+        }
+    }
+
+    /// Half of the points of a body lie nearer to its centre than the radius that halves it.
+    #[rstest]
+    #[case(2, 0.75, 1.25)]
+    #[case(2, 0.0, 1.0)]
+    #[case(3, 0.0, 2.0)]
+    fn points_are_spread_evenly(#[case] d: usize, #[case] inner: f64, #[case] outer: f64) {
+        let body = Round { centre: vec![1.0; d], inner, outer };
+        let mut random = Random::new(1);
+        let n = d as f64;
+        let middle = libm::pow(f64::midpoint(libm::pow(inner, n), libm::pow(outer, n)), 1.0 / n);
+        let half = Round { outer: middle, ..body.clone() };
+        let near = (0..4000).filter(|_| half.holds(&body.point(&mut random))).count();
+        assert!((1880..2120).contains(&near), "{near} of 4000");
+    }
+}

@@ -1,0 +1,156 @@
+//! Boxes and bodies that are not boxes, from words.
+
+use super::{
+    binder::Binder,
+    path::Path,
+    wording::shown,
+    words::{AnnulusWords, BodyWords, BoxWords, LoadWords, RoundWords, SceneWords},
+    yaml::{Complaint, NumberText},
+};
+use crate::exact::Round;
+
+/// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
+const SHORTEST: f64 = 1e-30;
+const LONGEST: f64 = 1e30;
+
+/// The words of a box, or the round body that stands instead of one.
+///
+/// # Errors
+/// A complaint about a body that makes no sense in `dimension` dimensions.
+pub(super) fn round<'a>(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &'a BodyWords,
+    dimension: usize,
+) -> Result<Result<Round, &'a BoxWords>, Complaint> {
+    let (kind, flat, centre, radii) = match words {
+        BodyWords::Box(words) => return Ok(Err(words)),
+        BodyWords::Annulus(AnnulusWords { centre, inner, outer }) => {
+            ("annulus", 2, centre, [Some(("inner", inner)), Some(("outer", outer))])
+        }
+        BodyWords::Disk(RoundWords { centre, radius }) => {
+            ("disk", 2, centre, [None, Some(("radius", radius))])
+        }
+        BodyWords::Ball(RoundWords { centre, radius }) => {
+            ("ball", 3, centre, [None, Some(("radius", radius))])
+        }
+    };
+    if dimension != flat {
+        let message = format!("the scene is {dimension}-D, and `{kind}` a body in {flat}-D");
+        let others = ["`box`", "`box`, `annulus` or `disk`", "`box` or `ball`"][dimension - 1];
+        let complaint = binder.complain_key(&path.then(kind), &message);
+        return Err(complaint.with_help(&format!("in {dimension}-D a body is a {others}")));
+    }
+    let path = path.then(kind);
+    let centre = binder.point(&path.then("centre"), centre, dimension)?;
+    let mut lengths = [0.0; 2];
+    for (length, given) in lengths.iter_mut().zip(radii) {
+        if let Some((key, text)) = given {
+            *length = radius(binder, &path.then(key), text)?;
+        }
+    }
+    let [inner, outer] = lengths;
+    if inner < outer {
+        return Ok(Ok(Round { centre, inner, outer }));
+    }
+    let message = format!("the outer radius is {}, the inner {}", shown(outer), shown(inner));
+    let complaint = binder.complain(&path.then("outer"), &message);
+    Err(complaint.with_label("expected a number above `inner`"))
+}
+
+/// Lowest and highest corner of a box.
+///
+/// # Errors
+/// A complaint about a box that is empty, too small or too large.
+pub(super) fn corners(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &BoxWords,
+    dimension: usize,
+) -> Result<(Vec<f64>, Vec<f64>), Complaint> {
+    let from = binder.point(&path.then("from"), &words.from, dimension)?;
+    let to = binder.point(&path.then("to"), &words.to, dimension)?;
+    for axis in 0..dimension {
+        if !(from[axis] < to[axis]) {
+            let (from, to) = (shown(from[axis]), shown(to[axis]));
+            let message = format!("the box ends at {to} and starts at {from}");
+            let complaint = binder.complain(&path.then("to").then(axis), &message);
+            return Err(complaint.with_label("expected a number above that of `from`"));
+        }
+        // Squares of lengths appear in second derivatives, cubes in volumes.
+        let length = to[axis] - from[axis];
+        if !(SHORTEST..=LONGEST).contains(&length) {
+            let message = format!("the box is {} m long", shown(length));
+            let complaint = binder.complain(&path.then("to").then(axis), &message);
+            let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
+            return Err(complaint.with_label(&label));
+        }
+    }
+    Ok((from, to))
+}
+
+fn radius(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<f64, Complaint> {
+    let radius = binder.positive(path, text, "the radius")?;
+    if (SHORTEST..=LONGEST).contains(&radius) {
+        return Ok(radius);
+    }
+    let message = format!("the radius is {} m", shown(radius));
+    let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
+    Err(binder.complain(path, &message).with_label(&label))
+}
+
+/// Rims are free: a scene can neither hold nor load them.
+///
+/// # Errors
+/// A complaint about the first word that says something else.
+pub(super) fn rims_are_free(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+    round: &Round,
+) -> Result<(), Complaint> {
+    let kind = round.name();
+    let held = words.boundary.as_slice().first().map(|(face, _)| {
+        let message = format!("the rims of a body of kind `{kind}` are free, not `{face}`");
+        binder.complain_key(&path.then("boundary").then(face.as_str()), &message)
+    });
+    let loaded = words.loads.iter().enumerate().find_map(|(i, load)| {
+        let LoadWords::Traction { on, .. } = load else { return None };
+        let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
+        Some(binder.complain(&path.then("loads").then(i).then("traction").then("on"), &message))
+    });
+    match held.or(loaded) {
+        Some(complaint) => {
+            Err(complaint.with_help("only the faces of a `box` can be held or loaded"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// A grid that the suite asks for must reach over the whole body.
+///
+/// # Errors
+/// A complaint about the end of the grid that lies inside.
+pub(super) fn fits(
+    binder: &Binder<'_>,
+    path: &Path,
+    round: &Round,
+    grid: Option<&(Vec<f64>, Vec<f64>)>,
+) -> Result<(), Complaint> {
+    let Some(grid) = grid else { return Ok(()) };
+    let body = round.corners();
+    for axis in 0..body.0.len() {
+        for (key, word, inside, body, end) in [
+            ("from", "most", grid.0[axis] > body.0[axis], body.0[axis], grid.0[axis]),
+            ("to", "least", grid.1[axis] < body.1[axis], body.1[axis], grid.1[axis]),
+        ] {
+            if inside {
+                let (kind, reach, end) = (round.name(), shown(body), shown(end));
+                let message = format!("the {kind} reaches to {reach}, and the grid ends at {end}");
+                let complaint = binder.complain(&path.then("grid").then(key).then(axis), &message);
+                return Err(complaint.with_label(&format!("expected at {word} {reach}")));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,48 @@
+//! Bodies filled with particles.
+//!
+//! A box is filled with equal shares of itself. A round body takes the lattice that fills the cells
+//! of the grid, `h/n` apart with n particles along a cell, and of it the particles whose reference
+//! position lies inside: each has its whole share, so the rim is a stair, and volume and mass are
+//! those of the body but for a share that falls with h.
+
+use super::model::Scene;
+use crate::mpm::{Block, Particles, Vector};
+
+/// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
+pub(super) fn particles<const D: usize>(
+    scene: &Scene,
+    origin: &Vector<D>,
+    h: f64,
+    per_axis: usize,
+) -> Particles<D> {
+    Particles::fill_where(&block(scene, origin, h), h, per_axis, |x0| holds(scene, x0))
+}
+
+/// Whether the lattice misses the body.
+pub(super) fn is_empty<const D: usize>(
+    scene: &Scene,
+    origin: &Vector<D>,
+    h: f64,
+    per_axis: usize,
+) -> bool {
+    let block = block(scene, origin, h);
+    let mut centres = block.centres(h, per_axis);
+    !centres.any(|x0| holds(scene, &x0))
+}
+
+fn holds<const D: usize>(scene: &Scene, x0: &Vector<D>) -> bool {
+    scene.round.as_ref().is_none_or(|round| round.holds(x0.as_slice()))
+}
+
+/// The box that is to be filled: the body's own or, around a round body, whole cells of the grid.
+fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
+    let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.round {
+        Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
+        None => x,
+    };
+    Block {
+        from: Vector::from_fn(|axis, _| node(axis, scene.from[axis], libm::floor)),
+        to: Vector::from_fn(|axis, _| node(axis, scene.to[axis], libm::ceil)),
+        density: scene.density,
+    }
+}
