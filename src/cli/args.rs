@@ -44,6 +44,10 @@ pub(super) struct RunArgs {
     /// Print the table of verdicts only, not the reports
     #[arg(long)]
     pub(super) brief: bool,
+    /// Run the finer levels too that suites list under `full`: takes hours where the others take
+    /// seconds
+    #[arg(long)]
+    pub(super) full: bool,
     /// Write reports, JSON and figures into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,

@@ -8,7 +8,7 @@ use super::{
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
-    suite::{Runner, Suite},
+    suite::{Extent, Runner, Suite},
     verify::SuiteOutcome,
 };
 use std::{fs, io, path::Path};
@@ -32,7 +32,7 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         output::complain(&format!("{message} `{name}`, and would write the same files"));
         return BAD_INPUT;
     }
-    let bar = progress_bar(&suites);
+    let bar = progress_bar(&suites, extent(args));
     let outcomes: Vec<SuiteOutcome> = suites.iter().map(|suite| one(suite, args, &bar)).collect();
     bar.finish_and_clear();
     match args.format {
@@ -66,9 +66,13 @@ fn threads(jobs: Option<usize>) -> Result<(), String> {
     pool.build_global().map_err(|error| format!("error: --jobs {jobs}: {error}"))
 }
 
+fn extent(args: &RunArgs) -> Extent {
+    if args.full { Extent::Full } else { Extent::Usual }
+}
+
 /// A bar on standard error, shown only where that is a terminal.
-fn progress_bar(suites: &[Suite]) -> ProgressBar {
-    let units = suites.iter().map(|suite| Runner::new(suite).units()).sum();
+fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
+    let units = suites.iter().map(|suite| Runner::over(suite, extent).units()).sum();
     let bar = ProgressBar::with_draw_target(Some(units), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
         bar.set_style(style);
@@ -78,7 +82,7 @@ fn progress_bar(suites: &[Suite]) -> ProgressBar {
 
 fn one(suite: &Suite, args: &RunArgs, bar: &ProgressBar) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
-    let outcome = Runner::new(suite).run(&|| bar.inc(1));
+    let outcome = Runner::over(suite, extent(args)).run(&|| bar.inc(1));
     if args.format == Format::Text && !args.brief {
         bar.suspend(|| output::print(&format!("{}\n", report::text(&outcome))));
     }

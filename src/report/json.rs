@@ -4,11 +4,13 @@
 //!
 //! ```json
 //! {"suites": [{"suite": "...", "passed": true, "cases": [{
-//!     "case": "...", "subject": "mpm", "formal_order": 2.0,
+//!     "case": "...", "subject": "mpm", "axis": "space", "formal_order": 2.0,
 //!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
 //!     "verdict": "converging", "expected": "...", "passed": true,
 //!     "reason": "...", "unmet": [],
-//!     "levels": [{"cells": 5, "h": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
+//!     "floor": {"cause": "time", "error": 1e-4,
+//!         "probes": [{"axis": "time", "error": 5e-5, "failure": null}]},
+//!     "levels": [{"cells": 5, "h": 5.0, "spacing": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
 //!         "transfers": 300000, "crossings": 0, "left_domain": 0, "min_j": 0.99,
 //!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
@@ -19,11 +21,15 @@
 //!
 //! `null` stands where a thing does not exist; numbers that are not finite are the strings
 //! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
-//! `{"position", "n_left", "n_right", "force", "predicted"}`. Keys may be added; none is renamed
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. `axis` is what was refined (`space`,
+//! `time`, `particles`) and `spacing` that of this axis; where particles are, there is no formal order.
+//! `floor` is what became of the finest level's error with another spacing halved, where that was
+//! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
 //! or removed without a new major version.
 
 use crate::verify::{
-    CaseOutcome, Conserved, ForceRow, Interval, LevelOutcome, Study, SuiteOutcome,
+    Axis, CaseOutcome, Conserved, Floor, FloorCause, ForceRow, Interval, LevelOutcome, Probe,
+    Study, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
@@ -47,13 +53,17 @@ fn case(outcome: &CaseOutcome) -> Value {
     json!({
         "case": outcome.case,
         "subject": outcome.subject,
-        "formal_order": study.map(|study| number(study.formal_order)),
+        "axis": study.map(|study| study.axis.name()),
+        "formal_order": study
+            .filter(|study| study.axis != Axis::Particles)
+            .map(|study| number(study.formal_order)),
         "observed_order": study.and_then(|study| study.judgement.order).map(interval),
         "verdict": outcome.verdict,
         "expected": outcome.expected,
         "passed": outcome.passed(),
         "reason": outcome.reason,
         "unmet": outcome.unmet,
+        "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
         "levels": levels.iter().map(level).collect::<Vec<_>>(),
         "forces": match &outcome.study {
             Study::InternalForce(rows) => rows.iter().map(force).collect(),
@@ -66,11 +76,27 @@ fn interval(order: Interval) -> Value {
     json!({"value": number(order.value), "low": number(order.low), "high": number(order.high)})
 }
 
+fn floor(floor: &Floor) -> Value {
+    let probe = |probe: &Probe| {
+        json!({
+            "axis": probe.axis.name(),
+            "error": probe.error.as_ref().ok().copied().map(number),
+            "failure": probe.error.as_ref().err(),
+        })
+    };
+    json!({
+        "cause": floor.cause().map(FloorCause::name),
+        "error": number(floor.error),
+        "probes": floor.probes.iter().map(probe).collect::<Vec<_>>(),
+    })
+}
+
 fn level(level: &LevelOutcome) -> Value {
     let (run, census) = (&level.run, &level.run.census);
     json!({
         "cells": level.cells,
         "h": number(level.h),
+        "spacing": number(level.spacing),
         "dt": number(level.dt),
         "ppc": level.ppc,
         "particles": census.particles,

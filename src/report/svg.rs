@@ -1,7 +1,7 @@
 //! The figures of a suite.
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
-use crate::verify::{Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
+use crate::verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
 
 /// A figure and the name of its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,10 +55,18 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
     let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
     Plot {
         title: outcome.title.clone(),
-        x_label: "cell size h (m)".to_owned(),
+        x_label: spacing(studies.first().map_or(Axis::Space, |(_, study)| study.axis)).to_owned(),
         y_label: judged,
         series: studies.iter().map(series).collect(),
         reference_orders: orders,
+    }
+}
+
+fn spacing(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Space => "cell size h (m)",
+        Axis::Time => "time step dt (s)",
+        Axis::Particles => "particle spacing h/ppc^(1/D) (m)",
     }
 }
 
@@ -81,7 +89,7 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
         Mark::Shown
     };
     let error = study.judgement.levels.get(index).map_or(f64::NAN, |judged| judged.error);
-    Point { h: level.h, error, mark }
+    Point { h: level.spacing, error, mark }
 }
 
 /// Exact and computed velocity at the observed label, on a coarse, the middle and the finest level.
@@ -104,7 +112,7 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
         for (i, (level, history)) in seen.iter().enumerate() {
             if pick.contains(&i) {
                 curves.push(Curve {
-                    name: format!("{} cells", level.cells),
+                    name: level.name(study.axis),
                     points: history.velocity.iter().map(|[t, v, _]| (*t, *v)).collect(),
                     exact: false,
                     markers: false,

@@ -5,7 +5,7 @@
 
 use super::table::{Table, optional, scientific};
 use crate::verify::{
-    CaseOutcome, Convergence, ForceRow, History, LevelOutcome, Study, SuiteOutcome,
+    Axis, CaseOutcome, Convergence, ForceRow, History, LevelOutcome, Study, SuiteOutcome,
 };
 
 /// Width to which prose is wrapped.
@@ -77,30 +77,62 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
 }
 
 fn convergence(lines: &mut Vec<String>, study: &Convergence) {
-    let heads = [
-        "cells", "h", "rms", "l1", "l2", "linf", "max rms", "velocity", "judged", "order", "counts",
-    ];
-    let mut errors = Table::new(&heads);
-    let heads =
-        ["cells", "dt", "ppc", "particles", "steps", "transfers", "crossings", "outside", "min J"];
-    let mut work = Table::new(&heads);
+    let figures = ["rms", "l1", "l2", "linf", "max rms", "velocity", "judged", "order", "counts"];
+    let mut errors = Table::new(&[spacing_heads(study.axis), &figures].concat());
+    let figures = ["particles", "steps", "transfers", "crossings", "outside", "min J"];
+    let mut work = Table::new(&[&level_heads(study.axis)[..], &figures].concat());
     for (index, level) in study.levels.iter().enumerate() {
         errors.row(error_row(study, index, level));
-        work.row(work_row(level));
+        work.row(work_row(study.axis, level));
     }
     lines.extend(errors.without_empty_columns().lines());
     lines.push(String::new());
     lines.extend(work.without_empty_columns().lines());
     drifts(lines, study);
     richardson(lines, study);
-    let failure = |level: &LevelOutcome| Some((level.cells, level.run.failure.clone()?));
-    for (cells, failure) in study.levels.iter().filter_map(failure) {
+    let failure = |level: &LevelOutcome| Some((level.name(study.axis), level.run.failure.clone()?));
+    for (level, failure) in study.levels.iter().filter_map(failure) {
         lines.push(String::new());
-        row(lines, "failure", &format!("{cells} cells: {failure}"));
+        row(lines, "failure", &format!("{level}: {failure}"));
     }
     if let Some(lost) = order_lost(study) {
         lines.push(String::new());
         row(lines, "crossing", &lost);
+    }
+}
+
+/// What comes first in the table of errors: what the suite lists, and the spacing that is judged.
+fn spacing_heads(axis: Axis) -> &'static [&'static str] {
+    match axis {
+        Axis::Space => &["cells", "h"],
+        Axis::Time => &["dt"],
+        Axis::Particles => &["ppc", "spacing"],
+    }
+}
+
+fn spacings(axis: Axis, level: &LevelOutcome) -> Vec<String> {
+    match axis {
+        Axis::Space => vec![level.cells.to_string(), scientific(level.spacing)],
+        Axis::Time => vec![scientific(level.spacing)],
+        Axis::Particles => vec![optional(level.ppc), scientific(level.spacing)],
+    }
+}
+
+/// What makes a level, the refined axis first.
+fn level_heads(axis: Axis) -> [&'static str; 3] {
+    match axis {
+        Axis::Space => ["cells", "dt", "ppc"],
+        Axis::Time => ["dt", "cells", "ppc"],
+        Axis::Particles => ["ppc", "cells", "dt"],
+    }
+}
+
+fn level_parts(axis: Axis, level: &LevelOutcome) -> [String; 3] {
+    let (cells, dt, ppc) = (level.cells.to_string(), scientific(level.dt), optional(level.ppc));
+    match axis {
+        Axis::Space => [cells, dt, ppc],
+        Axis::Time => [dt, cells, ppc],
+        Axis::Particles => [ppc, cells, dt],
     }
 }
 
@@ -115,9 +147,7 @@ fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
         _ if study.bounded => "yes",
         (true, false) => "no",
     };
-    vec![
-        level.cells.to_string(),
-        scientific(level.h),
+    let figures = [
         error(run.errors.rms),
         error(run.errors.l1),
         error(run.errors.l2),
@@ -127,23 +157,22 @@ fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
         if study.is_judged_by_another_figure() { error(level.error) } else { "-".to_owned() },
         optional(level.order.map(|order| format!("{order:.2}"))),
         counts.to_owned(),
-    ]
+    ];
+    spacings(study.axis, level).into_iter().chain(figures).collect()
 }
 
 /// What the level cost, and what a reader must know beside its error.
-fn work_row(level: &LevelOutcome) -> Vec<String> {
+fn work_row(axis: Axis, level: &LevelOutcome) -> Vec<String> {
     let census = &level.run.census;
-    vec![
-        level.cells.to_string(),
-        scientific(level.dt),
-        optional(level.ppc),
+    let figures = [
         optional(census.particles),
         level.run.steps.to_string(),
         census.transfers.to_string(),
         optional(census.crossings),
         optional(census.left_domain),
         format!("{:.4}", census.min_j),
-    ]
+    ];
+    level_parts(axis, level).into_iter().chain(figures).collect()
 }
 
 /// How far totals drifted, of those that the suite asks for; of rounding one digit says enough.
@@ -172,10 +201,12 @@ fn richardson(lines: &mut Vec<String>, study: &Convergence) {
     let (Some(place), false) = (study.place(), study.richardson.is_empty()) else { return };
     lines.push(String::new());
     lines.push(format!("  Richardson's extrapolation of u at X = {place} m"));
-    let mut table = Table::new(&["cells", "ratio", "class", "order", "extrapolated u", "gci"]);
-    for (cells, found) in &study.richardson {
+    let head = level_heads(study.axis)[0];
+    let mut table = Table::new(&[head, "ratio", "class", "order", "extrapolated u", "gci"]);
+    for (triple, found) in &study.richardson {
+        let [a, b, c] = triple.map(|k| level_parts(study.axis, &study.levels[k])[0].clone());
         table.row(vec![
-            format!("{}, {}, {}", cells[0], cells[1], cells[2]),
+            format!("{a}, {b}, {c}"),
             format!("{:.2}", found.ratio),
             found.class.to_string(),
             optional(found.order.map(|order| format!("{order:.2}"))),
@@ -198,11 +229,11 @@ fn order_lost(study: &Convergence) -> Option<String> {
         level.order.map_or("no order".to_owned(), |order| format!("order {order:.2}"))
     };
     Some(format!(
-        "particles change their cell from {} cells on ({crossings} crossings, {} against the next \
-         coarser level); on the finest level, {} cells, {} crossings and {}",
-        first.cells,
+        "particles change their cell from {} on ({crossings} crossings, {} against the next \
+         coarser level); on the finest level, {}, {} crossings and {}",
+        first.name(study.axis),
         pair(first),
-        finest.cells,
+        finest.name(study.axis),
         finest.run.census.crossings.unwrap_or(0),
         pair(finest),
     ))

@@ -2,7 +2,6 @@
 
 use super::{
     binder::Binder,
-    dispatch::cell_size,
     expect,
     hold::Hold,
     law,
@@ -16,7 +15,7 @@ use super::{
 };
 use crate::{
     mpm::{MassName, combine},
-    verify::Clock,
+    verify::Axis,
 };
 
 /// Most cases that a suite may unfold into.
@@ -40,29 +39,6 @@ pub(super) fn until(
         ends.push((text, until));
     }
     Ok(ends)
-}
-
-/// Whether every level has a usable time step.
-pub(super) fn check_steps(
-    binder: &Binder<'_>,
-    plan: &ConvergencePlan,
-    until: &[(String, f64)],
-) -> Result<(), Complaint> {
-    let path = Path::top("run").then("dt");
-    let fine_path = Path::top("reference").then("fem").then("dt");
-    let fine = plan.reference.iter().map(|fine| (&fine_path, fine.cells, &fine.dt));
-    let levels = plan.cells.iter().map(|cells| (&path, *cells, &plan.dt)).chain(fine);
-    for (path, cells, dt) in levels {
-        let dt = dt.eval(&[cell_size(&plan.scene, cells)]);
-        for (_, until) in until {
-            if Clock::new(*until, dt, plan.instants).is_none() {
-                let message = format!("with {cells} cells the time step is {}", shown(dt));
-                let label = "expected a positive step, and at most 1e9 of them";
-                return Err(binder.complain(path, &message).with_label(label));
-            }
-        }
-    }
-    Ok(())
 }
 
 /// All cases of a suite with what is expected of each.
@@ -98,12 +74,13 @@ pub(super) fn cases(
     }
     let named: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
     let expectations = expect::expectations(binder, &words.expect, plan, &named)?;
-    let with = |(draft, expectation): (Draft, _)| Case {
+    let with = |(draft, (expectation, expectation_in_full)): (Draft, _)| Case {
         name: draft.name,
         method: draft.method,
         until: draft.until,
         against: draft.against,
         expectation,
+        expectation_in_full,
     };
     Ok(drafts.into_iter().zip(expectations).map(with).collect())
 }
@@ -122,6 +99,7 @@ fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f6
     let truths = [
         plan.exact.as_ref().map(|_| (Against::Exact, "-vs-exact")),
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
+        plan.same_method_dt.map(|_| (Against::SameMethod, "-vs-shorter-steps")),
     ];
     let truths: Vec<_> = truths.into_iter().flatten().collect();
     let mut drafts = Vec::new();
@@ -194,7 +172,10 @@ fn possible(
                            driven";
             Err(binder.complain(&path.then("mpm").then("mass"), message))
         }
-        MethodWords::Mpm { .. } if plan.ppc.is_none() => Err(binder
+        MethodWords::Fem { .. } if plan.refine.axis == Axis::Particles => {
+            Err(binder.complain(path, "particles per cell are refined, and an FEM has none"))
+        }
+        MethodWords::Mpm { .. } if !plan.refine.has_particles() => Err(binder
             .complain(path, "MPM needs particles, and `refine` says no `ppc`")
             .with_help("add `ppc: 4` to `refine`")),
         _ => Ok(()),

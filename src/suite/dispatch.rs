@@ -6,6 +6,7 @@ use super::{
     filling,
     method::Method,
     model::{ConvergencePlan, Scene, SceneFace},
+    plan::LevelPlan,
     start::Initial,
     words::EquationName,
 };
@@ -24,21 +25,21 @@ use crate::{
 /// a body that grows.
 const SPARE_CELLS: f64 = 2.0;
 
-/// Builds the subject of `method` with `cells` cells along the first axis.
+/// Builds the subject of `method` for one level.
 ///
 /// # Errors
 /// One line that says why there is no such subject.
 pub(super) fn subject(
     plan: &ConvergencePlan,
     method: Method,
-    cells: u64,
+    level: LevelPlan,
 ) -> Result<Box<dyn Subject>, String> {
     match (method, plan.scene.dimension()) {
-        (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, cells)?)),
+        (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
-        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, cells),
-        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, cells),
-        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, cells),
+        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, level),
+        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, level),
+        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, level),
         (Method::Mpm { .. }, d) => Err(format!("there is no MPM in {d} dimensions")),
     }
 }
@@ -72,14 +73,14 @@ pub(super) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
 fn mpm<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,
-    cells: u64,
+    level: LevelPlan,
 ) -> Result<Box<dyn Subject>, String> {
     let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else {
         return Err("not an MPM method".to_owned());
     };
     let scene = &plan.scene;
-    let h = cell_size(scene, cells);
-    let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
+    let h = cell_size(scene, level.cells);
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
     let grid = grid(scene, h, kernel.as_ref());
     let mut particles = filling::particles(scene, &grid.origin, h, per_axis);

@@ -1,19 +1,24 @@
 //! Running a suite: every level of every case, judged.
 
 use super::{
-    dispatch::{cell_size, subject},
+    dispatch::subject,
+    fine_steps::FineSteps,
     force,
-    judged::{error_of, judged, refused},
+    judged::{error_of, judge_levels, judged, refused},
     model::{
         Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, StudyPlan, Suite,
     },
+    plan::{Extent, LevelPlan},
+    probe,
     reference::Reference,
     statement,
     words::CrossingLevels,
 };
 use crate::{
     exact::Truth,
-    verify::{self, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Study, SuiteOutcome},
+    verify::{
+        self, Axis, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Study, SuiteOutcome,
+    },
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -24,12 +29,18 @@ pub type Progress<'a> = &'a (dyn Fn() + Sync);
 /// Runs cases of one suite. A reference that several cases share is computed once.
 pub struct Runner<'a> {
     suite: &'a Suite,
+    extent: Extent,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
 }
 
 impl<'a> Runner<'a> {
-    /// A runner; nothing runs yet.
+    /// A runner of the levels that the gate runs; nothing runs yet.
     pub fn new(suite: &'a Suite) -> Self {
+        Self::over(suite, Extent::Usual)
+    }
+
+    /// A runner of so many levels.
+    pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let mut ends: Vec<f64> = match &suite.study {
             StudyPlan::Convergence(plan) => plan.cases.iter().map(|case| case.until).collect(),
             StudyPlan::InternalForce(_) => Vec::new(),
@@ -37,13 +48,15 @@ impl<'a> Runner<'a> {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
-        Self { suite, references }
+        Self { suite, extent, references }
     }
 
     /// Units of progress of the whole suite.
     pub fn units(&self) -> u64 {
         match &self.suite.study {
-            StudyPlan::Convergence(plan) => (plan.cases.len() * plan.cells.len()) as u64,
+            StudyPlan::Convergence(plan) => {
+                (plan.cases.len() * plan.refine.levels(self.extent).len()) as u64
+            }
             StudyPlan::InternalForce(plan) => plan.cases.len() as u64,
         }
     }
@@ -84,39 +97,39 @@ impl<'a> Runner<'a> {
         case: &Case,
         progress: Progress<'_>,
     ) -> CaseOutcome {
+        let expectation = match (self.extent, &case.expectation_in_full) {
+            (Extent::Full, Some(full)) => full,
+            _ => &case.expectation,
+        };
+        let shorter = (case.against == Against::SameMethod)
+            .then(|| FineSteps::compute(plan, case, plan.same_method_dt.unwrap_or(f64::NAN)));
+        let truth: Result<&dyn Truth, String> = match &shorter {
+            Some(Ok(truth)) => Ok(truth),
+            Some(Err(reason)) => Err(reason.clone()),
+            None => self.truth(plan, case),
+        };
+        let truth = match truth {
+            Ok(truth) => truth,
+            Err(reason) => return refused(case, expectation, reason),
+        };
         let levels: Result<Vec<LevelOutcome>, String> = plan
-            .cells
+            .refine
+            .levels(self.extent)
             .par_iter()
-            .map(|cells| {
-                let level = self.level(plan, case, *cells);
+            .map(|level| {
+                let level = level_of(plan, case, truth, *level);
                 progress();
                 level
             })
             .collect();
-        match levels {
-            Ok(levels) => judged(plan, case, levels),
-            Err(reason) => refused(case, reason),
-        }
-    }
-
-    fn level(
-        &self,
-        plan: &ConvergencePlan,
-        case: &Case,
-        cells: u64,
-    ) -> Result<LevelOutcome, String> {
-        let truth = self.truth(plan, case)?;
-        let mut subject = subject(plan, case.method, cells)?;
-        let h = cell_size(&plan.scene, cells);
-        let clock = Clock::new(case.until, plan.dt.eval(&[h]), plan.instants)
-            .ok_or("the time step makes no sense")?;
-        let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref() };
-        let run = verify::run(&mut *subject, truth, &clock, &comparison);
-        let crossed = run.census.crossings.is_some_and(|n| n > 0);
-        let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
-        let ppc = plan.ppc.filter(|_| run.census.particles.is_some());
-        let (error, dt) = (error_of(plan, &run), clock.dt());
-        Ok(LevelOutcome { cells, h, dt, ppc, usable: !excluded, error, order: None, run })
+        let levels = match levels {
+            Ok(levels) => levels,
+            Err(reason) => return refused(case, expectation, reason),
+        };
+        let judgement = judge_levels(plan, case, expectation, &levels);
+        let again = |level| level_of(plan, case, truth, level);
+        let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
+        judged(plan, case, expectation, levels, judgement, floor)
     }
 
     fn truth(&self, plan: &'a ConvergencePlan, case: &Case) -> Result<&dyn Truth, String> {
@@ -131,6 +144,32 @@ impl<'a> Runner<'a> {
             Err(reason) => Err(reason.clone()),
         }
     }
+}
+
+/// One level of a case against `truth`.
+fn level_of(
+    plan: &ConvergencePlan,
+    case: &Case,
+    truth: &dyn Truth,
+    level: LevelPlan,
+) -> Result<LevelOutcome, String> {
+    let mut subject = subject(plan, case.method, level)?;
+    let clock =
+        Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
+    let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref() };
+    let run = verify::run(&mut *subject, truth, &clock, &comparison);
+    let crossed = run.census.crossings.is_some_and(|n| n > 0);
+    let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
+    let LevelPlan { cells, h, .. } = level;
+    let ppc = level.ppc.filter(|_| run.census.particles.is_some());
+    let dt = clock.dt();
+    let spacing = match plan.refine.axis {
+        Axis::Space => h,
+        Axis::Time => dt,
+        Axis::Particles => level.particle_spacing(plan.scene.dimension()),
+    };
+    let error = error_of(plan, &run);
+    Ok(LevelOutcome { cells, h, spacing, dt, ppc, usable: !excluded, error, order: None, run })
 }
 
 fn internal_force(plan: &ForcePlan, case: &ForceCase, progress: Progress<'_>) -> CaseOutcome {

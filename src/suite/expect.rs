@@ -14,25 +14,30 @@ use super::{
 use crate::verify::{Expectation, Verdict};
 use std::str::FromStr;
 
+/// What is expected of a case, and of a full run if that differs.
+type Expected = (Expectation, Option<Expectation>);
+
 /// One expectation for each of the `cases`, in their order.
 pub(super) fn expectations(
     binder: &Binder<'_>,
     words: &[ExpectWords],
     plan: &ConvergencePlan,
     cases: &[(&str, Method)],
-) -> Result<Vec<Expectation>, Complaint> {
+) -> Result<Vec<Expected>, Complaint> {
     let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
     let selectors: Vec<_> = words.iter().map(|words| words.case.as_ref()).collect();
     let owners = assign(binder, &selectors, &names)?;
-    let parsed: Result<Vec<Expectation>, Complaint> = words
-        .iter()
-        .enumerate()
-        .map(|(i, words)| expectation(binder, &Path::top("expect").then(i), words, plan))
-        .collect();
-    let parsed = parsed?;
+    let both = |(i, words): (usize, &ExpectWords)| {
+        let path = Path::top("expect").then(i);
+        Ok((expectation(binder, &path, words, plan)?, in_full(binder, &path, words, plan)?))
+    };
+    let parsed = words.iter().enumerate().map(both).collect::<Result<Vec<Expected>, _>>()?;
     for (&owner, (_, method)) in owners.iter().zip(cases) {
         let path = Path::top("expect").then(owner);
-        comparable::check_drift(binder, &path, &parsed[owner].limits, *method)?;
+        comparable::check_drift(binder, &path, &parsed[owner].0.limits, *method)?;
+        if let Some(full) = &parsed[owner].1 {
+            comparable::check_drift(binder, &path.then("full"), &full.limits, *method)?;
+        }
     }
     Ok(owners.into_iter().map(|owner| parsed[owner].clone()).collect())
 }
@@ -87,6 +92,24 @@ fn matches(glob: &str, name: &str) -> bool {
     rest.ends_with(last)
 }
 
+/// What is expected of a full run, where an entry says that it differs.
+fn in_full(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExpectWords,
+    plan: &ConvergencePlan,
+) -> Result<Option<Expectation>, Complaint> {
+    let Some(full) = &words.full else { return Ok(None) };
+    let path = path.then("full");
+    for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
+        if given {
+            let message = format!("what is expected of a full run has no `{key}` of its own");
+            return Err(binder.complain_key(&path.then(key), &message).with_help("remove it"));
+        }
+    }
+    expectation(binder, &path, full, plan).map(Some)
+}
+
 fn expectation(
     binder: &Binder<'_>,
     path: &Path,
@@ -114,6 +137,7 @@ fn expectation(
         order: bounds("order", &words.order)?,
         finest_pair: bounds("finest_pair", &words.finest_pair)?,
         crossings: words.crossings.map(|name| name == CrossingsName::Some),
+        floor: words.floor,
         limits,
         because,
     })

@@ -1,13 +1,14 @@
 //! From levels that have run to the outcome of a case.
 
 use super::{
+    formal::formal_order,
     model::{Case, ConvergencePlan},
     statement,
     words::NormName,
 };
 use crate::verify::{
-    self, CaseOutcome, Claim, Convergence, Drift, Expectation, Interval, Judgement, LevelOutcome,
-    Measured, Richardson, Run, Seen, Study, Verdict, judge,
+    self, Axis, CaseOutcome, Claim, Convergence, Drift, Expectation, Floor, Interval, Judgement,
+    LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, judge,
 };
 
 /// The error that `plan` judges.
@@ -29,9 +30,11 @@ pub(super) fn error_of(plan: &ConvergencePlan, run: &Run) -> f64 {
 pub(super) fn judged(
     plan: &ConvergencePlan,
     case: &Case,
+    expectation: &Expectation,
     mut levels: Vec<LevelOutcome>,
+    judgement: Judgement,
+    floor: Option<Floor>,
 ) -> CaseOutcome {
-    let judgement = judge_levels(case, &levels);
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
     }
@@ -43,34 +46,44 @@ pub(super) fn judged(
         finest_pair: finest.and_then(|level| level.order),
         crossings: finest.and_then(|level| level.run.census.crossings),
         measured,
+        floor: floor.as_ref().and_then(Floor::cause),
     };
-    let unmet = case.expectation.unmet(&seen);
-    let (verdict, reason) = headline(&case.expectation, &judgement, &measured, &unmet);
+    let unmet = expectation.unmet(&seen);
+    let (verdict, reason) = headline(expectation, &judgement, &measured, &unmet);
+    let found = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
     CaseOutcome {
         verdict,
-        reason,
+        reason: [Some(reason), found].into_iter().flatten().collect::<Vec<_>>().join("; "),
         unmet,
         study: Study::Convergence(Box::new(Convergence {
-            formal_order: case.method.formal_order(),
-            richardson: richardson(&levels),
+            axis: plan.refine.axis,
+            formal_order: formal_order(plan, case),
+            floor,
+            richardson: richardson(plan.refine.axis, &levels),
             observed_at: plan.observe.clone(),
             norm: plan.norm.name(),
             of: plan.of,
             scale: plan.scale,
-            bounded: case.expectation.verdict.is_none(),
-            drifts: case.expectation.limits.drifts(),
+            bounded: expectation.verdict.is_none(),
+            drifts: expectation.limits.drifts(),
             judgement,
             levels,
         })),
-        ..described(case)
+        ..described(case, expectation)
     }
 }
 
-fn judge_levels(case: &Case, levels: &[LevelOutcome]) -> Judgement {
+/// The judge's finding on levels that have run.
+pub(super) fn judge_levels(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: &Expectation,
+    levels: &[LevelOutcome],
+) -> Judgement {
     let judged: Vec<verify::Level> = levels
         .iter()
         .map(|level| {
-            let plain = verify::Level::new(level.h, level.error);
+            let plain = verify::Level::new(level.spacing, level.error);
             let plain = if level.usable { plain } else { plain.unusable() };
             match &level.run.failure {
                 Some(reason) => plain.failing(reason.clone()),
@@ -78,8 +91,8 @@ fn judge_levels(case: &Case, levels: &[LevelOutcome]) -> Judgement {
             }
         })
         .collect();
-    let claim =
-        Claim { formal_order: case.method.formal_order(), expected: case.expectation.order };
+    let (formal_order, axis) = (formal_order(plan, case), plan.refine.axis);
+    let claim = Claim { formal_order, expected: expectation.order, axis };
     judge(&judged, &claim)
 }
 
@@ -128,31 +141,35 @@ fn headline(
     (within.to_owned(), found + &judged)
 }
 
-/// Richardson's extrapolation for each triple of levels with n, 2n and 4n cells.
-fn richardson(levels: &[LevelOutcome]) -> Vec<([u64; 3], Richardson)> {
-    let value = |cells: u64| {
-        let level = levels.iter().find(|level| level.cells == cells)?;
-        // Of several components no one stands for the displacement.
-        level.run.displacement.as_deref().filter(|u| u.len() == 1).map(|u| u[0])
+/// Richardson's extrapolation for each triple of levels of which each is twice as fine as the one
+/// before: with n, 2n and 4n cells, steps or (in 1-D, where alone a place is observed) particles.
+fn richardson(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardson)> {
+    let fineness = |level: &LevelOutcome| match axis {
+        Axis::Space => level.cells,
+        Axis::Time => level.run.steps,
+        Axis::Particles => level.ppc.unwrap_or(0),
     };
-    levels
-        .iter()
-        .filter_map(|level| {
-            let cells = [level.cells, 2 * level.cells, 4 * level.cells];
-            let values = [value(cells[0])?, value(cells[1])?, value(cells[2])?];
-            Some((cells, Richardson::equal_ratio(values, 2.0)))
-        })
-        .collect()
+    let with = |wanted: u64| levels.iter().position(|level| fineness(level) == wanted);
+    let triple = |k: usize| {
+        let n = fineness(&levels[k]);
+        let triple = [k, with(2 * n)?, with(4 * n)?];
+        // Of several components no one stands for the displacement.
+        let value =
+            |k: usize| levels[k].run.displacement.as_deref().filter(|u| u.len() == 1).map(|u| u[0]);
+        let values = [value(triple[0])?, value(triple[1])?, value(triple[2])?];
+        Some((triple, Richardson::equal_ratio(values, 2.0)))
+    };
+    (0..levels.len()).filter_map(triple).collect()
 }
 
 /// What is known of a case before it runs.
-fn described(case: &Case) -> CaseOutcome {
+fn described(case: &Case, expectation: &Expectation) -> CaseOutcome {
     CaseOutcome {
         case: case.name.clone(),
         subject: case.method.subject(),
         settings: statement::settings(case),
-        expected: case.expectation.summary(),
-        because: case.expectation.because.clone(),
+        expected: expectation.summary(),
+        because: expectation.because.clone(),
         verdict: String::new(),
         reason: String::new(),
         unmet: Vec::new(),
@@ -161,12 +178,12 @@ fn described(case: &Case) -> CaseOutcome {
 }
 
 /// The outcome of a case that could not be set up.
-pub(super) fn refused(case: &Case, reason: String) -> CaseOutcome {
+pub(super) fn refused(case: &Case, expectation: &Expectation, reason: String) -> CaseOutcome {
     CaseOutcome {
         verdict: verify::Verdict::Failed.to_string(),
         unmet: vec![format!("the case could not be run: {reason}")],
         reason,
-        ..described(case)
+        ..described(case, expectation)
     }
 }
 
@@ -199,7 +216,17 @@ mod tests {
             displacement: None,
             observed_error: Some(error),
         };
-        LevelOutcome { cells: 1, h: 1.0, dt: 1.0, ppc: None, run, error, usable, order: None }
+        LevelOutcome {
+            cells: 1,
+            h: 1.0,
+            spacing: 1.0,
+            dt: 1.0,
+            ppc: None,
+            run,
+            error,
+            usable,
+            order: None,
+        }
     }
 
     #[test]
@@ -231,8 +258,8 @@ mod tests {
         let limits = Limits { error_below: Some(1e-9), ..Limits::default() };
         let crossings = None;
         let because = String::new();
-        let (verdict, order, finest_pair) = (None, None, None);
-        let bound = Expectation { verdict, order, finest_pair, crossings, limits, because };
+        let (verdict, order, finest_pair, floor) = (None, None, None, None);
+        let bound = Expectation { verdict, order, finest_pair, crossings, floor, limits, because };
         let said = |level: verify::Level, unmet: &[String]| {
             let judgement = judge(&[level], &Claim::formal(2.0));
             let measured = Measured { errors: Some((1e-12, 1e-12)), observed: None, drift: None };

@@ -6,12 +6,9 @@ use super::{
     cases, comparable, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
-    scene, size, truth,
+    refine, scene, size, steps, truth,
     wording::shown,
-    words::{
-        ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, RefineWords,
-        StudyName,
-    },
+    words::{ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StudyName},
     yaml::{Complaint, Ordered, Source, read},
 };
 
@@ -42,8 +39,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     name(&binder, &words.suite)?;
     let scene = scene::scene(&binder, &words.scene)?;
     bar_limits::check(&binder, &words, &scene)?;
-    let (cells, ppc) = refine(&binder, &words.refine, scene.dimension())?;
-    let dt = binder.formula(&Path::top("run").then("dt"), &words.run.dt, &["h"])?;
+    let (refine, places) = refine::plan(&binder, &words, &scene)?;
     let instants = words.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         binder.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
@@ -52,7 +48,8 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let exact = truth::exact(&binder, &words, &scene, latest)?;
     let dimension = scene.dimension();
     let reference = words.reference.as_ref().map(|words| reference(&binder, words, dimension));
-    let reference = reference.transpose()?;
+    let reference = reference.transpose()?.flatten();
+    let same_method_dt = steps::same_method(&binder, &words, &refine, &until, instants)?;
     law::check(&binder, &words, &scene)?;
     if exact.is_none() && reference.is_none() {
         let message = "no truth: a convergence study needs `exact`, `manufactured` or `reference`";
@@ -67,9 +64,8 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         scene,
         exact,
         reference,
-        cells,
-        ppc,
-        dt,
+        same_method_dt,
+        refine,
         instants,
         norm: words.judge.norm,
         of: words.judge.of,
@@ -78,8 +74,8 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         cases: Vec::new(),
     };
     comparable::check(&binder, &words, &plan)?;
-    size::check(&binder, &words, &plan)?;
-    cases::check_steps(&binder, &plan, &until)?;
+    size::check(&binder, &words, &plan, &places)?;
+    steps::check(&binder, &plan, &places, &until)?;
     plan.cases = cases::cases(&binder, &words, &plan, &until)?;
     binder.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
@@ -116,36 +112,6 @@ fn name(binder: &Binder<'_>, name: &str) -> Result<(), Complaint> {
     Err(complaint.with_label("expected lower-case letters, digits and hyphens, at most 64"))
 }
 
-fn refine(
-    binder: &Binder<'_>,
-    words: &RefineWords,
-    dimension: usize,
-) -> Result<(Vec<u64>, Option<u64>), Complaint> {
-    let path = Path::top("refine");
-    let at = |i: usize| binder.alternative(&path.then("cells"), i);
-    let mut cells = Vec::new();
-    for (i, text) in words.cells.as_slice().iter().enumerate() {
-        let count = binder.count(&at(i), text, "the number of cells")?;
-        if cells.contains(&count) {
-            let message = format!("a level with {count} cells appears twice");
-            return Err(binder.complain(&at(i), &message).with_label("the second time"));
-        }
-        cells.push(count);
-    }
-    cells.sort_unstable();
-    let ppc_path = path.then("ppc");
-    let ppc = words.ppc.as_ref().map(|text| {
-        let ppc = binder.count(&ppc_path, text, "the number of particles per cell")?;
-        super::dispatch::per_axis(ppc, dimension).ok_or_else(|| {
-            let message = format!("{ppc} particles per cell cannot be equally spaced");
-            let label = format!("expected n^{dimension} in {dimension}-D");
-            binder.complain(&ppc_path, &message).with_label(&label)
-        })?;
-        Ok(ppc)
-    });
-    Ok((cells, ppc.transpose()?))
-}
-
 /// The place that is watched: one in the body.
 fn observed(
     binder: &Binder<'_>,
@@ -173,18 +139,28 @@ fn reference(
     binder: &Binder<'_>,
     words: &ReferenceWords,
     dimension: usize,
-) -> Result<ReferencePlan, Complaint> {
+) -> Result<Option<ReferencePlan>, Complaint> {
+    let path = Path::top("reference");
+    let (equation, fem) = match (words.equation, &words.fem) {
+        (Some(equation), Some(fem)) => (equation, fem),
+        (None, None) if words.same_method.is_some() => return Ok(None),
+        _ => {
+            let message =
+                "a reference is a `fem` computation of an `equation`, or the `same_method`";
+            return Err(binder.complain_key(&path, message));
+        }
+    };
     if dimension != 1 {
         let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
-        let complaint = binder.complain_key(&Path::top("reference"), &message);
+        let complaint = binder.complain_key(&path, &message);
         return Err(complaint.with_help("give this scene an `exact` solution"));
     }
-    let path = Path::top("reference").then("fem");
-    Ok(ReferencePlan {
-        equation: words.equation,
-        element: words.fem.element,
-        mass: words.fem.mass,
-        cells: binder.count(&path.then("cells"), &words.fem.cells, "the number of elements")?,
-        dt: binder.formula(&path.then("dt"), &words.fem.dt, &["h"])?,
-    })
+    let path = path.then("fem");
+    Ok(Some(ReferencePlan {
+        equation,
+        element: fem.element,
+        mass: fem.mass,
+        cells: binder.count(&path.then("cells"), &fem.cells, "the number of elements")?,
+        dt: binder.formula(&path.then("dt"), &fem.dt, &["h"])?,
+    }))
 }

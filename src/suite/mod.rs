@@ -20,7 +20,9 @@ pub mod embedded;
 mod execute;
 mod expect;
 mod filling;
+mod fine_steps;
 mod force;
+mod formal;
 mod hold;
 mod judged;
 mod law;
@@ -30,12 +32,16 @@ mod method;
 mod methods;
 mod model;
 mod path;
+mod plan;
+mod probe;
 mod reference;
+mod refine;
 mod scene;
 mod sets;
 mod size;
 mod start;
 pub mod statement;
+mod steps;
 mod truth;
 mod wording;
 mod words;
@@ -48,4 +54,5 @@ pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,
     SceneFace, StudyPlan, Suite,
 };
+pub use plan::{Extent, LevelPlan, RefinePlan};
 pub use words::{CrossingLevels, EquationName, NormName};

@@ -3,6 +3,7 @@
 use super::{
     hold::Hold,
     method::Method,
+    plan::RefinePlan,
     words::{CrossingLevels, EquationName, NormName},
 };
 use crate::{
@@ -49,12 +50,10 @@ pub struct ConvergencePlan {
     pub exact: Option<Problem>,
     /// A fine computation to compare with.
     pub reference: Option<ReferencePlan>,
-    /// Cells along the first axis, level by level.
-    pub cells: Vec<u64>,
-    /// Particles per cell.
-    pub ppc: Option<u64>,
-    /// Wanted time step (s), a formula of h.
-    pub dt: Formula,
+    /// Time step (s) of the same method, to compare with in a study of time steps.
+    pub same_method_dt: Option<f64>,
+    /// What is refined, level by level.
+    pub refine: RefinePlan,
     /// Instants at which the error is taken.
     pub instants: u64,
     /// The error that is judged.
@@ -84,6 +83,8 @@ pub struct Case {
     pub against: Against,
     /// What is expected.
     pub expectation: Expectation,
+    /// What is expected of a full run, if that differs.
+    pub expectation_in_full: Option<Expectation>,
 }
 
 /// Which truth.
@@ -93,6 +94,8 @@ pub enum Against {
     Exact,
     /// The fine computation.
     Reference,
+    /// The same method with shorter steps.
+    SameMethod,
 }
 
 /// The body and what acts on it.

@@ -5,6 +5,8 @@ use super::{
     dispatch::{cell_size, grid_axis, is_vacant, per_axis},
     model::{ConvergencePlan, Scene},
     path::Path,
+    plan::LevelPlan,
+    refine::Place,
     wording::shown,
     words::{ConvergenceWords, MethodWords},
     yaml::Complaint,
@@ -21,59 +23,61 @@ pub(super) fn check(
     binder: &Binder<'_>,
     words: &ConvergenceWords,
     plan: &ConvergencePlan,
+    places: &[Place],
 ) -> Result<(), Complaint> {
     reference(binder, plan)?;
     if !words.methods.iter().any(|method| matches!(method, MethodWords::Mpm { .. })) {
         return Ok(());
     }
-    let path = Path::top("refine").then("cells");
-    for (i, text) in words.refine.cells.as_slice().iter().enumerate() {
-        let path = binder.alternative(&path, i);
-        let cells = binder.count(&path, text, "the number of cells")?;
-        level(binder, &path, plan, cells)?;
+    for (level, place) in plan.refine.levels.iter().zip(places) {
+        if let Some((what, amount)) = too_large(&plan.scene, *level) {
+            let cells = level.cells;
+            let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
+            let complaint = binder.complain(&place.size, &message);
+            return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
+        }
+        vacant(binder, &place.size, &plan.scene, *level)?;
+        held_faces(binder, &place.size, &plan.scene, level.cells)?;
+        sets(binder, &place.size, &plan.scene, *level)?;
     }
     Ok(())
 }
 
-fn level(
+/// Refuses a round body that is smaller than the spacing of its particles.
+fn vacant(
     binder: &Binder<'_>,
     path: &Path,
-    plan: &ConvergencePlan,
-    cells: u64,
+    scene: &Scene,
+    level: LevelPlan,
 ) -> Result<(), Complaint> {
-    let h = cell_size(&plan.scene, cells);
-    let amounts = [("nodes", nodes(&plan.scene, h)), ("particles", particles(plan, h))];
-    for (what, amount) in amounts {
-        if amount > MOST || amount.is_nan() {
-            let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
-            let complaint = binder.complain(path, &message);
-            return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
-        }
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
+    if !(scene.round.is_some() && per_axis.is_some_and(|n| is_vacant(scene, level.h, n))) {
+        return Ok(());
     }
-    let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, plan.scene.dimension()));
-    if plan.scene.round.is_some() && per_axis.is_some_and(|n| is_vacant(&plan.scene, h, n)) {
-        let message =
-            format!("with {cells} cells along the first axis no particle lies in the body");
-        let label = "expected cells small enough for the body to hold one";
-        return Err(binder.complain(path, &message).with_label(label));
-    }
-    held_faces(binder, path, &plan.scene, cells)?;
-    sets(binder, path, plan, cells)
+    let cells = level.cells;
+    let message = format!("with {cells} cells along the first axis no particle lies in the body");
+    let label = "expected cells small enough for the body to hold one";
+    Err(binder.complain(path, &message).with_label(label))
+}
+
+/// What the level has too many of, and how many.
+pub(super) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
+    let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
+    amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
 }
 
 fn nodes(scene: &Scene, h: f64) -> f64 {
     (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
 }
 
-fn particles(plan: &ConvergencePlan, h: f64) -> f64 {
-    (0..plan.scene.dimension()).map(|axis| along(plan, axis, h).max(1.0)).product()
+fn particles(scene: &Scene, level: LevelPlan) -> f64 {
+    (0..scene.dimension()).map(|axis| along(scene, axis, level).max(1.0)).product()
 }
 
 /// Particles along an axis, before rounding.
-fn along(plan: &ConvergencePlan, axis: usize, h: f64) -> f64 {
-    let scene = &plan.scene;
-    let per_axis = plan.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
-    (scene.to[axis] - scene.from[axis]) * per_axis / h
+fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
+    (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
 /// The nodes that are held lie on the last face of the grid, which must be that of the body.
@@ -105,15 +109,15 @@ fn held_faces(
 fn sets(
     binder: &Binder<'_>,
     path: &Path,
-    plan: &ConvergencePlan,
-    cells: u64,
+    scene: &Scene,
+    level: LevelPlan,
 ) -> Result<(), Complaint> {
-    let (scene, h) = (&plan.scene, cell_size(&plan.scene, cells));
+    let cells = level.cells;
     for set in &scene.sets {
         // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
         let some = |axis: usize| {
             let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
-            let count = libm::round(along(plan, axis, h)).max(1.0);
+            let count = libm::round(along(scene, axis, level)).max(1.0);
             let index = libm::ceil((set.from[axis] - from) / length * count - 0.5).max(0.0);
             from + length * (index.min(count - 1.0) + 0.5) / count <= set.to[axis]
         };

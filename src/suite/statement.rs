@@ -3,10 +3,13 @@
 use super::{
     hold::Hold,
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
+    plan::{LevelPlan, RefinePlan},
+    wording::shown,
 };
 use crate::{
     exact::{Derivatives, Problem, formula::Formula},
     mpm::{MaterialPlan, Parameter},
+    verify::Axis,
 };
 
 const SMALL_STRAIN: &str = "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)";
@@ -39,6 +42,7 @@ pub fn settings(case: &Case) -> Vec<(String, String)> {
     let truth = match case.against {
         Against::Exact => "the exact solution",
         Against::Reference => "the reference",
+        Against::SameMethod => "the same method with shorter steps",
     };
     push(&mut rows, "until", &format!("t = {} s", case.until));
     push(&mut rows, "against", truth);
@@ -71,11 +75,11 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
         let text = format!("{element} {mass} FEM, {law}, {cells} elements, dt = {dt}");
         push(rows, "reference", &text);
     }
-    let dt = plan.dt.source();
-    push(rows, "dt", &format!("{dt} s, shortened to divide the time between instants"));
-    push(rows, "instants", &format!("{}", plan.instants));
-    let ppc = plan.ppc.map_or(String::new(), |ppc| format!("{ppc} per cell, equally spaced"));
-    push(rows, "particles", &ppc);
+    if let Some(dt) = plan.same_method_dt {
+        let text = format!("the same method, started half a step back, with dt = {} s", shown(dt));
+        push(rows, "reference", &text);
+    }
+    refinement(&plan.refine, plan.instants, rows);
     push(rows, "judged", &judged(plan));
     push(rows, "crossing levels", plan.crossing_levels.name());
 }
@@ -83,6 +87,37 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
 fn judged(plan: &ConvergencePlan) -> String {
     let judged = format!("{} error of the {}", plan.norm.name(), plan.of.words());
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
+}
+
+/// Time steps and particles; and cells, where it is not they that are refined.
+fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
+    let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
+        let mut texts: Vec<String> =
+            levels.iter().filter_map(of).map(|count| count.to_string()).collect();
+        texts.dedup();
+        texts.join(", ")
+    };
+    let cells = |levels: &[LevelPlan]| list(&|level| Some(level.cells), levels);
+    let ppc = |levels: &[LevelPlan]| list(&|level| level.ppc, levels);
+    if plan.axis != Axis::Space {
+        push(rows, "cells", &format!("{} on every level", cells(&plan.levels)));
+    }
+    let (usual, further) = plan.levels.split_at(plan.usual);
+    let usual_steps = plan.steps.len().min(plan.usual);
+    let (steps, further_steps) = plan.steps.split_at(usual_steps);
+    let dt = steps.join(", ");
+    push(rows, "dt", &format!("{dt} s, shortened to divide the time between instants"));
+    push(rows, "instants", &format!("{instants}"));
+    if plan.has_particles() {
+        push(rows, "particles", &format!("{} per cell, equally spaced", ppc(usual)));
+    }
+    let full = match plan.axis {
+        _ if further.is_empty() => String::new(),
+        Axis::Space => format!("{} cells", cells(further)),
+        Axis::Time => format!("dt = {} s", further_steps.join(", ")),
+        Axis::Particles => format!("{} particles per cell", ppc(further)),
+    };
+    push(rows, "in full also", &full);
 }
 
 fn scene(scene: &Scene, rows: &mut Rows) {

@@ -1,6 +1,6 @@
 //! What a series of errors is expected to show.
 
-use super::figures::figures;
+use super::{axis::Axis, figures::figures};
 
 /// An order that theory gives, and the range in which the observed one must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub struct Claim {
     pub formal_order: f64,
     /// The range of the observed order; `formal_order` -+ [`Claim::TOLERANCE`] if not given.
     pub expected: Option<(f64, f64)>,
+    /// What is refined: names the spacing in sentences, changes no figure.
+    pub axis: Axis,
 }
 
 impl Claim {
@@ -22,12 +24,18 @@ impl Claim {
 
     /// The formal order, with the usual tolerance.
     pub const fn formal(order: f64) -> Self {
-        Self { formal_order: order, expected: None }
+        Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
     /// The formal order, with a range of its own.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
-        Self { formal_order: order, expected: Some((low, high)) }
+        Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
+    }
+
+    /// The same claim for another axis of refinement.
+    #[must_use]
+    pub const fn over(self, axis: Axis) -> Self {
+        Self { axis, ..self }
     }
 
     /// The expected range.

@@ -1,6 +1,7 @@
 //! What a suite expects of a case, and whether it came so.
 
 use super::{
+    floor::FloorCause,
     limits::{Limits, Measured},
     verdict::Verdict,
 };
@@ -22,6 +23,8 @@ pub struct Expectation {
     pub crossings: Option<bool>,
     /// Bounds on figures.
     pub limits: Limits,
+    /// Whose error the finest level must show.
+    pub floor: Option<FloorCause>,
     /// The reason, in one line.
     pub because: String,
 }
@@ -39,6 +42,8 @@ pub struct Seen {
     pub crossings: Option<u64>,
     /// What limits speak of.
     pub measured: Measured,
+    /// Whose error the finest level shows, if that was asked and could be told.
+    pub floor: Option<FloorCause>,
 }
 
 impl Expectation {
@@ -77,6 +82,12 @@ impl Expectation {
             unmet.push(format!("expected {wanted} crossings on the finest level, got {got}"));
         }
         unmet.extend(self.limits.unmet(&seen.measured));
+        if let Some(cause) = self.floor
+            && seen.floor != Some(cause)
+        {
+            let got = seen.floor.map_or("not told", FloorCause::name);
+            unmet.push(format!("expected the floor of `{}`, got `{got}`", cause.name()));
+        }
         unmet
     }
 
@@ -89,6 +100,7 @@ impl Expectation {
             format!("{} crossings on the finest level", if some { "some" } else { "no" })
         }));
         parts.extend(self.limits.summary());
+        parts.extend(self.floor.map(|cause| format!("floor of {}", cause.name())));
         parts.join(", ")
     }
 }
@@ -113,6 +125,7 @@ mod tests {
         finest_pair: Some(1.99),
         crossings: Some(0),
         measured: Measured { errors: Some((1e-6, 1e-3)), observed: None, drift: None },
+        floor: Some(FloorCause::Time),
     };
 
     fn expectation() -> Expectation {
@@ -122,6 +135,7 @@ mod tests {
             finest_pair: Some((1.9, 2.1)),
             crossings: Some(false),
             limits: Limits { error_below: Some(1e-2), ..Limits::default() },
+            floor: Some(FloorCause::Time),
             because: "second-order scheme".to_owned(),
         }
     }
@@ -137,6 +151,8 @@ mod tests {
     #[case::crossings(Seen { crossings: Some(3), ..SEEN }, 1)]
     #[case::crossings_not_counted(Seen { crossings: None, ..SEEN }, 1)]
     #[case::limit(Seen { measured: Measured { errors: None, ..SEEN.measured }, ..SEEN }, 1)]
+    #[case::floor(Seen { floor: Some(FloorCause::Nothing), ..SEEN }, 1)]
+    #[case::floor_not_told(Seen { floor: None, ..SEEN }, 1)]
     fn every_part_must_hold(#[case] seen: Seen, #[case] unmet: usize) {
         assert_eq!(expectation().unmet(&seen).len(), unmet, "{:?}", expectation().unmet(&seen));
     }
@@ -147,7 +163,7 @@ mod tests {
             Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
         assert!(bounded.unmet(&Seen { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
         assert_eq!(bounded.unmet(&Seen { verdict: Verdict::Failed, ..SEEN }).len(), 1);
-        let summary = "no crossings on the finest level, largest error at most 1e-2";
+        let summary = "no crossings on the finest level, largest error at most 1e-2, floor of time";
         assert_eq!(bounded.summary(), summary);
     }
 }

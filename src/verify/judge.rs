@@ -60,7 +60,7 @@ pub struct Judgement {
 
 /// Judges the errors of a refinement study against a claimed order.
 pub fn judge(levels: &[Level], claim: &Claim) -> Judgement {
-    let (levels, complaint) = arrange(levels);
+    let (levels, complaint) = arrange(levels, claim.axis);
     let finding = match complaint.or_else(|| claim.complaint()) {
         Some(complaint) => Finding::without_order(Verdict::Failed, Reason::Failed(complaint)),
         None => Series::new(&levels).finding(claim),
@@ -71,7 +71,7 @@ pub fn judge(levels: &[Level], claim: &Claim) -> Judgement {
         order: finding.line.map(|line| line.order()),
         window: window.map(|points| points.iter().map(|p| p.level).collect()),
         pairwise: pairwise(&levels),
-        reason: finding.reason.sentence(&levels, window, finding.line.as_ref()),
+        reason: finding.reason.sentence(&levels, claim.axis, window, finding.line.as_ref()),
         levels,
     }
 }

@@ -2,12 +2,12 @@
 
 use std::cmp::Ordering;
 
-use super::figures::figures;
+use super::{axis::Axis, figures::figures};
 
 /// One level of refinement: a spacing and the error measured there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// The spacing that was refined: of the grid, or of time. Not a number of cells.
+    /// The spacing that was refined: of the grid, of time or of particles. Not a number of cells.
     pub h: f64,
     /// A norm of the error.
     pub error: f64,
@@ -37,17 +37,17 @@ impl Level {
     }
 
     /// What makes this level worthless, usable or not.
-    fn complaint(&self) -> Option<String> {
-        let h = figures(self.h);
+    fn complaint(&self, axis: Axis) -> Option<String> {
+        let (name, h) = (axis.symbol(), figures(self.h));
         if let Some(reason) = &self.failed {
-            return Some(format!("h = {h}: {reason}"));
+            return Some(format!("{name} = {h}: {reason}"));
         }
         if !(self.h.is_finite() && self.h > 0.0) {
-            return Some(format!("h = {h} is not a spacing"));
+            return Some(format!("{name} = {h} is not a spacing"));
         }
         if !(self.error.is_finite() && self.error >= 0.0) {
             let error = figures(self.error);
-            return Some(format!("h = {h}: {error} is not an error"));
+            return Some(format!("{name} = {h}: {error} is not an error"));
         }
         None
     }
@@ -55,7 +55,7 @@ impl Level {
 
 /// Sorts from coarse to fine and merges identical levels; one that counts and one that does not
 /// merge into one that does not. The complaint names the first thing that makes the series void.
-pub(super) fn arrange(levels: &[Level]) -> (Vec<Level>, Option<String>) {
+pub(super) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));
     sorted.dedup_by(|next, kept| {
@@ -68,16 +68,16 @@ pub(super) fn arrange(levels: &[Level]) -> (Vec<Level>, Option<String>) {
     });
     let complaint = sorted
         .iter()
-        .find_map(Level::complaint)
-        .or_else(|| sorted.windows(2).find_map(contradiction));
+        .find_map(|level| level.complaint(axis))
+        .or_else(|| sorted.windows(2).find_map(|pair| contradiction(pair, axis)));
     (sorted, complaint)
 }
 
-fn contradiction(pair: &[Level]) -> Option<String> {
+fn contradiction(pair: &[Level], axis: Axis) -> Option<String> {
     let [a, b] = pair else { return None };
     same(a.h, b.h).then(|| {
         let (h, first, second) = (figures(a.h), figures(a.error), figures(b.error));
-        format!("h = {h} appears twice, with errors {first} and {second}")
+        format!("{} = {h} appears twice, with errors {first} and {second}", axis.symbol())
     })
 }
 
@@ -98,7 +98,7 @@ mod tests {
             Level::new(1.0, 0.1).unusable(),
             Level::new(2.0, 0.3),
         ];
-        let (levels, complaint) = arrange(&given);
+        let (levels, complaint) = arrange(&given, Axis::Space);
         let expected = [given[1].clone(), given[3].clone(), given[2].clone()];
         assert_eq!(levels, expected);
         assert_eq!(complaint, None);
@@ -114,7 +114,7 @@ mod tests {
     #[case(Level::new(2.0, 1.0).failing("particle 7 inverted"), "h = 2: particle 7 inverted")]
     #[case(Level::new(1.0, 0.25), "h = 1 appears twice, with errors 0.25 and 0.5")]
     fn complaints(#[case] level: Level, #[case] expected: &str) {
-        let (_, complaint) = arrange(&[Level::new(1.0, 0.5), level]);
+        let (_, complaint) = arrange(&[Level::new(1.0, 0.5), level], Axis::Space);
         assert_eq!(complaint.as_deref(), Some(expected));
     }
 }

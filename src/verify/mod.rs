@@ -5,11 +5,13 @@
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
 //! | [`conservation`](Drift) | what a free motion keeps, watched over a run |
 //! | [`level`](Level), [`claim`](Claim) | what is judged, and against what |
+//! | [`axis`](Axis) | which spacing is refined |
 //! | [`pairwise`](observed_order) | the order between two levels |
 //! | [`fit`](Interval), [`student`](two_sided_95) | the order by regression, with its confidence interval |
 //! | `window` | which levels are asymptotic |
 //! | `shape` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the questions, and the verdict |
+//! | [`floor`](Floor) | whose error a floor is |
 //! | [`richardson`](Richardson) | order and limit from three values |
 //! | [`expectation`](Expectation), [`limits`](Limits) | what must come out |
 //!
@@ -17,6 +19,7 @@
 //! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by absolute numbers, so that no
 //! unit of error or spacing changes a verdict.
 
+mod axis;
 mod beta;
 mod claim;
 mod clock;
@@ -24,6 +27,7 @@ mod conservation;
 mod expectation;
 mod figures;
 mod fit;
+mod floor;
 mod judge;
 mod level;
 mod limits;
@@ -42,11 +46,13 @@ mod tests;
 mod verdict;
 mod window;
 
+pub use axis::Axis;
 pub use claim::Claim;
 pub use clock::{Clock, MOST_STEPS};
 pub use conservation::{Conserved, Drift};
 pub use expectation::{Bounds, Expectation, Seen};
 pub use fit::Interval;
+pub use floor::{Floor, FloorCause, Probe};
 pub use judge::{Judgement, judge};
 pub use level::Level;
 pub use limits::{Limits, Measured};

@@ -1,8 +1,8 @@
 //! The results of a suite: all that reports are made of.
 
 use super::{
-    conservation::Conserved, judge::Judgement, observer::History, quantity::Quantity,
-    richardson::Richardson, run::Run, verdict::Verdict,
+    axis::Axis, conservation::Conserved, figures::figures, floor::Floor, judge::Judgement,
+    observer::History, quantity::Quantity, richardson::Richardson, run::Run, verdict::Verdict,
 };
 
 /// One suite, run.
@@ -59,7 +59,10 @@ pub enum Study {
 /// Results of a convergence study.
 #[derive(Debug, Clone)]
 pub struct Convergence {
-    /// Order that theory gives the method on a smooth solution.
+    /// What was refined.
+    pub axis: Axis,
+    /// Order that theory gives the method on a smooth solution; for particles per cell, where it
+    /// gives none in general, that of the midpoint rule.
     pub formal_order: f64,
     /// Name of the error that was judged.
     pub norm: &'static str,
@@ -74,10 +77,13 @@ pub struct Convergence {
     pub drifts: Vec<Conserved>,
     /// The judge's finding.
     pub judgement: Judgement,
+    /// Whose error the finest level shows, where that was asked.
+    pub floor: Option<Floor>,
     /// The levels, coarse to fine.
     pub levels: Vec<LevelOutcome>,
-    /// Richardson's extrapolation at the observed place, for each triple of cells n, 2n, 4n.
-    pub richardson: Vec<([u64; 3], Richardson)>,
+    /// Richardson's extrapolation at the observed place, for each triple of levels with spacings
+    /// 4, 2 and 1.
+    pub richardson: Vec<([usize; 3], Richardson)>,
     /// Reference position that was observed (m).
     pub observed_at: Option<Vec<f64>>,
 }
@@ -89,6 +95,8 @@ pub struct LevelOutcome {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
+    /// The spacing that is judged: of cells (m), time (s) or particles (m).
+    pub spacing: f64,
     /// Time step (s).
     pub dt: f64,
     /// Particles per cell (MPM).
@@ -136,6 +144,17 @@ impl CaseOutcome {
         match &self.study {
             Study::Convergence(study) => Some(study),
             _ => None,
+        }
+    }
+}
+
+impl LevelOutcome {
+    /// What tells the level from others of its study: `64 cells`, `dt = 1e-3 s`.
+    pub fn name(&self, axis: Axis) -> String {
+        match (axis, self.ppc) {
+            (Axis::Time, _) => format!("dt = {} s", figures(self.dt)),
+            (Axis::Particles, Some(ppc)) => format!("{ppc} particles per cell"),
+            _ => format!("{} cells", self.cells),
         }
     }
 }

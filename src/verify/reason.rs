@@ -1,5 +1,6 @@
 //! The one line that says why, for a reader who has only the figures.
 
+use super::axis::Axis;
 use super::figures::{figures, order};
 use super::fit::{Line, Point};
 use super::level::Level;
@@ -23,11 +24,12 @@ impl Reason {
     pub(super) fn sentence(
         &self,
         levels: &[Level],
+        axis: Axis,
         window: Option<&[Point]>,
         line: Option<&Line>,
     ) -> String {
-        let order = window.zip(line).map(|(points, line)| order_over(levels, points, line));
-        let cause = self.cause(levels);
+        let order = window.zip(line).map(|(points, line)| order_over(levels, axis, points, line));
+        let cause = self.cause(levels, axis);
         match (self, order) {
             (Self::Floor { .. }, Some(order)) => format!("{cause}; before that {order}"),
             (Self::Floor { .. }, None) => format!("{cause}; no order before that"),
@@ -37,7 +39,7 @@ impl Reason {
         }
     }
 
-    fn cause(&self, levels: &[Level]) -> String {
+    fn cause(&self, levels: &[Level], axis: Axis) -> String {
         match self {
             Self::Failed(complaint) => complaint.clone(),
             Self::TooFew { usable } => {
@@ -45,10 +47,10 @@ impl Reason {
             }
             Self::Oscillatory => oscillation(levels),
             Self::Divergent { from, to } => {
-                let (from, to) = (place(&levels[*from]), place(&levels[*to]));
+                let (from, to) = (place(&levels[*from], axis), place(&levels[*to], axis));
                 format!("the error grows from {from} to {to}")
             }
-            Self::Floor { from } => floor(&levels[*from..]),
+            Self::Floor { from } => floor(&levels[*from..], axis),
             Self::Wide => "the order has not settled".into(),
             Self::Drift { change } => {
                 format!("the order drifts by {change:.3} along the window")
@@ -59,17 +61,17 @@ impl Reason {
 }
 
 /// `order 2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`
-fn order_over(levels: &[Level], points: &[Point], line: &Line) -> String {
+fn order_over(levels: &[Level], axis: Axis, points: &[Point], line: &Line) -> String {
     let ends = [points.first(), points.last()];
     let [coarse, fine] = ends.map(|p| p.map_or(f64::NAN, |p| levels[p.level].h));
     let (order, count) = (order(&line.order()), points.len());
     let (coarse, fine) = (figures(coarse), figures(fine));
-    format!("order {order} over {count} levels, h = {coarse} ... {fine}")
+    format!("order {order} over {count} levels, {} = {coarse} ... {fine}", axis.symbol())
 }
 
 /// `0.25 at h = 0.5`
-fn place(level: &Level) -> String {
-    format!("{} at h = {}", figures(level.error), figures(level.h))
+fn place(level: &Level, axis: Axis) -> String {
+    format!("{} at {} = {}", figures(level.error), axis.symbol(), figures(level.h))
 }
 
 fn oscillation(levels: &[Level]) -> String {
@@ -79,16 +81,17 @@ fn oscillation(levels: &[Level]) -> String {
 }
 
 /// What the errors do from the first level of the floor on.
-fn floor(levels: &[Level]) -> String {
+fn floor(levels: &[Level], axis: Axis) -> String {
     let errors = || levels.iter().filter(|level| level.usable).map(|level| level.error);
     let low = errors().fold(f64::INFINITY, f64::min);
     let high = errors().fold(0.0, f64::max);
     let h = levels.first().map_or(f64::NAN, |level| level.h);
+    let name = axis.symbol();
     let (h, low, high) = (figures(h), figures(low), figures(high));
     if low == high {
-        format!("the error stays at {low} from h = {h} on")
+        format!("the error stays at {low} from {name} = {h} on")
     } else {
-        format!("the error stays between {low} and {high} from h = {h} on")
+        format!("the error stays between {low} and {high} from {name} = {h} on")
     }
 }
 

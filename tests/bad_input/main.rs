@@ -11,6 +11,7 @@ mod materials;
 mod numbers;
 mod quantities;
 mod random;
+mod refinement;
 mod samples;
 mod scenes;
 mod sizes;

@@ -46,7 +46,7 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
 )]
 #[case::a_small_strain_truth_for_plastic_flow(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("small_strain", "▸small_strain")],
-    &["`small_strain` is the problem of a linear elastic material"]
+    &["`small_strain` is not the problem of a `j2` material"]
 )]
 fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);

@@ -3,9 +3,10 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
 use serde_json::Value;
 
-const CASE: [&str; 11] = [
+const CASE: [&str; 13] = [
     "case",
     "subject",
+    "axis",
     "formal_order",
     "observed_order",
     "verdict",
@@ -13,13 +14,15 @@ const CASE: [&str; 11] = [
     "passed",
     "reason",
     "unmet",
+    "floor",
     "levels",
     "forces",
 ];
 
-const LEVEL: [&str; 15] = [
+const LEVEL: [&str; 16] = [
     "cells",
     "h",
+    "spacing",
     "dt",
     "ppc",
     "particles",

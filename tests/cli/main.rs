@@ -4,6 +4,7 @@ mod explain;
 mod folder;
 mod hostile;
 mod json;
+mod plans;
 mod run;
 
 use folder::Folder;

@@ -4,9 +4,11 @@
 //! a method's entries may be lists, whose product gives the cases.
 
 mod force;
+mod refine;
 mod scene;
 
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
+pub(in crate::suite) use refine::{RefineWords, RunWords};
 pub(in crate::suite) use scene::{
     AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, RoundWords, SceneWords, SetWords,
 };
@@ -17,7 +19,7 @@ use crate::{
     mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
     named::named,
     subject::Start,
-    verify::Quantity,
+    verify::{FloorCause, Quantity},
 };
 use serde::Deserialize;
 
@@ -103,8 +105,16 @@ named! {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct ReferenceWords {
-    pub(in crate::suite) equation: EquationName,
-    pub(in crate::suite) fem: ReferenceFemWords,
+    pub(in crate::suite) equation: Option<EquationName>,
+    pub(in crate::suite) fem: Option<ReferenceFemWords>,
+    pub(in crate::suite) same_method: Option<SameMethodWords>,
+}
+
+/// The same method with shorter steps.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct SameMethodWords {
+    pub(in crate::suite) dt: NumberText,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -114,21 +124,6 @@ pub(in crate::suite) struct ReferenceFemWords {
     pub(in crate::suite) mass: Mass,
     pub(in crate::suite) cells: NumberText,
     pub(in crate::suite) dt: NumberText,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::suite) struct RunWords {
-    pub(in crate::suite) until: OneOrMany<NumberText>,
-    pub(in crate::suite) dt: NumberText,
-    pub(in crate::suite) instants: Option<NumberText>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::suite) struct RefineWords {
-    pub(in crate::suite) cells: OneOrMany<NumberText>,
-    pub(in crate::suite) ppc: Option<NumberText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -214,6 +209,7 @@ pub(in crate::suite) struct ExpectWords {
     pub(in crate::suite) order: Option<Vec<NumberText>>,
     pub(in crate::suite) finest_pair: Option<Vec<NumberText>>,
     pub(in crate::suite) crossings: Option<CrossingsName>,
+    pub(in crate::suite) floor: Option<FloorCause>,
     /// Bounds on the judged error of every level that counts.
     pub(in crate::suite) error_below: Option<NumberText>,
     pub(in crate::suite) error_above: Option<NumberText>,
@@ -221,6 +217,8 @@ pub(in crate::suite) struct ExpectWords {
     pub(in crate::suite) observed_within: Option<NumberText>,
     pub(in crate::suite) drift: Option<DriftWords>,
     pub(in crate::suite) because: String,
+    /// What is expected of a full run, where that differs.
+    pub(in crate::suite) full: Option<Box<ExpectWords>>,
 }
 
 /// Bounds on the relative drift of sums over the body.

@@ -1,0 +1,71 @@
+//! What a study refines, level by level.
+
+use crate::verify::Axis;
+
+/// The levels of a study.
+#[derive(Debug, Clone)]
+pub struct RefinePlan {
+    /// Which spacing is judged.
+    pub axis: Axis,
+    /// Every level, strictly from coarse to fine.
+    pub levels: Vec<LevelPlan>,
+    /// How many of them, from the coarsest on, run without being asked for a full run.
+    pub usual: usize,
+    /// The time steps as the suite states them: one formula of h, or one for each level.
+    pub steps: Vec<String>,
+}
+
+/// One level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelPlan {
+    /// Cells along the first axis of the grid, or of the body.
+    pub cells: u64,
+    /// Cell size (m).
+    pub h: f64,
+    /// Wanted time step (s).
+    pub dt: f64,
+    /// Particles per cell, a whole power of the dimension; absent where there are none.
+    pub ppc: Option<u64>,
+}
+
+/// How much of a plan is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// What the gate runs.
+    Usual,
+    /// All levels.
+    Full,
+}
+
+impl RefinePlan {
+    /// The levels that run.
+    pub fn levels(&self, extent: Extent) -> &[LevelPlan] {
+        match extent {
+            Extent::Usual => &self.levels[..self.usual],
+            Extent::Full => &self.levels,
+        }
+    }
+
+    /// Whether there are particles.
+    pub fn has_particles(&self) -> bool {
+        self.levels.iter().all(|level| level.ppc.is_some())
+    }
+}
+
+impl LevelPlan {
+    /// The level with the spacing of `axis` halved, and nothing else changed; `None` if it has no
+    /// such spacing.
+    pub fn halved(self, axis: Axis, dimension: usize) -> Option<Self> {
+        match axis {
+            Axis::Space => Some(Self { cells: 2 * self.cells, h: 0.5 * self.h, ..self }),
+            Axis::Time => Some(Self { dt: 0.5 * self.dt, ..self }),
+            Axis::Particles => self.ppc.map(|ppc| Self { ppc: Some(ppc << dimension), ..self }),
+        }
+    }
+
+    /// Distance of neighbouring particles (m), or of nodes where there are no particles.
+    pub fn particle_spacing(self, dimension: usize) -> f64 {
+        let per_cell = self.ppc.unwrap_or(1) as f64;
+        self.h / libm::pow(per_cell, 1.0 / dimension as f64)
+    }
+}

@@ -1,0 +1,100 @@
+//! Refinement plans that mean nothing.
+
+use super::{Edits, refused, samples::BAR};
+use rstest::rstest;
+
+const PLAN: &str = "refine: {cells: [6, 12], ppc: 4}";
+const STEP: &str = ", dt: 1e-3, instants";
+const NO_STEP: &str = ", instants";
+
+#[rstest]
+#[case::levels_from_fine_to_coarse(
+    &[("[6, 12]", "[12, ▸6]")],
+    &["a level with 6 cells after one with 12", "expected levels from coarse to fine"]
+)]
+#[case::no_time_step(
+    &[(STEP, NO_STEP), ("run:", "▸run:")],
+    &["a run needs a time step", "add `dt`, or a list of them to `refine`"]
+)]
+#[case::two_places_for_the_time_step(
+    &[(PLAN, "refine: {cells: 6, ppc: 4, ▸dt: [1e-3, 5e-4]}")],
+    &["`run` states the time step already"]
+)]
+#[case::one_time_step(
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, ▸dt: 1e-3}")],
+    &["one time step refines nothing", "move it to `run`"]
+)]
+#[case::growing_time_steps(
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1e-3, ▸2e-3]}")],
+    &["a level with dt = 0.002 after one with 0.001", "expected levels from coarse to fine"]
+)]
+#[case::time_steps_that_become_the_same(
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1, ▸0.1]}")],
+    &["dt = 0.1 and 1 both become 0.01 s", "shortened to end at 50 instants"]
+)]
+#[case::a_time_step_that_is_none(
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1e-3, ▸\"0/0\"]}")],
+    &["with 6 cells the time step is NaN"]
+)]
+#[case::cells_and_particles(
+    &[(PLAN, "refine: {cells: [6, 12], ppc: ▸[1, 2]}")],
+    &["two things are refined at once", "particles per cell are refined alone"]
+)]
+#[case::lists_of_unequal_length(
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: [6, 12], ppc: 4, dt: ▸[3e-3, 2e-3, 1e-3]}")],
+    &["3 time steps for 2 levels of cells", "as a formula of h"]
+)]
+#[case::full_of_two_lists(
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: [6, 12], ppc: 4, dt: [2e-3, 1e-3], ▸full: 24}")],
+    &["one list of further levels cannot refine both"]
+)]
+#[case::full_that_is_not_finer(
+    &[("ppc: 4}", "ppc: 4, full: [24, ▸10]}")],
+    &["a level with 10 cells after one with 24"]
+)]
+#[case::full_that_repeats(
+    &[("ppc: 4}", "ppc: 4, full: ▸12}")],
+    &["a level with 12 cells appears twice"]
+)]
+#[case::full_too_large_to_run(
+    &[("ppc: 4}", "ppc: 8, full: ▸1e7}")],
+    &["with 10000000 cells along the first axis, 6.7e7 particles"]
+)]
+#[case::an_fem_with_refined_particles(
+    &[(PLAN, "refine: {cells: 6, ppc: [1, 2]}"), ("  - fem:", "  - ▸fem:")],
+    &["an FEM has none"]
+)]
+#[case::full_expected_and_not_run(
+    &[("    verdict: too_few_levels\n    finest_pair", "    verdict: too_few_levels\n    ▸full: {verdict: divergent, because: none}\n    finest_pair")],
+    &["there is no full run to expect this of"]
+)]
+#[case::full_with_cases_of_its_own(
+    &[
+        ("ppc: 4}", "ppc: 4, full: 24}"),
+        ("    verdict: too_few_levels\n    finest_pair", "    verdict: too_few_levels\n    full: {▸case: x, verdict: divergent, because: none}\n    finest_pair"),
+    ],
+    &["has no `case` of its own"]
+)]
+#[case::a_floor_of_no_axis(
+    &[("finest_pair: [1.5, 2.5]", "floor: ▸tiem")],
+    &["tiem", "time"]
+)]
+#[case::the_same_method_and_no_time_steps(
+    &[("run:", "reference: {▸same_method: {dt: 1e-5}}\nrun:")],
+    &["knows the error of the time step only"]
+)]
+#[case::the_same_method_with_steps_as_long(
+    &[
+        ("run:", "reference: {same_method: {dt: ▸2e-4}}\nrun:"),
+        (STEP, NO_STEP),
+        (PLAN, "refine: {cells: 6, ppc: 4, dt: [2e-3, 1e-3]}"),
+    ],
+    &["the time step is 0.0002, the finest level's 0.001", "expected at most 1/8"]
+)]
+#[case::a_reference_of_nothing(
+    &[("run:", "▸reference: {}\nrun:")],
+    &["a reference is a `fem` computation of an `equation`, or the `same_method`"]
+)]
+fn a_plan_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}

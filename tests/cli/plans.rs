@@ -1,0 +1,126 @@
+//! Refinement plans: which spacing is judged, where a floor comes from, and what `--full` adds.
+
+use super::{BAR, FAILED, Folder, SOUND};
+use serde_json::Value;
+
+/// The bar with another plan and another time step; nothing is expected of the orders here.
+fn bar(run: &str, refine: &str, expect: &str) -> String {
+    let text = BAR
+        .replace("run: {until: 0.05, dt: 1e-3}", run)
+        .replace("refine: {cells: [4, 6, 8, 12], ppc: 4}", refine)
+        .replace("  - fem: {element: linear, mass: lumped}\n", "")
+        .replace("  - order: [1.7, 2.3]\n", expect);
+    assert_ne!(text, BAR);
+    text
+}
+
+const TOO_FEW: &str = "  - verdict: too_few_levels\n";
+
+fn case(text: &str, arguments: &[&str], code: i32) -> Value {
+    let folder = Folder::new();
+    folder.write("bar.yaml", text);
+    let found = folder.call(&[&["run", "bar.yaml", "--format", "json"], arguments].concat());
+    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    let document: Value = serde_json::from_str(&found.out).expect("one document");
+    document["suites"][0]["cases"][0].clone()
+}
+
+fn column(case: &Value, key: &str) -> Vec<f64> {
+    let levels = case["levels"].as_array().expect("a list");
+    levels.iter().map(|level| level[key].as_f64().expect("a number")).collect()
+}
+
+/// Steps end at 50 instants, 1 ms apart: 7e-4 s becomes 5e-4 s. The judge must see what was taken.
+#[test]
+fn refined_time_steps_are_the_ones_that_are_taken() {
+    let text =
+        bar("run: {until: 0.05}", "refine: {dt: [1e-3, 7e-4, 3e-4], cells: 8, ppc: 4}", TOO_FEW);
+    let case = case(&text, &[], SOUND);
+    assert_eq!((&case["axis"], &case["formal_order"]), (&"time".into(), &2.0.into()));
+    assert_eq!(column(&case, "steps"), [50.0, 100.0, 200.0]);
+    for (spacing, steps) in column(&case, "spacing").iter().zip([50.0, 100.0, 200.0]) {
+        assert_eq!(*spacing, 0.05 / steps);
+    }
+    assert_eq!(column(&case, "cells"), [8.0; 3]);
+}
+
+#[test]
+fn refined_particles_are_judged_by_their_spacing() {
+    let text = bar("run: {until: 0.05, dt: 1e-3}", "refine: {ppc: [1, 2, 4], cells: 8}", TOO_FEW);
+    let case = case(&text, &[], SOUND);
+    assert_eq!((&case["axis"], &case["formal_order"]), (&"particles".into(), &Value::Null));
+    assert_eq!(column(&case, "spacing"), [0.125, 0.0625, 0.03125]);
+    assert_eq!(column(&case, "particles"), [8.0, 16.0, 32.0]);
+}
+
+#[test]
+fn cells_and_time_steps_go_together_level_by_level() {
+    let refine = "refine: {cells: [4, 8, 12], dt: [1e-3, 5e-4, \"0.025*h/10*0.12\"], ppc: 4}";
+    let case = case(&bar("run: {until: 0.05}", refine, TOO_FEW), &[], SOUND);
+    assert_eq!(case["axis"], "space");
+    assert_eq!(column(&case, "cells"), [4.0, 8.0, 12.0]);
+    assert_eq!(column(&case, "steps")[..2], [50.0, 100.0]);
+}
+
+/// Four cells leave an error that no time step removes: the judge sees a floor, the probe tells whose.
+#[test]
+fn the_axis_that_was_not_refined_is_named() {
+    let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5], cells: 4, ppc: 4}";
+    let expect = "  - verdict: at_floor\n    floor: space\n";
+    let case = case(&bar("run: {until: 0.05}", refine, expect), &[], SOUND);
+    assert_eq!((&case["verdict"], &case["floor"]["cause"]), (&"at floor".into(), &"space".into()));
+    let axes: Vec<&Value> =
+        case["floor"]["probes"].as_array().expect("a list").iter().map(|p| &p["axis"]).collect();
+    assert_eq!(axes, ["particles", "space"]);
+    let reason = case["reason"].as_str().expect("words");
+    assert!(reason.contains("the error is that of the cell size"), "{reason}");
+}
+
+#[test]
+fn the_wrong_axis_is_not_accepted() {
+    let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5], cells: 4, ppc: 4}";
+    let expect = "  - verdict: at_floor\n    floor: particles\n";
+    let case = case(&bar("run: {until: 0.05}", refine, expect), &[], FAILED);
+    assert_eq!(case["unmet"][0], "expected the floor of `particles`, got `space`");
+}
+
+const WITH_FULL: &str = "refine: {cells: [4, 6, 8], ppc: 4, full: [12, 16]}";
+
+#[test]
+fn finer_levels_wait_for_full() {
+    let expect = "  - verdict: too_few_levels
+    full: {order: [1.7, 2.3], because: five levels are enough}\n";
+    let text = bar("run: {until: 0.05, dt: 1e-3}", WITH_FULL, expect);
+    assert_eq!(column(&case(&text, &[], SOUND), "cells"), [4.0, 6.0, 8.0]);
+    let full = case(&text, &["--full"], SOUND);
+    assert_eq!(column(&full, "cells"), [4.0, 6.0, 8.0, 12.0, 16.0]);
+    assert_eq!(full["verdict"], "converging");
+}
+
+#[test]
+fn without_words_of_its_own_a_full_run_is_held_to_the_same() {
+    let text = bar("run: {until: 0.05, dt: 1e-3}", WITH_FULL, TOO_FEW);
+    let full = case(&text, &["--full"], FAILED);
+    assert_eq!(full["unmet"][0], "expected the verdict `too few levels`, got `converging`");
+}
+
+#[test]
+fn reports_speak_of_the_axis_that_is_refined() {
+    let folder = Folder::new();
+    let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4], cells: 8, ppc: 4, full: [1.25e-4]}";
+    folder.write("bar.yaml", bar("run: {until: 0.05}", refine, TOO_FEW));
+    let found = folder.call(&["run", "bar.yaml", "--out", "out"]);
+    for words in [
+        "cells             8 on every level",
+        "dt                0.001, 0.0005, 0.00025 s, shortened",
+        "in full also      dt = 0.000125 s",
+        "  dt        rms",
+        "dt  cells  ppc  particles",
+        "1.000e-03, 5.000e-04, 2.500e-04",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    assert!(folder.read("out/short-bar.svg").contains("time step dt (s)"));
+    let velocity = folder.read("out/short-bar-mpm-linear-flip-musl-velocity.svg");
+    assert!(velocity.contains("dt = 5e-4 s"));
+}
