@@ -30,6 +30,7 @@ mod moments;
 mod particles;
 mod sampling;
 mod scheme;
+mod setup;
 mod solver;
 mod stage;
 mod totals;
@@ -53,7 +54,8 @@ pub use material::{
 pub use moments::Moments;
 pub use particles::{Block, Particles};
 pub use scheme::SchemeName;
-pub use solver::{Setup, Solver};
+pub use setup::Setup;
+pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
     Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferName, Xpic, transfer,

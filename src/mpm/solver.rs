@@ -1,49 +1,10 @@
 //! The solver: runs the stages of a scheme and keeps the census.
 
 use super::{
-    algebra::Matrix,
-    basis::Domain,
-    boundary::{Advance, Boundary},
-    effect::Effect,
-    frame::FrameName,
-    grid::Grid,
-    initial,
-    kernel::Kernel,
-    mass::MassMatrix,
-    material::Material,
-    particles::Particles,
-    scheme::SchemeName,
-    stage::Stage,
-    transfer::Transfer,
-    whereabouts::Whereabouts,
+    algebra::Matrix, basis::Domain, boundary::Advance, frame::FrameName, grid::Grid, initial,
+    particles::Particles, setup::Setup, stage::Stage, transfer::Transfer, whereabouts::Whereabouts,
 };
 use crate::subject::{Census, Failure, Samples, Site, Start, Subject, Totals};
-
-/// Everything that a solver is made of.
-pub struct Setup<const D: usize> {
-    /// The background grid.
-    pub grid: Grid<D>,
-    /// The body, in its initial state.
-    pub particles: Particles<D>,
-    /// Basis.
-    pub kernel: Box<dyn Kernel<D>>,
-    /// Velocities between particles and grid.
-    pub transfer: Box<dyn Transfer<D>>,
-    /// From momenta to velocities, from forces to accelerations.
-    pub mass: Box<dyn MassMatrix<D>>,
-    /// Configuration in which the basis lives.
-    pub frame: FrameName,
-    /// The constitutive law.
-    pub material: Box<dyn Material<D>>,
-    /// What the scene lists, and nothing else.
-    pub effects: Vec<Box<dyn Effect<D>>>,
-    /// What holds on faces of the grid; where faces meet, the last one wins.
-    pub boundary: Vec<Box<dyn Boundary<D>>>,
-    /// Order of the stages.
-    pub scheme: SchemeName,
-    /// Treatment of the initial velocity.
-    pub start: Start,
-}
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {

@@ -8,6 +8,7 @@
 pub mod drift;
 pub mod figure;
 mod json;
+mod levels;
 mod svg;
 mod table;
 mod text;

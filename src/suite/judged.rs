@@ -259,7 +259,7 @@ mod tests {
         let crossings = None;
         let because = String::new();
         let (verdict, order, finest_pair, floor) = (None, None, None, None);
-        let bound = Expectation { verdict, order, finest_pair, crossings, floor, limits, because };
+        let bound = Expectation { verdict, order, finest_pair, crossings, limits, floor, because };
         let said = |level: verify::Level, unmet: &[String]| {
             let judgement = judge(&[level], &Claim::formal(2.0));
             let measured = Measured { errors: Some((1e-12, 1e-12)), observed: None, drift: None };

@@ -28,6 +28,7 @@ mod judged;
 mod law;
 mod limits;
 mod load;
+mod material;
 mod method;
 mod methods;
 mod model;

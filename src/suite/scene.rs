@@ -5,6 +5,7 @@ use super::{
     body,
     hold::{self, FACES, face},
     law,
+    material::material,
     model::{Scene, SceneFace},
     path::Path,
     sets,
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::{
     exact::{Region, formula::Formula},
-    mpm::{MaterialPlan, MaterialWords, Range},
+    mpm::MaterialPlan,
 };
 
 /// Names of the coordinates in formulas.
@@ -82,46 +83,6 @@ fn dimension(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<usiz
             .complain(&path, &format!("a scene of dimension {}", shown(dimension)))
             .with_label("expected 1, 2 or 3")),
     }
-}
-
-/// The material and its density (kg/m^D).
-fn material(
-    binder: &Binder<'_>,
-    path: &Path,
-    words: &MaterialWords<NumberText>,
-) -> Result<(MaterialPlan, f64), Complaint> {
-    let path = path.then(words.name());
-    words.numbers(|key, parameter, text| {
-        let at = path.then(key);
-        match parameter.range {
-            Range::Positive => binder.positive(&at, text, parameter.what),
-            Range::NotNegative => not_negative(binder, &at, text, parameter.what),
-            Range::PoissonsRatio => poissons_ratio(binder, &at, text),
-        }
-    })
-}
-
-fn not_negative(
-    binder: &Binder<'_>,
-    path: &Path,
-    text: &NumberText,
-    what: &str,
-) -> Result<f64, Complaint> {
-    let value = binder.number(path, text)?;
-    if value >= 0.0 {
-        return Ok(value);
-    }
-    let message = format!("{what} is {}, and must not be below zero", shown(value));
-    Err(binder.complain(path, &message).with_label("expected zero or a positive number"))
-}
-
-fn poissons_ratio(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<f64, Complaint> {
-    let poisson = binder.number(path, text)?;
-    if poisson > -1.0 && poisson < 0.5 {
-        return Ok(poisson);
-    }
-    let message = format!("Poisson's ratio is {poisson}");
-    Err(binder.complain(path, &message).with_label("expected a number above -1 and below 0.5"))
 }
 
 fn faces(

@@ -26,7 +26,7 @@ struct Factor {
     /// Row of each node; None where it has none.
     row: Vec<Option<usize>>,
     rows: usize,
-    factor: CscCholesky<f64>,
+    cholesky: CscCholesky<f64>,
 }
 
 impl Factor {
@@ -44,9 +44,9 @@ impl Factor {
             }
         }
         let singular = "the consistent mass matrix is singular: too few particles see some node";
-        let factor = CscCholesky::factor(&CscMatrix::from(&matrix))
+        let cholesky = CscCholesky::factor(&CscMatrix::from(&matrix))
             .map_err(|_| Failure::Solve(singular.to_owned()))?;
-        Ok(Self { row, rows, factor })
+        Ok(Self { row, rows, cholesky })
     }
 
     fn solve<const D: usize>(&self, axis: usize, field: &mut [Vector<D>]) {
@@ -56,7 +56,7 @@ impl Factor {
                 side[*row] = value[axis];
             }
         }
-        self.factor.solve_mut(&mut side);
+        self.cholesky.solve_mut(&mut side);
         for (value, row) in field.iter_mut().zip(&self.row) {
             value[axis] = row.map_or(0.0, |row| side[row]);
         }

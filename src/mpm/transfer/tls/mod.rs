@@ -9,7 +9,10 @@
 mod fit;
 mod spots;
 
-use self::{fit::Fit, spots::Spots};
+use self::{
+    fit::Fit,
+    spots::{Spot, Spots},
+};
 use super::contract::{Transfer, add_acceleration};
 use crate::mpm::{
     algebra::Vector,
@@ -27,27 +30,38 @@ pub struct Tls<const D: usize> {
     points: Option<Particles<D>>,
 }
 
+/// Fills a column of the spots: with what particles have where a spot is one, else by a fit.
+fn fill<const D: usize, T>(
+    spots: &Spots<D>,
+    particles: &Particles<D>,
+    column: &mut Vec<T>,
+    own: impl Fn(usize) -> T,
+    fitted: impl Fn(usize, &Spot<D>, &Fit<'_, D>) -> T,
+) {
+    column.clear();
+    for (k, spot) in spots.all().iter().enumerate() {
+        column.push(if let Some(p) = spot.particle {
+            own(p)
+        } else {
+            fitted(k, spot, &Fit { x: &particles.x, members: spots.members(spot) })
+        });
+    }
+}
+
 impl<const D: usize> Tls<D> {
     /// Where integrals are taken, with volumes and masses.
     fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let Some(points) = &mut self.points else { return };
         self.spots.place(grid, particles);
         points.x.clear();
+        points.x.extend(self.spots.all().iter().map(|spot| spot.x));
         points.vol.clear();
-        points.mass.clear();
-        for spot in self.spots.all() {
-            points.x.push(spot.x);
-            points.vol.push(spot.volume);
-            points.mass.push(match spot.particle {
-                Some(p) => particles.mass[p],
-                None => {
-                    let density = |p: usize| particles.mass[p] / particles.vol[p];
-                    let sum = self.spots.members(spot).iter().map(|&p| particles.mass[p]).sum();
-                    let fit = Fit { x: &particles.x, members: self.spots.members(spot) };
-                    fit.conserved(spot, sum, grid, density) * spot.volume
-                }
-            });
-        }
+        points.vol.extend(self.spots.all().iter().map(|spot| spot.volume));
+        let own = |p: usize| particles.mass[p];
+        fill(&self.spots, particles, &mut points.mass, own, |_, spot, fit| {
+            let sum = fit.members.iter().map(|&p| own(p)).sum();
+            fit.conserved(spot, sum, grid, |p| own(p) / particles.vol[p]) * spot.volume
+        });
     }
 }
 
@@ -89,20 +103,19 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         momentum: &mut [Vector<D>],
     ) -> u64 {
         let Some(points) = &mut self.points else { return 0 };
-        points.v.clear();
-        for (spot, mass) in self.spots.all().iter().zip(&points.mass) {
-            points.v.push(match spot.particle {
-                Some(p) => particles.v[p],
-                None => {
-                    let members = self.spots.members(spot);
-                    let own = |p: usize| particles.v[p] * particles.mass[p];
-                    let sum = members.iter().map(|&p| own(p)).sum::<Vector<D>>();
-                    let density = |p: usize| own(p) / particles.vol[p];
-                    let fit = Fit { x: &particles.x, members };
-                    fit.conserved(spot, sum, grid, density) * (spot.volume / mass)
-                }
-            });
-        }
+        let Particles { v, mass, .. } = points;
+        let own = |p: usize| particles.v[p] * particles.mass[p];
+        fill(
+            &self.spots,
+            particles,
+            v,
+            |p| particles.v[p],
+            |k, spot, fit| {
+                let sum = fit.members.iter().map(|&p| own(p)).sum::<Vector<D>>();
+                let density = fit.conserved(spot, sum, grid, |p| own(p) / particles.vol[p]);
+                density * (spot.volume / mass[k])
+            },
+        );
         kernel.p2g_momentum(points, Shown { v: &points.v, affine: None }, grid, momentum);
         2
     }
@@ -114,16 +127,8 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         grid: &mut Grid<D>,
     ) -> u64 {
         let Some(points) = &mut self.points else { return 0 };
-        points.sigma.clear();
-        for spot in self.spots.all() {
-            points.sigma.push(match spot.particle {
-                Some(p) => particles.sigma[p],
-                None => {
-                    let fit = Fit { x: &particles.x, members: self.spots.members(spot) };
-                    fit.free(spot, |p| particles.sigma[p])
-                }
-            });
-        }
+        let own = |p: usize| particles.sigma[p];
+        fill(&self.spots, particles, &mut points.sigma, own, |_, spot, fit| fit.free(spot, own));
         kernel.p2g_internal_force(points, grid);
         2
     }
