@@ -81,12 +81,13 @@ fn visit<const D: usize, const K: usize>(
             index: std::array::from_fn(|r| grid.wrap(cell[axis] + r, axis)),
             weight,
             slope: slope.map(|slope| slope * grid.inverse_h()),
-            offset: std::array::from_fn(|r| {
-                (greville(cell[axis] + r, K - 1, cells, periodic) - s) * grid.h
-            }),
         }
     });
-    tensor::visit(grid, &axes, visit);
+    let offset = |axis: usize, r: usize| {
+        let place = greville(cell[axis] + r, K - 1, grid.cells[axis], grid.periodic[axis]);
+        (place - grid.wrapped(x, axis)) * grid.h
+    };
+    tensor::visit(grid, &axes, offset, visit);
 }
 
 macro_rules! bspline {

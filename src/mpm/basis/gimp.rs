@@ -38,7 +38,8 @@ fn integral(z: f64) -> f64 {
     if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
 }
 
-fn along<const D: usize>(grid: &Grid<D>, s: f64, half: f64, axis: usize) -> Along<MOST> {
+/// The functions of one axis, and where the first of them sits, from the particle (in cells).
+fn along<const D: usize>(grid: &Grid<D>, s: f64, half: f64, axis: usize) -> (Along<MOST>, f64) {
     let half = half.min(LONGEST);
     let (mut low, mut high) = (s - half, s + half);
     if !grid.periodic[axis] {
@@ -54,11 +55,10 @@ fn along<const D: usize>(grid: &Grid<D>, s: f64, half: f64, axis: usize) -> Alon
         }
         along.index[k] = grid.wrap_signed(node, axis);
         along.weight[k] = (integral(high - node) - integral(low - node)) / (high - low);
-        along.offset[k] = (node - s) * grid.h;
         along.slope[k] = (hat(high - node) - hat(low - node)) / (high - low) * grid.inverse_h();
         along.count = k + 1;
     }
-    along
+    (along, first - s)
 }
 
 fn visit<const D: usize>(
@@ -72,12 +72,17 @@ fn visit<const D: usize>(
     if grid.cell(x).is_none() {
         return;
     }
-    let axes: [Along<MOST>; D] = std::array::from_fn(|axis| {
+    let half = |axis: usize| {
         let followed = particles.domain.get(p).filter(|_| follows);
         let half = followed.map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)].abs());
-        along(grid, grid.wrapped(x, axis), half * grid.inverse_h(), axis)
-    });
-    tensor::visit(grid, &axes, visit);
+        half * grid.inverse_h()
+    };
+    let (mut axes, mut first) = ([Along::EMPTY; D], [0.0; D]);
+    for axis in 0..D {
+        (axes[axis], first[axis]) = along(grid, grid.wrapped(x, axis), half(axis), axis);
+    }
+    let offset = |axis: usize, k: usize| (first[axis] + k as f64) * grid.h;
+    tensor::visit(grid, &axes, offset, visit);
 }
 
 macro_rules! gimp {

@@ -42,10 +42,12 @@ impl Basis for Linear {
                     index: [cell[axis], grid.wrap(cell[axis] + 1, axis)],
                     weight: [1.0 - xi, xi],
                     slope: [-grid.inverse_h(), grid.inverse_h()],
-                    offset: [-xi * grid.h, (1.0 - xi) * grid.h],
                 }
             });
-            tensor::visit(grid, &axes, visit);
+            let offset = |axis: usize, r: usize| {
+                (cell[axis] as f64 + r as f64 - grid.wrapped(x, axis)) * grid.h
+            };
+            tensor::visit(grid, &axes, offset, visit);
         }
     }
 

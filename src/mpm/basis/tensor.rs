@@ -14,20 +14,20 @@ pub(super) struct Along<const K: usize> {
     pub(super) weight: [f64; K],
     /// Their derivatives (1/m).
     pub(super) slope: [f64; K],
-    /// Where they sit, from the particle (m).
-    pub(super) offset: [f64; K],
 }
 
 impl<const K: usize> Along<K> {
     pub(super) const EMPTY: Self =
-        Self { count: 0, index: [0; K], weight: [0.0; K], slope: [0.0; K], offset: [0.0; K] };
+        Self { count: 0, index: [0; K], weight: [0.0; K], slope: [0.0; K] };
 }
 
-/// Visits all products, the first axis running fastest.
+/// Visits all products, the first axis running fastest. `offset` tells where function k along an axis
+/// sits, from the particle (m); it costs nothing where nobody looks at it.
 #[inline]
 pub(super) fn visit<const D: usize, const K: usize>(
     grid: &Grid<D>,
     axes: &[Along<K>; D],
+    offset: impl Fn(usize, usize) -> f64,
     mut visit: impl FnMut(Seen<'_, D>),
 ) {
     let total: usize = axes.iter().map(|along| along.count).product();
@@ -40,7 +40,7 @@ pub(super) fn visit<const D: usize, const K: usize>(
             weight *= axes[axis].weight[at[axis]];
         }
         let gradient = Vector::from_fn(|axis, _| gradient(axes, axis, &at));
-        let offset = Vector::from_fn(|axis, _| axes[axis].offset[at[axis]]);
+        let offset = Vector::from_fn(|axis, _| offset(axis, at[axis]));
         visit(Seen { node: grid.node(&index), weight, gradient: &gradient, offset });
     }
 }

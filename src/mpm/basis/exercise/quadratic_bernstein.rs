@@ -45,10 +45,12 @@ impl Basis for QuadraticBernstein {
                 index: [first, first + 1, grid.wrap(first + 2, axis)],
                 weight: [(1.0 - xi) * (1.0 - xi), 2.0 * xi * (1.0 - xi), xi * xi],
                 slope: slope.map(|slope| slope * grid.inverse_h()),
-                offset: [-xi, 0.5 - xi, 1.0 - xi].map(|offset| offset * grid.h),
             }
         });
-        tensor::visit(grid, &axes, visit);
+        let offset = |axis: usize, k: usize| {
+            (cell[axis] as f64 + 0.5 * k as f64 - grid.wrapped(x, axis)) * grid.h
+        };
+        tensor::visit(grid, &axes, offset, visit);
     }
 
     fn support(dimension: usize) -> u64 {
