@@ -16,7 +16,7 @@ pub(super) fn check(
     scene: &Scene,
 ) -> Result<(), Complaint> {
     let is_bar = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
-    if words.reference.is_none() && !words.methods.iter().any(is_bar) {
+    if !words.has_fem_reference() && !words.methods.iter().any(is_bar) {
         return Ok(());
     }
     let path = Path::top("scene");

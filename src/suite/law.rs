@@ -41,7 +41,7 @@ pub(super) fn check(
     let name = scene.material.name();
     let elastic = scene.material.elasticity().is_some();
     let of_fluid = || format!("the reference FEM is a solid bar, `{name}` has no Young's modulus");
-    if words.reference.is_some() && !elastic {
+    if words.has_fem_reference() && !elastic {
         return Err(binder.complain_key(&Path::top("reference"), &of_fluid()));
     }
     for (i, method) in words.methods.iter().enumerate() {

@@ -74,6 +74,13 @@ pub(in crate::suite) struct ConvergenceWords {
     pub(in crate::suite) expect: Vec<ExpectWords>,
 }
 
+impl ConvergenceWords {
+    /// Whether a fine FEM computation is asked for.
+    pub(in crate::suite) fn has_fem_reference(&self) -> bool {
+        self.reference.as_ref().is_some_and(|reference| reference.fem.is_some())
+    }
+}
+
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct ExactWords {
