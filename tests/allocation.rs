@@ -128,7 +128,7 @@ fn loaded_bar(element: Element, mass: Mass, start: Start, sampling: Sampling) ->
         density: 1.0,
         law: Box::new(|def_grad| 100.0 * (def_grad - 1.0)),
         fixed: [true, false],
-        body_force: Some(Box::new(|x, t| x * t)),
+        body_force: Some(fem::pointwise(|x, t| x * t)),
         traction: [None, Some(Box::new(|t| 0.1 * t))],
         initial_displacement: Box::new(|_| 0.0),
         initial_velocity: Box::new(|x| 0.1 * x),

@@ -17,6 +17,9 @@ pub struct Bar {
     acceleration: Vec<f64>,
     /// F at the quadrature points of the present state, element after element.
     def_grad: Vec<f64>,
+    /// Positions of the quadrature points (m), and the body force there (m/s2); empty without one.
+    places: Vec<f64>,
+    load: Vec<f64>,
     time: f64,
     /// How far the velocities are behind the displacements (s).
     lag: f64,
@@ -34,11 +37,14 @@ impl Bar {
         let mesh = Mesh::new(setup.from, setup.to, setup.cells, setup.element);
         let mass = MassMatrix::new(setup.mass, &mesh, setup.density, setup.fixed)?;
         let nodes: Vec<f64> = (0..mesh.node_count()).map(|i| mesh.node(i)).collect();
+        let places = if setup.body_force.is_some() { quadrature(&mesh) } else { Vec::new() };
         let mut bar = Self {
             displacement: interpolant(&nodes, setup.fixed, &setup.initial_displacement),
             velocity: interpolant(&nodes, setup.fixed, &setup.initial_velocity),
             acceleration: vec![0.0; nodes.len()],
             def_grad: vec![1.0; mesh.cells() * mesh.points().len()],
+            load: vec![0.0; places.len()],
+            places,
             time: 0.0,
             lag: 0.0,
             transfers: 0,
@@ -143,12 +149,13 @@ impl Bar {
 
     /// `int rho0 b N_i dX`.
     fn add_body_force(&mut self) {
-        let Some(body_force) = &self.setup.body_force else { return };
-        for cell in 0..self.mesh.cells() {
+        let Some(body_force) = &mut self.setup.body_force else { return };
+        body_force(self.time, &self.places, &mut self.load);
+        let points = self.mesh.points();
+        for (cell, loads) in self.load.chunks_exact(points.len()).enumerate() {
             let local = self.mesh.local_mut(cell, &mut self.acceleration);
-            for point in self.mesh.points() {
-                let x = self.mesh.position(cell, point.place);
-                let load = self.setup.density * body_force(x, self.time) * point.weight;
+            for (point, load) in points.iter().zip(loads) {
+                let load = self.setup.density * load * point.weight;
                 for (force, shape) in local.iter_mut().zip(point.shape) {
                     *force += load * shape;
                 }
@@ -208,6 +215,12 @@ impl Subject for Bar {
             min_j: self.min_j,
         }
     }
+}
+
+/// Reference positions of all quadrature points, element after element.
+fn quadrature(mesh: &Mesh) -> Vec<f64> {
+    let inside = |cell| mesh.points().iter().map(move |point| mesh.position(cell, point.place));
+    (0..mesh.cells()).flat_map(inside).collect()
 }
 
 /// Nodal values of a field, and zero where the bar is held.

@@ -44,4 +44,4 @@ mod tests;
 
 pub use bar::Bar;
 pub use element::Element;
-pub use setup::{Field, History, Load, Mass, Sampling, Setup, SetupError};
+pub use setup::{Field, History, Load, Mass, Sampling, Setup, SetupError, pointwise};

@@ -12,8 +12,18 @@ use crate::{
 pub type Field = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type History = Box<dyn Fn(f64) -> f64 + Send>;
-/// A function of reference position and time, `(X, t)`.
-pub type Load = Box<dyn Fn(f64, f64) -> f64 + Send>;
+/// A function of time and reference position, at many positions at once: given t (s) and positions X
+/// (m), which are the same in every call, it fills in the values.
+pub type Load = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send>;
+
+/// The load that has the value `f(X, t)` at each position.
+pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> Load {
+    Box::new(move |t, places, values| {
+        for (value, x) in values.iter_mut().zip(places) {
+            *value = f(*x, t);
+        }
+    })
+}
 
 named! {
     /// Which mass matrix.

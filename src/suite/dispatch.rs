@@ -208,13 +208,22 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
     if !stated && made.is_none() {
         return None;
     }
-    Some(Box::new(move |x, t| {
-        let made = made.as_ref().map_or(0.0, |made| made.manufactured_force(&[x], t)[0]);
+    let at = move |x: f64, t: f64| {
         let body = (&scene.from[..], &scene.to[..]);
         let on = |set: &Region| set.force_density(0, &[x], t, body) / scene.density;
         let sets: f64 = scene.sets.iter().map(on).sum();
         let declared = scene.body_force.as_ref().map_or(0.0, |b| b[0].eval(&[x, t]));
-        made + declared + scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t])) + sets
+        declared + scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t])) + sets
+    };
+    let Some(made) = made else { return Some(fem::pointwise(at)) };
+    let mut forcing = None;
+    Some(Box::new(move |t, places, values| {
+        let labels = || places.iter().map(std::slice::from_ref);
+        let forcing = forcing.get_or_insert_with(|| Forcing::new(&made, labels()));
+        forcing.at(t, values, |force| force[0]);
+        if stated {
+            values.iter_mut().zip(places).for_each(|(value, x)| *value += at(*x, t));
+        }
     }))
 }
 

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use rstest::rstest;
 
 use super::{bar_at_rest, run};
-use crate::fem::{Bar, Element, Mass, Sampling, Setup};
+use crate::fem::{Bar, Element, Mass, Sampling, Setup, pointwise};
 use crate::subject::{Samples, Subject};
 
 const STRETCH: f64 = 1.3;
@@ -54,7 +54,7 @@ fn a_free_bar_falls(
         element,
         mass,
         fixed: [false; 2],
-        body_force: Some(Box::new(|_, _| -9.81)),
+        body_force: Some(pointwise(|_, _| -9.81)),
         ..bar_at_rest(2.0, 100.0, 1.0)
     };
     let bar = run(setup, 0.5, 2e-3);

@@ -4,7 +4,7 @@ use rstest::rstest;
 
 use super::bar_at_rest;
 use crate::fem::setup::MOST_CELLS;
-use crate::fem::{Bar, Mass, Setup, SetupError};
+use crate::fem::{Bar, Mass, Setup, SetupError, pointwise};
 use crate::subject::{Failure, Site, Subject};
 
 fn start() -> Setup {
@@ -59,7 +59,7 @@ fn an_inversion_names_its_element_in_the_step_that_makes_it() {
 /// The first node is fixed, and the traction fails at the last one.
 #[rstest]
 #[case::law(Setup { law: Box::new(|_| f64::NAN), ..start() }, 1)]
-#[case::body_force(Setup { body_force: Some(Box::new(|_, t| 1.0 / t)), ..start() }, 1)]
+#[case::body_force(Setup { body_force: Some(pointwise(|_, t| 1.0 / t)), ..start() }, 1)]
 #[case::traction(Setup { traction: [None, Some(Box::new(|t| 1.0 / t))], ..start() }, 8)]
 fn a_force_that_is_not_finite_names_its_node(
     #[case] setup: Setup,
@@ -86,7 +86,7 @@ fn a_bar_without_free_nodes_stands() {
         cells: 1,
         fixed: [true; 2],
         mass: Mass::Consistent,
-        body_force: Some(Box::new(|_, _| -9.81)),
+        body_force: Some(pointwise(|_, _| -9.81)),
         ..start()
     })
     .unwrap();

@@ -5,6 +5,7 @@ use rstest::rstest;
 use super::{bar_at_rest, orders, run, vibrating_bar};
 use crate::fem::Element::{self, Linear, Quadratic};
 use crate::fem::Mass::{self, Consistent, Lumped};
+use crate::fem::pointwise;
 use crate::subject::Subject;
 use crate::{
     fem::{Bar, Setup},
@@ -13,7 +14,7 @@ use crate::{
 
 /// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
 fn column(start: Start) -> Setup {
-    let body_force = Some(Box::new(|_, _| -9.81) as _);
+    let body_force = Some(pointwise(|_, _| -9.81));
     Setup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
 }
 
@@ -60,7 +61,7 @@ fn a_change_of_step_keeps_the_second_order() {
 #[test]
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {
-        let body_force = Some(Box::new(|_, t| 6.0 * t) as _);
+        let body_force = Some(pointwise(|_, t| 6.0 * t));
         let setup = Setup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
         run(setup, 1.0, 1.0 / f64::from(steps)).displacement_at(0.5) - 1.0
     };
