@@ -9,6 +9,7 @@
 //! execute   every level of every case, judged -> SuiteOutcome
 //! ```
 
+mod bar;
 mod bar_limits;
 mod binder;
 mod body;
@@ -19,6 +20,7 @@ mod dispatch;
 pub mod embedded;
 mod execute;
 mod expect;
+mod extent;
 mod filling;
 mod fine_steps;
 mod force;

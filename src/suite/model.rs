@@ -220,6 +220,13 @@ impl Suite {
     }
 }
 
+impl ConvergencePlan {
+    /// The problem whose force is manufactured, if it is.
+    pub fn manufactured(&self) -> Option<&Problem> {
+        self.exact.as_ref().filter(|problem| problem.manufactured)
+    }
+}
+
 impl Scene {
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {

@@ -1,7 +1,8 @@
 //! A truth that is computed: FEM on a mesh much finer than any level.
 
 use super::{
-    dispatch::{bar, cell_size, reference_method},
+    bar::{bar, reference_method},
+    extent::cell_size,
     model::ConvergencePlan,
 };
 use crate::{exact::Truth, fem::Bar, subject::Subject, verify::Clock};

@@ -2,7 +2,7 @@
 
 use super::{
     binder::Binder,
-    dispatch::{cell_size, per_axis},
+    extent::{cell_size, per_axis},
     model::Scene,
     path::Path,
     plan::{LevelPlan, RefinePlan},

@@ -2,7 +2,8 @@
 
 use super::{
     binder::Binder,
-    dispatch::{cell_size, grid_axis, is_vacant, per_axis},
+    dispatch::is_vacant,
+    extent::{cell_size, grid_axis, per_axis},
     model::{ConvergencePlan, Scene},
     path::Path,
     plan::LevelPlan,

@@ -2,7 +2,7 @@
 
 use super::{
     binder::Binder,
-    dispatch::cell_size,
+    extent::cell_size,
     model::ConvergencePlan,
     path::Path,
     plan::RefinePlan,
