@@ -56,7 +56,10 @@ pub(super) fn cases(
         for (name, method) in methods(method, own_law(plan)) {
             if let Method::Mpm { basis, transfer, mass, frame, .. } = method {
                 let known = combine(basis, transfer, mass, frame);
-                known.map_err(|reason| binder.complain(&path, &reason))?;
+                known.map_err(|reason| {
+                    let help = "give what goes together an entry of `methods` of its own";
+                    binder.complain(&path, &reason).with_help(help)
+                })?;
             }
             for draft in runs(&name, method, plan, until) {
                 if drafts.iter().any(|known: &Draft| known.name == draft.name) {

@@ -4,6 +4,7 @@
 //! suite: it marks the place, line and column, at which the complaint must point.
 
 mod boundaries;
+mod combinations;
 mod expectations;
 mod formulas;
 mod grammar;
