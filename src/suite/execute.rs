@@ -110,7 +110,7 @@ impl<'a> Runner<'a> {
         };
         let truth = match truth {
             Ok(truth) => truth,
-            Err(reason) => return refused(case, expectation, reason),
+            Err(reason) => return refused(plan, case, expectation, reason),
         };
         let levels: Result<Vec<LevelOutcome>, String> = plan
             .refine
@@ -124,7 +124,7 @@ impl<'a> Runner<'a> {
             .collect();
         let levels = match levels {
             Ok(levels) => levels,
-            Err(reason) => return refused(case, expectation, reason),
+            Err(reason) => return refused(plan, case, expectation, reason),
         };
         let judgement = judge_levels(plan, case, expectation, &levels);
         let again = |level| level_of(plan, case, truth, level);

@@ -33,6 +33,11 @@ impl Hold {
         matches!(self, Self::Free)
     }
 
+    /// Whether nodes on the face are held.
+    pub fn is_held(&self) -> bool {
+        !matches!(self, Self::Free | Self::Periodic)
+    }
+
     /// In words that follow "the left face".
     pub fn verb(&self) -> &'static str {
         match self {

@@ -69,7 +69,7 @@ pub(super) fn judged(
             judgement,
             levels,
         })),
-        ..described(case, expectation)
+        ..described(plan, case, expectation)
     }
 }
 
@@ -163,11 +163,11 @@ fn richardson(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardso
 }
 
 /// What is known of a case before it runs.
-fn described(case: &Case, expectation: &Expectation) -> CaseOutcome {
+fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> CaseOutcome {
     CaseOutcome {
         case: case.name.clone(),
         subject: case.method.subject(),
-        settings: statement::settings(case),
+        settings: statement::settings(plan, case),
         expected: expectation.summary(),
         because: expectation.because.clone(),
         verdict: String::new(),
@@ -178,12 +178,17 @@ fn described(case: &Case, expectation: &Expectation) -> CaseOutcome {
 }
 
 /// The outcome of a case that could not be set up.
-pub(super) fn refused(case: &Case, expectation: &Expectation, reason: String) -> CaseOutcome {
+pub(super) fn refused(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: &Expectation,
+    reason: String,
+) -> CaseOutcome {
     CaseOutcome {
         verdict: verify::Verdict::Failed.to_string(),
         unmet: vec![format!("the case could not be run: {reason}")],
         reason,
-        ..described(case, expectation)
+        ..described(plan, case, expectation)
     }
 }
 

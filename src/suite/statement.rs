@@ -37,8 +37,10 @@ pub fn rows(suite: &Suite) -> Vec<(String, String)> {
 }
 
 /// Rows for one case of a convergence study.
-pub fn settings(case: &Case) -> Vec<(String, String)> {
+pub fn settings(plan: &ConvergencePlan, case: &Case) -> Vec<(String, String)> {
     let mut rows = case.method.settings();
+    let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
+    rows.retain(|(key, _)| has_walls || key != "walls");
     let truth = match case.against {
         Against::Exact => "the exact solution",
         Against::Reference => "the reference",
