@@ -17,9 +17,9 @@ pub(super) fn side(face: &SceneFace) -> Side {
     if face.high { Side::High } else { Side::Low }
 }
 
-/// Whether an axis has no end.
+/// Whether an axis has no end. A round body has no faces.
 pub(super) fn periodic(scene: &Scene, axis: usize) -> bool {
-    matches!(scene.faces[2 * axis].hold, Hold::Periodic)
+    scene.faces.iter().any(|face| face.axis == axis && matches!(face.hold, Hold::Periodic))
 }
 
 /// What is held on the faces of the grid. Where faces meet, a fixed one wins over a roller, and
