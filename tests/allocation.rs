@@ -11,8 +11,8 @@ use mpm_verify::{
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, BodyForce, Driven, Fixed, Gravity, MaterialPlan, Prescribed, Roller, SchemeName,
-        SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
+        BasisName, BodyForce, Damping, Driven, Fixed, Gravity, MaterialPlan, Prescribed, Roller,
+        SchemeName, SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
     },
     subject::{Samples, Start, Subject},
 };
@@ -45,6 +45,8 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         regions: Vec::new(),
         round: None,
         body_force: Vec::new(),
+        damping: None,
+        at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),
         manufactured: true,
@@ -75,6 +77,7 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         }));
         setup.effects = vec![
             Box::new(gravity),
+            Box::new(Damping(Box::new(|t| 0.1 * t))),
             Box::new(traction),
             Box::new(force),
             Box::new(driven),

@@ -41,6 +41,8 @@ fn problem(
         gravity: Vec::new(),
         regions: Vec::new(),
         body_force: Vec::new(),
+        damping: None,
+        at_rest: false,
         manufactured: true,
         faces: Vec::new(),
         follows_motion: true,

@@ -32,7 +32,7 @@ pub(super) fn boundary(problem: &Problem) -> Result<(), Violation> {
             let mut label = random.point(&problem.from, &problem.to);
             label[face.axis] =
                 if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
-            let event = Event { label, t: random.between(0.0, problem.until) };
+            let event = Event { label, t: problem.moment(&mut random) };
             on_face(problem, face, &event, &sizes)?;
         }
     }
@@ -131,7 +131,7 @@ pub(super) fn driven(problem: &Problem) -> Result<(), Violation> {
         let (from, to) = region.within((&problem.from, &problem.to));
         for _ in 0..POINTS {
             let label = random.point(&from, &to);
-            let event = Event { label, t: random.between(0.0, problem.until) };
+            let event = Event { label, t: problem.moment(&mut random) };
             let now = problem.motion.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
                 let given = at(formula, &event);

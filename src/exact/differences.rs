@@ -23,7 +23,7 @@ pub(super) fn differentiation(problem: &Problem) -> Result<(), Violation> {
         let mut last = Ok(());
         for _ in 0..3 {
             let label = problem.point(&mut random);
-            let event = Event { label, t: random.between(0.0, problem.until) };
+            let event = Event { label, t: problem.moment(&mut random) };
             last = differences(problem, &event, speed, acceleration);
             if last.is_ok() {
                 break;

@@ -35,7 +35,8 @@ impl Forcing {
             let label = self.labels.get(place);
             let given =
                 |i| gravity[i] + label.map_or(0.0, |label| self.problem.at_place(i, label, t));
-            *force = make(std::array::from_fn(|i| whole[i] - given(i)));
+            let damped = |i| self.problem.damping(i, t, &now);
+            *force = make(std::array::from_fn(|i| whole[i] - given(i) - damped(i)));
         }
     }
 }

@@ -47,7 +47,7 @@ fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
     let mut random = Random::new(seed);
     let mut event = || {
         let label = problem.point(&mut random);
-        let t = random.between(0.0, problem.until);
+        let t = problem.moment(&mut random);
         let all = problem.motion.derivatives(&label, t);
         (Event { label, t }, all)
     };
@@ -90,6 +90,9 @@ pub(super) fn presence(problem: &Problem) -> Result<(), Violation> {
 
 /// u(X, 0) = u0(X) and u_t(X, 0) = v0(X).
 pub(super) fn initial(problem: &Problem) -> Result<(), Violation> {
+    if problem.at_rest {
+        return Ok(());
+    }
     let size = scale(problem, |_, d| largest(&d.u));
     let speed = scale(problem, |_, d| largest(&d.velocity));
     for (event, _) in interior(problem, 2) {

@@ -59,6 +59,11 @@ pub struct Problem {
     /// Body force per unit mass (m/s2) that the problem states besides, one formula of the
     /// coordinates and t for each component; empty where there is none.
     pub body_force: Vec<Formula>,
+    /// Rate alpha(t) (1/s) of a body force `-alpha u_t`, a formula of t.
+    pub damping: Option<Formula>,
+    /// Whether the motion is the state in which the body comes to rest: no function of t, held to
+    /// the loads at the end of the run and to no initial condition.
+    pub at_rest: bool,
     /// Whether a further body force is added that makes the motion a solution: the method of
     /// manufactured solutions (Roache 2002).
     pub manufactured: bool,
@@ -100,11 +105,27 @@ impl Problem {
         }
     }
 
+    /// Speed (m/s) of a wave of small strain: `sqrt((lambda + 2 mu)/rho0)`.
+    pub fn wave_speed(&self) -> f64 {
+        (self.equation.modulus() / self.density).sqrt()
+    }
+
+    /// The time (s) whose loads belong to the motion at time `t`.
+    pub(super) fn loaded(&self, t: f64) -> f64 {
+        if self.at_rest { self.until } else { t }
+    }
+
+    /// A time of the run at which a condition is checked.
+    pub(super) fn moment(&self, random: &mut Random) -> f64 {
+        self.loaded(random.between(0.0, self.until))
+    }
+
     /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what
     /// the problem states.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
-        let balance = self.balance(&self.motion.derivatives(label, t));
-        std::array::from_fn(|i| balance[i] - self.given(i, label, t))
+        let now = self.motion.derivatives(label, t);
+        let balance = self.balance(&now);
+        std::array::from_fn(|i| balance[i] - self.given(i, label, t) - self.damping(i, t, &now))
     }
 
     /// The whole body force (m/s2) at `label` and `t`, where the motion's derivatives are `now`.
@@ -112,7 +133,7 @@ impl Problem {
         if self.manufactured {
             return self.balance(now);
         }
-        std::array::from_fn(|i| self.given(i, label, t))
+        std::array::from_fn(|i| self.given(i, label, t) + self.damping(i, t, now))
     }
 
     /// The body force that the motion needs, `u_tt - Div P / rho0`.
@@ -129,6 +150,11 @@ impl Problem {
     /// Component i of gravity (m/s2).
     pub(super) fn gravity_at(&self, i: usize, t: f64) -> f64 {
         self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]))
+    }
+
+    /// Component i of the damping force (m/s2).
+    pub(super) fn damping(&self, i: usize, t: f64, now: &Derivatives) -> f64 {
+        self.damping.as_ref().map_or(0.0, |rate| -rate.eval(&[t]) * now.velocity[i])
     }
 
     /// Component i of the forces that depend on the place (m/s2): declared, and on parts of the body.

@@ -15,7 +15,7 @@ pub(super) fn free(problem: &Problem) -> Result<(), Violation> {
     for rim in round.rims() {
         for _ in 0..POINTS {
             let (label, normal) = round.on_rim(&mut random, rim);
-            let event = Event { label, t: random.between(0.0, problem.until) };
+            let event = Event { label, t: problem.moment(&mut random) };
             let now = problem.motion.derivatives(&event.label, event.t);
             let piola = problem.equation.piola(&now.grad);
             for i in 0..problem.dimension() {

@@ -34,6 +34,8 @@ fn held(dimension: usize) -> Problem {
         regions: Vec::new(),
         round: None,
         body_force: Vec::new(),
+        damping: None,
+        at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),
         manufactured: true,
@@ -72,4 +74,54 @@ fn the_force_of_a_run_is_the_force(#[values(1, 2, 3)] dimension: usize) {
             assert_eq!(found, problem.manufactured_force(label, t), "{label:?}, {t}");
         }
     }
+}
+
+/// A bar from 0 to 1 with c = 1, and its left end fixed.
+fn bar(displacement: &str, right: Condition) -> Problem {
+    let face = |name, high, condition| Face { name, axis: 0, high, condition };
+    Problem {
+        equation: Equation::small_strain(2.0, 0.0),
+        gravity: Vec::new(),
+        manufactured: false,
+        faces: vec![face("left", false, Condition::Fixed), face("right", true, right)],
+        motion: Motion::new(vec![bind(displacement, &["X", "t"])]),
+        ..held(1)
+    }
+}
+
+/// `u_tt + 2 u_t = u_XX`.
+#[test]
+fn damping_is_a_force_in_the_equation_of_motion() {
+    let wave = "sin(pi*X)*exp(-t)*sin(sqrt(pi^2 - 1)*t)";
+    let damped = Problem { damping: Some(bind("2", &["t"])), ..bar(wave, Condition::Fixed) };
+    damped.check().unwrap();
+    let undamped = Problem { damping: None, ..damped.clone() };
+    let found = undamped.check().unwrap_err();
+    assert!(found.condition.starts_with("equation of motion"), "{found}");
+    let made = Problem { manufactured: true, ..damped };
+    assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
+}
+
+/// A bar that hangs: it is in equilibrium with the load at the end only.
+#[test]
+fn an_equilibrium_is_one_with_the_loads_at_the_end() {
+    let load = |text: &str| vec![bind(text, &["t"])];
+    let hanging = Problem {
+        at_rest: true,
+        follows_motion: false,
+        gravity: load("9*min(2*t, 1)"),
+        ..bar("9*(X - X^2/2)", Condition::Free)
+    };
+    hanging.check().unwrap();
+    for wrong in [
+        Problem { gravity: load("9*min(t/2, 1)"), ..hanging.clone() },
+        Problem { at_rest: false, follows_motion: true, ..hanging.clone() },
+    ] {
+        let found = wrong.check().unwrap_err();
+        assert!(found.condition.starts_with("equation of motion"), "{found}");
+        assert!(!wrong.at_rest || found.t == wrong.until, "{found}");
+    }
+    let weak = Problem { gravity: load("8*min(2*t, 1)"), ..hanging };
+    let found = super::weak::momentum(&weak).unwrap_err();
+    assert!(found.condition.starts_with("momentum balance"), "{found}");
 }

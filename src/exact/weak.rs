@@ -88,7 +88,7 @@ fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64
 fn crossing(problem: &Problem) -> f64 {
     let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
     let longest = lengths.fold(0.0, f64::max);
-    longest / (problem.equation.modulus() / problem.density).sqrt()
+    longest / problem.wave_speed()
 }
 
 /// Checks the balance of momentum on [`PATCHES`] patches.
@@ -117,7 +117,7 @@ fn balance(problem: &Problem, patch: &Patch) -> Result<(), Violation> {
                             form; shares of the sum of all terms)"
                     .to_owned(),
                 label: patch.centre[..d].to_vec(),
-                t: patch.centre[d],
+                t: problem.loaded(patch.centre[d]),
                 expected: Some(sums.loss / sums.size),
                 found: sums.gain / sums.size,
                 unit: "",
@@ -145,13 +145,14 @@ fn sums(problem: &Problem, patch: &Patch) -> [Sums; 3] {
     let (mut all, mut now) = ([Sums::default(); 3], Derivatives::default());
     for time in &axes[d] {
         places.set_time(time.at);
+        let loaded = problem.loaded(time.at);
         for (place, spot) in spots.iter().enumerate() {
             places.derivatives(place, &mut now);
             let mut points = [*time; 4];
             points[..d].copy_from_slice(spot);
             let (phi, slope) = bump(&points[..=d]);
-            let (piola, force) =
-                (problem.equation.piola(&now.grad), problem.force(&labels[place], time.at, &now));
+            let piola = problem.equation.piola(&now.grad);
+            let force = problem.force(&labels[place], loaded, &now);
             for (i, sums) in all[..d].iter_mut().enumerate() {
                 let inertia = problem.density * now.velocity[i] * slope[d];
                 let stress: f64 = (0..d).map(|j| piola[i][j] * slope[j]).sum();

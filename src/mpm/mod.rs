@@ -41,7 +41,7 @@ pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Prescribed, Roller, Side, VelocityField};
 pub use combination::combine;
-pub use effect::{BodyForce, Driven, Effect, Field, Gravity, SetForce, Traction};
+pub use effect::{BodyForce, Damping, Driven, Effect, Field, Gravity, SetForce, Traction};
 pub use frame::FrameName;
 pub use grid::Grid;
 pub use kernel::{Kernel, Shown};

@@ -73,7 +73,7 @@ impl<const D: usize> Solver<D> {
                 let Setup { grid, particles, kernel, transfer, boundary, .. } = &mut self.setup;
                 let passes = transfer.g2p_velocity(kernel.as_ref(), grid, boundary, dt, particles);
                 self.count(passes);
-                self.drive();
+                self.drive(dt);
             }
             Stage::Stress => self.stress(dt)?,
             Stage::Position => self.position(dt)?,
@@ -152,10 +152,10 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// Gives driven particles the velocity that they have at this time.
-    fn drive(&mut self) {
+    /// Lets effects have their say on velocities that have advanced by `dt` (s).
+    fn drive(&mut self, dt: f64) {
         for effect in &self.setup.effects {
-            effect.drive_velocity(self.stands, &mut self.setup.particles);
+            effect.drive_velocity(self.stands, dt, &mut self.setup.particles);
         }
     }
 
@@ -189,7 +189,7 @@ impl<const D: usize> Solver<D> {
         let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
         let passes = transfer.kick(kernel.as_ref(), grid, -0.5 * dt, particles);
         self.count(passes);
-        self.drive();
+        self.drive(0.0);
         Ok(())
     }
 }
@@ -197,7 +197,7 @@ impl<const D: usize> Solver<D> {
 impl<const D: usize> Subject for Solver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         if !self.started {
-            self.drive();
+            self.drive(0.0);
             if self.setup.start == Start::HalfStepBack {
                 self.half_step_back(dt)?;
             }

@@ -15,7 +15,7 @@
 //!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
 //!             "kinetic_energy": 1e-4},
-//!         "order": null, "failure": null}],
+//!         "unrest": null, "order": null, "failure": null}],
 //!     "forces": null}]}]}
 //! ```
 //!
@@ -117,6 +117,7 @@ fn level(level: &LevelOutcome) -> Value {
             let sum = |sum: &Conserved| (sum.name().to_owned(), number(drift.of(*sum)));
             Conserved::ALL.iter().map(sum).collect::<Map<_, _>>().into()
         }),
+        "unrest": run.unrest.map(number),
         "order": level.order.map(number),
         "failure": run.failure,
     })

@@ -7,7 +7,7 @@ use crate::verify::{Axis, Convergence, History, LevelOutcome};
 pub(super) fn tables(lines: &mut Vec<String>, study: &Convergence) {
     let figures = ["rms", "l1", "l2", "linf", "max rms", "velocity", "judged", "order", "counts"];
     let mut errors = Table::new(&[spacing_heads(study.axis), &figures].concat());
-    let figures = ["particles", "steps", "transfers", "crossings", "outside", "min J"];
+    let figures = ["particles", "steps", "transfers", "crossings", "outside", "min J", "speed/c"];
     let mut work = Table::new(&[&level_heads(study.axis)[..], &figures].concat());
     for (index, level) in study.levels.iter().enumerate() {
         errors.row(error_row(study, index, level));
@@ -90,6 +90,10 @@ fn work_row(axis: Axis, level: &LevelOutcome) -> Vec<String> {
         optional(census.crossings),
         optional(census.left_domain),
         format!("{:.4}", census.min_j),
+        optional(level.run.unrest.map(|unrest| match level.run.failure {
+            Some(_) => "failed".to_owned(),
+            None => format!("{unrest:.0e}"),
+        })),
     ];
     level_parts(axis, level).into_iter().chain(figures).collect()
 }

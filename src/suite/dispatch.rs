@@ -13,7 +13,10 @@ use super::{
 };
 use crate::{
     exact::{Forcing, Problem, formula::Formula},
-    mpm::{BodyForce, Effect, Gravity, Grid, Kernel, Particles, Solver, Traction, Vector, kernel},
+    mpm::{
+        BodyForce, Damping, Effect, Gravity, Grid, Kernel, Particles, Solver, Traction, Vector,
+        kernel,
+    },
     subject::Subject,
     verify::Quantity,
 };
@@ -120,6 +123,9 @@ fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<d
     }
     if let Some(formulas) = scene.body_force.clone() {
         effects.push(Box::new(BodyForce::pointwise(move |x0, t| at(&formulas, x0, t))));
+    }
+    if let Some(rate) = scene.damping.clone() {
+        effects.push(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))));
     }
     for face in &scene.faces {
         if let Some(formulas) = &face.traction {

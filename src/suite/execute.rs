@@ -15,7 +15,7 @@ use super::{
     words::CrossingLevels,
 };
 use crate::{
-    exact::Truth,
+    exact::{Problem, Truth},
     verify::{
         self, Axis, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Study, SuiteOutcome,
     },
@@ -156,7 +156,8 @@ fn level_of(
     let mut subject = subject(plan, case.method, level)?;
     let clock =
         Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
-    let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref() };
+    let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
+    let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref(), at_rest: rest };
     let run = verify::run(&mut *subject, truth, &clock, &comparison);
     let crossed = run.census.crossings.is_some_and(|n| n > 0);
     let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;

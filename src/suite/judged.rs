@@ -100,6 +100,8 @@ pub(super) fn judge_levels(
 fn measured(levels: &[LevelOutcome]) -> Measured {
     let counted = || levels.iter().filter(|level| level.usable);
     let errors = counted().map(|level| (level.error, level.error));
+    let unrest: Option<Vec<f64>> = counted().map(|level| level.run.unrest).collect();
+    let larger = |a: f64, b: f64| if (a + b).is_nan() { f64::NAN } else { a.max(b) };
     let drifts: Option<Vec<Drift>> = counted().map(|level| level.run.drift).collect();
     Measured {
         errors: errors.reduce(|(least, most), (error, _)| {
@@ -109,6 +111,7 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
             (least.min(error), most.max(error))
         }),
         observed: levels.last().and_then(|level| level.run.observed_error),
+        unrest: unrest.and_then(|all| all.into_iter().reduce(larger)),
         drift: drifts.and_then(|drifts| drifts.into_iter().reduce(Drift::larger)),
     }
 }
@@ -220,6 +223,7 @@ mod tests {
             history: None,
             displacement: None,
             observed_error: Some(error),
+            unrest: None,
         };
         LevelOutcome {
             cells: 1,
@@ -267,7 +271,12 @@ mod tests {
         let bound = Expectation { verdict, order, finest_pair, crossings, limits, floor, because };
         let said = |level: verify::Level, unmet: &[String]| {
             let judgement = judge(&[level], &Claim::formal(2.0));
-            let measured = Measured { errors: Some((1e-12, 1e-12)), observed: None, drift: None };
+            let measured = Measured {
+                errors: Some((1e-12, 1e-12)),
+                observed: None,
+                unrest: None,
+                drift: None,
+            };
             headline(&bound, &judgement, &measured, unmet)
         };
         let one = verify::Level::new(1.0, 1e-12);

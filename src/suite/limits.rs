@@ -23,6 +23,7 @@ pub(super) fn limits(
         error_below: bound("error_below", &words.error_below)?,
         error_above: bound("error_above", &words.error_above)?,
         observed_within: bound("observed_within", &words.observed_within)?,
+        rest_below: bound("rest_below", &words.rest_below)?,
         drift: match &words.drift {
             Some(words) => drifts(binder, &path.then("drift"), words, plan)?,
             None => Vec::new(),
@@ -37,6 +38,11 @@ pub(super) fn limits(
     if limits.observed_within.is_some() && plan.observe.is_none() {
         let complaint = binder.complain_key(&path.then("observed_within"), "nothing is observed");
         return Err(complaint.with_help("add `observe: {at: [...]}` to the suite"));
+    }
+    if limits.rest_below.is_some() && !plan.exact.as_ref().is_some_and(|truth| truth.at_rest) {
+        let message = "the truth is no state of rest";
+        let complaint = binder.complain_key(&path.then("rest_below"), message);
+        return Err(complaint.with_help("state it under `equilibrium`"));
     }
     Ok(limits)
 }

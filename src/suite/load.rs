@@ -3,7 +3,7 @@
 use super::{
     bar_limits,
     binder::{Binder, Parameter},
-    cases, comparable, force, law,
+    cases, comparable, damping, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
     refine, scene, size, steps, truth,
@@ -51,8 +51,10 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let reference = reference.transpose()?.flatten();
     let same_method_dt = steps::same_method(&binder, &words, &refine, &until, instants)?;
     law::check(&binder, &words, &scene)?;
+    damping::check(&binder, &words, &scene, latest)?;
     if exact.is_none() && reference.is_none() {
-        let message = "no truth: a convergence study needs `exact`, `manufactured` or `reference`";
+        let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
+                       `reference`";
         return Err(binder.complain_key(&Path::top("suite"), message));
     }
     let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));

@@ -121,6 +121,8 @@ pub struct Scene {
     pub gravity: Option<Vec<Formula>>,
     /// Force per unit mass (m/s2), formulas of the coordinates and t.
     pub body_force: Option<Vec<Formula>>,
+    /// Rate (1/s) at which velocities decay, a formula of t.
+    pub damping: Option<Formula>,
     /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
     pub initial_displacement: Vec<Formula>,
     /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.

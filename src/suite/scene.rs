@@ -61,6 +61,7 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         sets,
         gravity: None,
         body_force: None,
+        damping: None,
         initial_velocity: initial_velocity(binder, &path, words, dimension)?,
     };
     for (i, load) in words.loads.iter().enumerate() {
@@ -167,6 +168,13 @@ fn add_load(
                 return Err(binder.complain(&path, "gravity appears twice"));
             }
             scene.gravity = Some(binder.vector(&path, texts, d, &["t"])?);
+        }
+        LoadWords::Damping(text) => {
+            let path = path.then("damping");
+            if scene.damping.is_some() {
+                return Err(binder.complain(&path, "damping appears twice"));
+            }
+            scene.damping = Some(binder.formula(&path, text, &["t"])?);
         }
         LoadWords::BodyForce(texts) => {
             let path = path.then("body_force");

@@ -69,6 +69,9 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
         } else {
             push(rows, "equation", equation(&plan.scene.material));
         }
+        if problem.at_rest {
+            push(rows, "equilibrium", "under the loads at the end; errors are taken there only");
+        }
         push(rows, "amplitude", &amplitude(problem));
     }
     if let Some(fine) = &plan.reference {
@@ -163,6 +166,9 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     }
     if let Some(force) = &scene.body_force {
         push(rows, "body force", &format!("{} m/s2", sources(force)));
+    }
+    if let Some(damping) = &scene.damping {
+        push(rows, "damping", &format!("{} 1/s", damping.source()));
     }
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
     push(rows, "initial velocity", &sources(&scene.initial_velocity));

@@ -2,12 +2,13 @@
 
 use super::{
     binder::Binder,
+    equilibrium,
     hold::Hold,
     law,
     model::{Scene, SceneFace},
     path::Path,
     scene::coordinates_and_time,
-    words::{ConvergenceWords, EquationName},
+    words::{ConvergenceWords, EquationName, ExactWords},
     yaml::{Complaint, NumberText},
 };
 use crate::{
@@ -32,23 +33,40 @@ pub(super) fn exact(
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Complaint> {
+    if let Some(state) = &words.equilibrium {
+        equilibrium::refuse(binder, words, state, scene)?;
+        let path = Path::top("equilibrium");
+        let problem = Problem {
+            at_rest: true,
+            follows_motion: false,
+            ..solution(binder, &path, state, scene, until)?
+        };
+        check(binder, &path, &problem)?;
+        return Ok(Some(problem));
+    }
     let Some(exact) = &words.exact else { return manufactured(binder, words, scene, until) };
     let path = Path::top("exact");
     if words.manufactured.is_some() {
         let message = "a solution is either exact or manufactured";
         return Err(binder.complain_key(&Path::top("manufactured"), message));
     }
-    let problem = Problem {
-        tolerance: tolerance(binder, &path, exact.tolerance.as_ref())?,
-        ..problem(
-            scene,
-            equation(binder, &path.then("equation"), exact.equation, scene)?,
-            motion(binder, &path, &exact.displacement, scene.dimension())?,
-            until,
-        )
-    };
+    let problem = solution(binder, &path, exact, scene, until)?;
     check(binder, &path, &problem)?;
     Ok(Some(problem))
+}
+
+/// The scene's problem with the formulas at `path`, not yet checked.
+fn solution(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExactWords,
+    scene: &Scene,
+    until: f64,
+) -> Result<Problem, Complaint> {
+    let tolerance = tolerance(binder, path, words.tolerance.as_ref())?;
+    let equation = equation(binder, &path.then("equation"), words.equation, scene)?;
+    let motion = motion(binder, path, &words.displacement, scene.dimension())?;
+    Ok(Problem { tolerance, ..problem(scene, equation, motion, until) })
 }
 
 /// The equation that a formula is checked against, which must be that of the scene's material.
@@ -133,6 +151,8 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         equation,
         gravity: scene.gravity.clone().unwrap_or_default(),
         body_force: scene.body_force.clone().unwrap_or_default(),
+        damping: scene.damping.clone(),
+        at_rest: false,
         manufactured: false,
         faces: scene.faces.iter().map(face).collect(),
         regions: scene.sets.clone(),

@@ -124,7 +124,12 @@ mod tests {
         order: Some((1.95, 2.05)),
         finest_pair: Some(1.99),
         crossings: Some(0),
-        measured: Measured { errors: Some((1e-6, 1e-3)), observed: None, drift: None },
+        measured: Measured {
+            errors: Some((1e-6, 1e-3)),
+            observed: None,
+            unrest: None,
+            drift: None,
+        },
         floor: Some(FloorCause::Time),
     };
 

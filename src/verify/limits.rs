@@ -15,6 +15,8 @@ pub struct Limits {
     /// Largest distance (m) of the observed place from where it should be, at the end, on the
     /// finest level.
     pub observed_within: Option<f64>,
+    /// Largest speed towards the end of any level that counts, over the wave speed.
+    pub rest_below: Option<f64>,
     /// Largest relative drifts on any level that counts.
     pub drift: Vec<(Conserved, f64)>,
 }
@@ -26,6 +28,9 @@ pub struct Measured {
     pub errors: Option<(f64, f64)>,
     /// Distance (m) of the observed place from where it should be; `None` if nothing was observed.
     pub observed: Option<f64>,
+    /// Largest speed towards the end of the levels that count, over the wave speed; `None` if the
+    /// truth is no state of rest.
+    pub unrest: Option<f64>,
     /// Largest drifts of the levels that count; `None` if the subject gives no totals.
     pub drift: Option<Drift>,
 }
@@ -117,11 +122,13 @@ impl Limits {
     fn checks(&self, measured: Option<&Measured>) -> Vec<Check> {
         let errors = measured.and_then(|measured| measured.errors);
         let observed = measured.and_then(|measured| measured.observed);
+        let unrest = measured.and_then(|measured| measured.unrest);
         let (least, most) = (errors.map(|(least, _)| least), errors.map(|(_, most)| most));
         let figures = [
             ("largest error", self.error_below, most, false),
             ("smallest error", self.error_above, least, true),
             ("error at the observed place (m)", self.observed_within, observed, false),
+            ("speed at rest over the wave speed", self.rest_below, unrest, false),
         ];
         let check = |(what, limit, got, least): (_, Option<f64>, _, _)| {
             Some(Check { what, limit: limit?, got, least })
@@ -145,7 +152,12 @@ mod tests {
 
     fn measured() -> Measured {
         let still = Balance::start(Totals::default()).drift();
-        Measured { errors: Some((1e-3, 1e-2)), observed: Some(1e-4), drift: Some(still) }
+        Measured {
+            errors: Some((1e-3, 1e-2)),
+            observed: Some(1e-4),
+            unrest: Some(1e-7),
+            drift: Some(still),
+        }
     }
 
     fn limits() -> Limits {
@@ -153,6 +165,7 @@ mod tests {
             error_below: Some(1e-2),
             error_above: Some(1e-3),
             observed_within: Some(1e-3),
+            rest_below: Some(1e-6),
             drift: vec![(Conserved::Mass, 1e-13), (Conserved::Momentum, 0.0)],
         }
     }
@@ -165,6 +178,8 @@ mod tests {
     #[case::nan_errors(Measured { errors: Some((NAN, NAN)), ..measured() }, 2)]
     #[case::far_off(Measured { observed: Some(2e-3), ..measured() }, 1)]
     #[case::observed_nan(Measured { observed: Some(NAN), ..measured() }, 1)]
+    #[case::still_moving(Measured { unrest: Some(2e-6), ..measured() }, 1)]
+    #[case::unrest_nan(Measured { unrest: Some(NAN), ..measured() }, 1)]
     #[case::not_observed(Measured { observed: None, ..measured() }, 1)]
     #[case::failed(Measured { drift: Some(Drift::NONE), ..measured() }, 2)]
     #[case::no_totals(Measured { drift: None, ..measured() }, 2)]
@@ -177,17 +192,17 @@ mod tests {
     fn sums_with_one_limit_are_named_together() {
         let mut limits = limits();
         assert_eq!(
-            limits.summary()[3..],
+            limits.summary()[4..],
             ["drift of mass at most 1e-13", "drift of momentum at most 0e0"]
         );
         limits.drift[1].1 = 1e-13;
-        assert_eq!(limits.summary()[3..], ["drift of mass, momentum at most 1e-13"]);
+        assert_eq!(limits.summary()[4..], ["drift of mass, momentum at most 1e-13"]);
         assert!(limits.found(&measured()).ends_with("; drift of mass 0e0, momentum 0e0"));
     }
 
     #[test]
     fn what_is_not_limited_may_be_anything() {
-        let nothing = Measured { errors: None, observed: None, drift: None };
+        let nothing = Measured { errors: None, observed: None, unrest: None, drift: None };
         assert!(Limits::default().unmet(&nothing).is_empty());
         assert!(Limits::default().is_empty() && !limits().is_empty());
     }

@@ -37,6 +37,8 @@ pub struct Run {
     pub displacement: Option<Vec<f64>>,
     /// Its distance (m) from the exact one.
     pub observed_error: Option<f64>,
+    /// Largest speed towards the end, over [`Comparison::at_rest`], where that is given.
+    pub unrest: Option<f64>,
 }
 
 /// What is compared in a run, besides the displacement.
@@ -46,7 +48,14 @@ pub struct Comparison<'a> {
     pub of: Quantity,
     /// Place to be observed (m).
     pub observe: Option<&'a [f64]>,
+    /// The truth is a state of rest, and errors are taken at the end only: a speed (m/s) that
+    /// the remaining ones are compared with.
+    pub at_rest: Option<f64>,
 }
+
+/// The share of a run, at its end, in which a body must be at rest. An instant would not do: a
+/// body that swings stands still when it turns.
+const LAST: f64 = 0.1;
 
 /// Steps `subject` through `clock` and takes its error against `truth` at every instant, at the
 /// subject's own reference labels; watches the label nearest to the observed place.
@@ -76,6 +85,7 @@ struct Watch<'a> {
     at_end: Norms,
     largest: Norms,
     balance: Option<Balance>,
+    unrest: Option<f64>,
     history: Option<(usize, History)>,
 }
 
@@ -97,6 +107,7 @@ impl<'a> Watch<'a> {
             at_end: Norms::NONE,
             largest: Norms::ZERO,
             balance: subject.totals().map(Balance::start),
+            unrest: comparison.at_rest.map(|_| 0.0),
             history,
         }
     }
@@ -107,6 +118,21 @@ impl<'a> Watch<'a> {
         }
         subject.sample(&mut self.samples);
         let t = clock.time(step);
+        if let Some(balance) = &mut self.balance {
+            balance.look(subject.totals().as_ref());
+        }
+        if let Some((at, history)) = &mut self.history {
+            history.record(*at, &self.samples, self.truth, t);
+        }
+        if let Some(speed) = self.comparison.at_rest {
+            if t >= (1.0 - LAST) * clock.until {
+                let unrest = larger(self.unrest.unwrap_or(0.0), fastest(&self.samples) / speed);
+                self.unrest = Some(unrest);
+            }
+            if step < clock.steps {
+                return;
+            }
+        }
         self.errors = errors(&self.samples, self.truth, t);
         self.max_rms = larger(self.max_rms, self.errors.rms);
         self.at_end = match self.comparison.of {
@@ -114,12 +140,6 @@ impl<'a> Watch<'a> {
             other => errors_of(other, &self.samples, self.truth, t),
         };
         self.largest = self.largest.larger(self.at_end);
-        if let Some(balance) = &mut self.balance {
-            balance.look(subject.totals().as_ref());
-        }
-        if let Some((at, history)) = &mut self.history {
-            history.record(*at, &self.samples, self.truth, t);
-        }
     }
 
     fn finished(self, subject: &dyn Subject, clock: &Clock) -> Run {
@@ -141,6 +161,7 @@ impl<'a> Watch<'a> {
             failure: None,
             observed_error: place.zip(displacement.as_ref()).map(distance),
             displacement,
+            unrest: self.unrest,
             history: self.history.map(|(_, history)| history),
         }
     }
@@ -159,8 +180,15 @@ impl<'a> Watch<'a> {
             history: None,
             displacement: None,
             observed_error: None,
+            unrest: self.unrest.map(|_| f64::NAN),
         }
     }
+}
+
+/// Largest speed (m/s) of a label; NaN if any is.
+fn fastest(samples: &Samples) -> f64 {
+    let speed = |v: &[f64]| v.iter().fold(0.0, |all, v| libm::hypot(all, *v));
+    samples.velocity.chunks_exact(samples.dimension.max(1)).map(speed).fold(0.0, larger)
 }
 
 /// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.

@@ -5,6 +5,7 @@
 
 mod boundaries;
 mod combinations;
+mod equilibria;
 mod expectations;
 mod formulas;
 mod grammar;

@@ -6,7 +6,7 @@ use crate::{
 };
 use approx::assert_abs_diff_eq;
 use mpm_verify::{
-    mpm::{Gravity, Matrix, Particles, SchemeName, Solver, Vector},
+    mpm::{Damping, Gravity, Matrix, Particles, SchemeName, Solver, Vector},
     subject::{Start, Subject},
 };
 use rstest::rstest;
@@ -105,4 +105,33 @@ fn a_rigid_translation_without_stress_moves_every_particle_by_v_t(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     in_dimension!(dimension, translates(scheme));
+}
+
+/// The rate grows with time; a step takes that at its middle, t.
+fn slows_down<const D: usize>(scheme: SchemeName, start: Start) {
+    let rate = |t: f64| 3.0 + 100.0 * t;
+    for method in conservative() {
+        let mut setup = free_body::<D>(method, scheme);
+        setup.effects.push(Box::new(Damping(Box::new(rate))));
+        setup.start = start;
+        let mut solver = Solver::new(setup).unwrap();
+        let (before, size) = (momentum(solver.particles()), size(solver.particles()));
+        let mut exponent = 0.0;
+        for step in 1..=STEPS {
+            solver.step(DT).unwrap();
+            exponent += rate(DT * (step - 1) as f64) * DT;
+            let expected = before * (-exponent).exp();
+            let apart = (momentum(solver.particles()) - expected).norm() / size;
+            assert!(apart <= 1e-13, "{method:?} step {step}: {apart:.1e}");
+        }
+    }
+}
+
+#[rstest]
+fn a_damped_body_loses_its_momentum_at_the_rate_of_damping(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    in_dimension!(dimension, slows_down(scheme, start));
 }

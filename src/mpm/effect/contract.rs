@@ -15,8 +15,9 @@ pub trait Effect<const D: usize>: Send {
     ) -> u64;
 
     /// Gives particles a velocity that is not the grid's; `t` (s) is the time that velocities stand
-    /// for. Called before the first step, and whenever velocities have been taken from the grid.
-    fn drive_velocity(&self, _t: f64, _particles: &mut Particles<D>) {}
+    /// for, and `dt` (s) what they have advanced by. Called whenever velocities have been taken from
+    /// the grid, and at the start of a run with `dt` = 0.
+    fn drive_velocity(&self, _t: f64, _dt: f64, _particles: &mut Particles<D>) {}
 
     /// Moves particles otherwise than the grid did, over `dt` (s). Called after the grid has moved
     /// all of them.

@@ -32,7 +32,7 @@ impl<const D: usize> Effect<D> for Driven<D> {
         0
     }
 
-    fn drive_velocity(&self, t: f64, particles: &mut Particles<D>) {
+    fn drive_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {
         for (p, _) in &self.members {
             particles.v[*p] = continued(&self.value, &particles.x0[*p], t);
         }

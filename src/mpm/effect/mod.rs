@@ -3,6 +3,7 @@
 
 mod body_force;
 mod contract;
+mod damping;
 mod driven;
 mod gravity;
 mod set_force;
@@ -10,6 +11,7 @@ mod traction;
 
 pub use body_force::{BodyForce, Field};
 pub use contract::Effect;
+pub use damping::Damping;
 pub use driven::Driven;
 pub use gravity::Gravity;
 pub use set_force::SetForce;

@@ -64,6 +64,7 @@ pub(in crate::suite) struct ConvergenceWords {
     pub(in crate::suite) scene: SceneWords,
     pub(in crate::suite) exact: Option<ExactWords>,
     pub(in crate::suite) manufactured: Option<ManufacturedWords>,
+    pub(in crate::suite) equilibrium: Option<ExactWords>,
     pub(in crate::suite) reference: Option<ReferenceWords>,
     pub(in crate::suite) run: RunWords,
     pub(in crate::suite) refine: RefineWords,
@@ -81,6 +82,7 @@ impl ConvergenceWords {
     }
 }
 
+/// A solution, or the state in which the body comes to rest.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct ExactWords {
@@ -222,6 +224,8 @@ pub(in crate::suite) struct ExpectWords {
     pub(in crate::suite) error_above: Option<NumberText>,
     /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
     pub(in crate::suite) observed_within: Option<NumberText>,
+    /// Largest speed towards the end of every level that counts, over the wave speed.
+    pub(in crate::suite) rest_below: Option<NumberText>,
     pub(in crate::suite) drift: Option<DriftWords>,
     pub(in crate::suite) because: String,
     /// What is expected of a full run, where that differs.

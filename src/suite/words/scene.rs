@@ -81,6 +81,8 @@ pub(in crate::suite) enum SetWords {
 pub(in crate::suite) enum LoadWords {
     /// Uniform acceleration (m/s2), formulas of t.
     Gravity(Vec<NumberText>),
+    /// Rate (1/s) at which velocities decay, a formula of t.
+    Damping(NumberText),
     /// Force per unit mass (m/s2), formulas of the coordinates and t.
     BodyForce(Vec<NumberText>),
     /// Force per reference area on one face (Pa), formulas of t.

@@ -1,0 +1,90 @@
+//! Bodies that come to rest, and the damping that brings them there.
+
+use super::{Edits, load, refused};
+use rstest::rstest;
+
+/// A column that settles under its weight.
+const SETTLED: &str = include_str!("../../verification/column-hencky-small-load.yaml");
+
+const MPM: &str = "methods:\n";
+const FEM: &str = "methods:\n  - ▸fem: {element: linear, mass: lumped}\n";
+const STATE: &str = "equilibrium:\n  equation: hencky";
+
+#[test]
+fn without_a_mistake_the_column_is_sound() {
+    load(SETTLED).unwrap_or_else(|complaint| panic!("{complaint}"));
+}
+
+#[rstest]
+#[case::of_another_load(
+    &[("\"-g*s(min(t/ramp, 1))\"", "\"-1.01*g*s(min(t/ramp, 1))\""), ("[\"E/(rho0*g)", "[▸\"E/(rho0*g)")],
+    &["equation of motion in X", "t = 8.000000", "this is not a solution"]
+)]
+#[case::of_a_load_that_still_grows(
+    &[("ramp: 2 ", "ramp: 10 "), ("[\"E/(rho0*g)", "[▸\"E/(rho0*g)")],
+    &["equation of motion in X", "t = 8.000000"]
+)]
+#[case::of_another_law(
+    &[("equation: hencky", "equation: ▸neo_hookean")],
+    &["`neo_hookean` is not the problem of a `hencky` material"]
+)]
+#[case::that_moves(&[(" - X\"]", " - X + ▸t\"]")], &["`t`"])]
+#[case::beside_a_motion(
+    &[(STATE, "▸exact:\n  equation: hencky\n  displacement: [\"X*t\"]\n\nequilibrium:\n  equation: hencky")],
+    &["`exact` is a motion, and the suite states an equilibrium besides"]
+)]
+#[case::at_two_times(
+    &[("until: 8", "until: [8, ▸9]")],
+    &["a body comes to rest once", "expected one end"]
+)]
+#[case::on_the_way(
+    &[("norm: l1", "norm: ▸max_l1")],
+    &["on its way a body is not in equilibrium", "expected a norm at the end"]
+)]
+#[case::of_finite_elements(
+    &[("    - damping: \"pi*c/l0\" ", "   "), (MPM, FEM), ("of: stress, ", "")],
+    &["the reference FEM has no damping and does not come to rest"]
+)]
+#[case::at_a_driven_wall(
+    &[("boundary: {left: fixed}", "boundary: {left: fixed, ▸right: {velocity: [0]}}"), ("  dimension: 1\n", "  dimension: 1\n  grid: {from: [0], to: [l0]}\n")],
+    &["the face `right` is driven, and the body comes to rest"]
+)]
+#[case::with_a_driven_set(
+    &[("  loads:\n", "  sets:\n    ▸tip: {box: {from: [49], to: [50]}}\n  loads:\n    - velocity: {on: tip, value: [0]}\n")],
+    &["the set `tip` is driven, and the body comes to rest"]
+)]
+fn an_equilibrium(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(SETTLED, edits, words);
+}
+
+#[rstest]
+#[case::twice(
+    &[("    - damping: \"pi*c/l0\"", "    - damping: 1\n    - damping: ▸\"pi*c/l0\"")],
+    &["damping appears twice"]
+)]
+#[case::that_drives(
+    &[("\"pi*c/l0\"", "▸\"pi*c/l0*(1 - t/4)\"")],
+    &["the rate of damping is -", "expected zero or a positive number (1/s)"]
+)]
+#[case::that_depends_on_place(&[("\"pi*c/l0\"", "\"pi*c/▸X\"")], &["`X`"])]
+#[case::of_finite_elements(
+    &[(STATE, "manufactured:"), (MPM, FEM), ("of: stress, ", "")],
+    &["the reference FEM has no damping"]
+)]
+fn damping(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(SETTLED, edits, words);
+}
+
+/// The oedometer has a motion for its truth.
+#[test]
+fn rest_is_asked_of_a_body_that_comes_to_rest() {
+    let (order, bound) = ("    order: [1.5, 1.8]\n", "    ▸rest_below: 1e-6\n");
+    let column = super::COLUMN;
+    let line = column.lines().find(|line| line.trim_start().starts_with("order:")).unwrap_or(order);
+    let edit = format!("{line}\n{bound}");
+    refused(
+        column,
+        &[(&format!("{line}\n"), &edit)],
+        &["the truth is no state of rest", "`equilibrium`"],
+    );
+}
