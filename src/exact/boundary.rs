@@ -41,8 +41,8 @@ pub(super) fn boundary(problem: &Problem) -> Result<(), Violation> {
 
 fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Result<(), Violation> {
     let all = problem.motion.derivatives(&event.label, event.t);
-    if matches!(face.condition, Condition::Periodic) {
-        return periodic(problem, face, event, &all, sizes);
+    if let Condition::Periodic(period) = face.condition {
+        return periodic(problem, face, event, period, &all, sizes);
     }
     for i in 0..problem.dimension() {
         match &face.condition {
@@ -69,7 +69,7 @@ fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Resu
                 traction(problem, face, event, (i, "loaded", pulled), &all, sizes)?;
             }
             Condition::Free => traction(problem, face, event, (i, "free", 0.0), &all, sizes)?,
-            Condition::Periodic => {}
+            Condition::Periodic(_) => {}
         }
     }
     Ok(())
@@ -95,11 +95,13 @@ fn traction(
     event.judge(allowed, name, (pulled, found), "Pa")
 }
 
-/// u and grad u are those of the opposite point: then P is, and nothing tells where the seam is.
+/// Opposite points stay one period apart, and grad u is the same in both: then P is, and nothing
+/// tells where the seam is.
 fn periodic(
     problem: &Problem,
     face: &Face,
     event: &Event,
+    period: f64,
     here: &Derivatives,
     sizes: &Sizes,
 ) -> Result<(), Violation> {
@@ -107,14 +109,22 @@ fn periodic(
     opposite[face.axis] = if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
     let there = problem.motion.derivatives(&opposite, event.t);
     let condition = |what: String| {
-        format!("boundary condition: {} is periodic, {what} as on the opposite face,", face.name)
+        format!("boundary condition: {} is periodic, {what} the opposite face,", face.name)
     };
+    let (high, low) = if face.high { (here, &there) } else { (&there, here) };
     for i in 0..problem.dimension() {
-        let name = condition(format!("u_{}", AXES[i]));
         let allowed = problem.tolerance * sizes.displacement;
-        event.judge(allowed, name, (there.u[i], here.u[i]), "m")?;
+        if i == face.axis {
+            let length = problem.to[i] - problem.from[i];
+            let apart = length + (high.u[i] - low.u[i]);
+            let name = condition(format!("x_{} one period away from", AXES[i]));
+            event.judge(allowed.max(4.0 * f64::EPSILON * period), name, (period, apart), "m")?;
+        } else {
+            let name = condition(format!("u_{} as on", AXES[i]));
+            event.judge(allowed, name, (there.u[i], here.u[i]), "m")?;
+        }
         for j in 0..problem.dimension() {
-            let name = condition(format!("du_{}/d{}", AXES[i], AXES[j]));
+            let name = condition(format!("du_{}/d{} as on", AXES[i], AXES[j]));
             let allowed = problem.tolerance * sizes.gradient;
             event.judge(allowed, name, (there.grad[i][j], here.grad[i][j]), "")?;
         }

@@ -19,8 +19,10 @@ pub enum Condition {
     Roller,
     /// u_t = v(X, t), one formula of the coordinates and t for each component (m/s).
     Velocity(Vec<Formula>),
-    /// u and grad u are those of the opposite face.
-    Periodic,
+    /// x lies one period further along the axis than on the opposite face, and grad u is that of it.
+    /// The period (m) is the length of the axis on which the body moves; that of the body itself,
+    /// unless it starts deformed.
+    Periodic(f64),
     /// P n = p0(t), one formula of t for each component (Pa).
     Traction(Vec<Formula>),
     /// P n = 0.

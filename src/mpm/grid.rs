@@ -102,6 +102,11 @@ impl<const D: usize> Grid<D> {
         s - n * libm::floor(s / n)
     }
 
+    /// How many periods `x` lies beyond the grid on a periodic axis.
+    pub fn turns(&self, x: &Vector<D>, axis: usize) -> f64 {
+        libm::floor(self.local(x, axis) / self.cells[axis] as f64)
+    }
+
     /// Index of a function on `axis`, brought back into the grid on a periodic axis.
     #[inline]
     pub fn wrap(&self, index: usize, axis: usize) -> usize {

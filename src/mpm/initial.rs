@@ -17,6 +17,7 @@ pub(super) fn complete<const D: usize>(
     kernel: &dyn Kernel<D>,
     material: &mut dyn Material<D>,
 ) -> Result<f64, Failure> {
+    particles.all_finite()?;
     let deformed = particles.is_deformed();
     if kernel.domain() == Domain::Follows {
         particles.track_domains();

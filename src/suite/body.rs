@@ -2,6 +2,9 @@
 
 use super::{
     binder::Binder,
+    hold::Hold,
+    law,
+    model::{Scene, SceneFace},
     path::Path,
     wording::shown,
     words::{AnnulusWords, BodyWords, BoxWords, LoadWords, RoundWords, SceneWords},
@@ -150,6 +153,41 @@ pub(super) fn fits(
                 let complaint = binder.complain(&path.then("grid").then(key).then(axis), &message);
                 return Err(complaint.with_label(&format!("expected at {word} {reach}")));
             }
+        }
+    }
+    Ok(())
+}
+
+/// The grid must reach over the body, and a face that is held must lie on the grid's own face: its
+/// nodes are what is held, and a periodic axis ends there. Where the body may start deformed, the
+/// period is that of its motion, which is checked against the grid's.
+pub(super) fn on_grid(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<(), Complaint> {
+    let Some((from, to)) = &scene.grid else { return Ok(()) };
+    let deforms = law::manufactured(&scene.material).is_ok();
+    let given = |face: &&SceneFace| !(deforms && matches!(face.hold, Hold::Periodic));
+    for face in scene.faces.iter().filter(given) {
+        let (body, grid, key) = if face.high {
+            (scene.to[face.axis], to[face.axis], "to")
+        } else {
+            (scene.from[face.axis], from[face.axis], "from")
+        };
+        let outside = if face.high { grid < body } else { grid > body };
+        let apart = !face.hold.is_free() && grid != body;
+        if outside || apart {
+            let name = face.name;
+            let message = if outside {
+                format!(
+                    "the body's {name} face at {body} is outside the grid, which ends at {grid}"
+                )
+            } else {
+                let verb = face.hold.verb();
+                format!("the {name} face at {body} {verb}, but the grid ends at {grid}")
+            };
+            let at = path.then("grid").then(key).then(face.axis);
+            let beyond = if face.high { "at least" } else { "at most" };
+            let label = if apart { "exactly" } else { beyond };
+            let label = format!("expected {label} {}", shown(body));
+            return Err(binder.complain(&at, &message).with_label(&label));
         }
     }
     Ok(())

@@ -7,14 +7,14 @@ use super::{
     law,
     method::Method,
     methods::methods,
-    model::{Against, Case, ConvergencePlan},
+    model::{Against, Case, ConvergencePlan, SceneFace},
     path::Path,
     wording::shown,
     words::{ConvergenceWords, EquationName, MethodWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };
 use crate::{
-    mpm::{MassName, combine},
+    mpm::{FrameName, MassName, combine},
     verify::Axis,
 };
 
@@ -175,6 +175,13 @@ fn possible(
                            driven";
             Err(binder.complain(&path.then("mpm").then("mass"), message))
         }
+        MethodWords::Mpm { frame: Some(frame), .. }
+            if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
+        {
+            let message = "a total-Lagrangian body stays in its reference place, and the periodic \
+                           grid is not as long";
+            Err(binder.complain(&path.then("mpm").then("frame"), message))
+        }
         MethodWords::Fem { .. } if plan.refine.axis == Axis::Particles => {
             Err(binder.complain(path, "particles per cell are refined, and an FEM has none"))
         }
@@ -187,6 +194,16 @@ fn possible(
 
 fn driven(plan: &ConvergencePlan) -> bool {
     plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Velocity(_)))
+}
+
+/// Whether a period of the grid is not that of the body's reference place.
+fn stretched(plan: &ConvergencePlan) -> bool {
+    let scene = &plan.scene;
+    let apart = |face: &SceneFace| {
+        let length = scene.to[face.axis] - scene.from[face.axis];
+        (scene.period(face.axis) - length).abs() > 1e-12 * length
+    };
+    scene.faces.iter().any(|face| matches!(face.hold, Hold::Periodic) && apart(face))
 }
 
 /// The law of an FEM case that names none: that of the scene's material. Where there is none, such

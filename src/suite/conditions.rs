@@ -19,7 +19,7 @@ pub(super) fn side(face: &SceneFace) -> Side {
 
 /// Whether an axis has no end. A round body has no faces.
 pub(super) fn periodic(scene: &Scene, axis: usize) -> bool {
-    scene.faces.iter().any(|face| face.axis == axis && matches!(face.hold, Hold::Periodic))
+    scene.faces.get(2 * axis).is_some_and(|face| matches!(face.hold, Hold::Periodic))
 }
 
 /// What is held on the faces of the grid. Where faces meet, a fixed one wins over a roller, and

@@ -234,4 +234,10 @@ impl Scene {
     pub fn dimension(&self) -> usize {
         self.from.len()
     }
+
+    /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
+    pub fn period(&self, axis: usize) -> f64 {
+        let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
+        to[axis] - from[axis]
+    }
 }

@@ -68,7 +68,7 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         add_load(binder, &path.then("loads").then(i), load, &mut scene)?;
     }
     sets::refuse_idle(binder, &path, &scene.sets)?;
-    grid_holds_body(binder, &path, &scene)?;
+    body::on_grid(binder, &path, &scene)?;
     if let Some(round) = &scene.round {
         body::fits(binder, &path, round, scene.grid.as_ref())?;
     }
@@ -206,38 +206,6 @@ fn add_load(
             let set = sets::free(binder, &path.then("on"), on, &mut scene.sets)?;
             let variables = coordinates_and_time(d);
             set.velocity = Some(binder.vector(&path.then("value"), value, d, &variables)?);
-        }
-    }
-    Ok(())
-}
-
-/// The grid must reach over the body, and a face that is held must lie on the grid's own face: its
-/// nodes are what is held, and a periodic axis ends there.
-fn grid_holds_body(binder: &Binder<'_>, path: &Path, scene: &Scene) -> Result<(), Complaint> {
-    let Some((from, to)) = &scene.grid else { return Ok(()) };
-    for face in &scene.faces {
-        let (body, grid, key) = if face.high {
-            (scene.to[face.axis], to[face.axis], "to")
-        } else {
-            (scene.from[face.axis], from[face.axis], "from")
-        };
-        let outside = if face.high { grid < body } else { grid > body };
-        let apart = !face.hold.is_free() && grid != body;
-        if outside || apart {
-            let name = face.name;
-            let message = if outside {
-                format!(
-                    "the body's {name} face at {body} is outside the grid, which ends at {grid}"
-                )
-            } else {
-                let verb = face.hold.verb();
-                format!("the {name} face at {body} {verb}, but the grid ends at {grid}")
-            };
-            let at = path.then("grid").then(key).then(face.axis);
-            let beyond = if face.high { "at least" } else { "at most" };
-            let label = if apart { "exactly" } else { beyond };
-            let label = format!("expected {label} {}", shown(body));
-            return Err(binder.complain(&at, &message).with_label(&label));
         }
     }
     Ok(())

@@ -4,6 +4,7 @@ use super::{
     binder::Binder,
     dispatch::is_vacant,
     extent::{cell_size, grid_axis, per_axis},
+    hold::Hold,
     model::{ConvergencePlan, Scene},
     path::Path,
     plan::LevelPlan,
@@ -81,7 +82,8 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
-/// The nodes that are held lie on the last face of the grid, which must be that of the body.
+/// The nodes that are held lie on the last face of the grid, which must be that of the body; a
+/// periodic grid must end where it was told to.
 fn held_faces(
     binder: &Binder<'_>,
     path: &Path,
@@ -91,7 +93,11 @@ fn held_faces(
     let h = cell_size(scene, cells);
     for face in scene.faces.iter().filter(|face| !face.hold.is_free() && face.high) {
         let (origin, along) = grid_axis(scene, face.axis, h);
-        let (end, body) = (origin + along * h, scene.to[face.axis]);
+        let end = origin + along * h;
+        let body = match (&face.hold, &scene.grid) {
+            (Hold::Periodic, Some((_, to))) => to[face.axis],
+            _ => scene.to[face.axis],
+        };
         if (end - body).abs() > ROUNDING * h {
             let (name, verb, h, end) = (face.name, face.hold.verb(), shown(h), shown(end));
             let message = format!(

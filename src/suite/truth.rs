@@ -154,7 +154,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         damping: scene.damping.clone(),
         at_rest: false,
         manufactured: false,
-        faces: scene.faces.iter().map(face).collect(),
+        faces: scene.faces.iter().map(|words| face(scene, words)).collect(),
         regions: scene.sets.clone(),
         follows_motion: law::manufactured(&scene.material).is_ok(),
         initial_displacement: scene.initial_displacement.clone(),
@@ -209,12 +209,12 @@ fn tolerance(
     Err(binder.complain(&path, &message).with_label("expected at most 1e-2"))
 }
 
-fn face(face: &SceneFace) -> Face {
+fn face(scene: &Scene, face: &SceneFace) -> Face {
     let condition = match (&face.hold, &face.traction) {
         (Hold::Fixed, _) => Condition::Fixed,
         (Hold::Roller, _) => Condition::Roller,
         (Hold::Velocity(value), _) => Condition::Velocity(value.clone()),
-        (Hold::Periodic, _) => Condition::Periodic,
+        (Hold::Periodic, _) => Condition::Periodic(scene.period(face.axis)),
         (Hold::Free, Some(value)) => Condition::Traction(value.clone()),
         (Hold::Free, None) => Condition::Free,
     };

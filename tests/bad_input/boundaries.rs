@@ -114,9 +114,9 @@ fn sound(#[case] text: &str, #[case] edits: Edits<'_>) {
     &["the right face is periodic, and the left face is fixed"]
 )]
 #[case::a_grid_that_goes_on_behind_a_periodic_face(
-    RING,
-    &[("  material", "  grid: {from: [0], to: [▸1.2]}\n  material")],
-    &["the right face at 1 is periodic, but the grid ends at 1.2", "expected exactly 1"]
+    PLATE,
+    &[("{left: fixed}", "{left: fixed, bottom: periodic, top: periodic}"), ("  material", "  grid: {from: [0, 0], to: [1, ▸1]}\n  material")],
+    &["the top face at 0.5 is periodic, but the grid ends at 1", "expected exactly 0.5"]
 )]
 #[case::cells_that_do_not_fit_between_periodic_faces(
     PLATE,
@@ -194,7 +194,7 @@ fn a_scene_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[
 #[case::a_motion_that_is_not_periodic(
     RING,
     &[("[\"A*sin(2*pi*X)", "[▸\"A*sin(1.5*pi*X)")],
-    &["boundary condition: left is periodic, u_X as on the opposite face, is violated"]
+    &["boundary condition: left is periodic, x_X one period away from the opposite face, is violated"]
 )]
 #[case::a_motion_with_a_kink_at_the_seam(
     RING,

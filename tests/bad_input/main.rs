@@ -11,6 +11,7 @@ mod formulas;
 mod grammar;
 mod materials;
 mod numbers;
+mod periods;
 mod quantities;
 mod random;
 mod refinement;

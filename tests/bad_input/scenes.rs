@@ -55,7 +55,7 @@ use rstest::rstest;
         ("suite: bar", "▸suite: bar"),
         ("exact:\n  equation: small_strain\n  displacement: [\"v0/omega*mode(X)*sin(omega*t)\"]\n", ""),
     ],
-    &["no truth: a convergence study needs `exact`, `manufactured` or `reference`"]
+    &["no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or `reference`"]
 )]
 #[case::a_formula_for_another_equation(
     &[("small_strain", "▸log_strain")],

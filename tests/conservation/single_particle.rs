@@ -7,8 +7,8 @@
 use crate::common::H;
 use mpm_verify::{
     mpm::{
-        BasisName, Block, FrameName, LinearElastic, MassName, Particles, SchemeName, Setup, Solver,
-        TransferName, Vector, kernel, mass_matrix, transfer,
+        BasisName, Block, Fixed, FrameName, Hencky, LinearElastic, MassName, Particles, SchemeName,
+        Setup, Side, Solver, TransferName, Vector, kernel, mass_matrix, transfer,
     },
     subject::{Start, Subject},
 };
@@ -116,5 +116,50 @@ fn usl_is_neutral_at_its_courant_limit() {
     for xi in [0.1, 0.25, 0.5, 0.9] {
         let limit = libm::sqrt(2.0 * xi * (1.0 - xi));
         assert!((ratio(SchemeName::Usl, xi, 0.1, limit, 1) + 1.0).abs() <= 1e-13, "xi = {xi}");
+    }
+}
+
+/// One particle in the middle of one cell, whose left node is fixed: the velocity of the right node
+/// is that of the particle, `x' / x = eps' = v / L`, and a law with `sigma V = E eps V0` (Hencky's)
+/// gives `v = v0 cos(w t)`, `x = x0 exp(v0/(L w) sin(w t))`, `w = sqrt(E/rho)/L`.
+fn swinging(scheme: SchemeName, start: Start, steps: u32) -> f64 {
+    let (length, speed, until) = (1.0, 0.8, 1.0);
+    let block =
+        Block { from: Vector::<1>::zeros(), to: Vector::<1>::new(length), density: DENSITY };
+    let mut particles = Particles::fill(&block, length, 1);
+    particles.v[0][0] = speed;
+    let kernel = kernel(BasisName::Linear);
+    let grid = kernel.grid(Vector::zeros(), length, [1], [false]);
+    let setup = Setup {
+        boundary: vec![Box::new(Fixed::face(&grid, 0, Side::Low))],
+        grid,
+        particles,
+        kernel,
+        transfer: transfer(TransferName::Flip),
+        mass: mass_matrix(MassName::Lumped),
+        frame: FrameName::Updated,
+        material: Box::new(Hencky::new(YOUNG, 0.0)),
+        effects: Vec::new(),
+        scheme,
+        start,
+    };
+    let mut solver = Solver::new(setup).unwrap();
+    (0..steps).for_each(|_| solver.step(until / f64::from(steps)).unwrap());
+    let w = libm::sqrt(YOUNG / DENSITY) / length;
+    let exact = 0.5 * length * libm::exp(speed / (length * w) * libm::sin(w * until));
+    solver.particles().x[0][0] - exact
+}
+
+/// F grows by `1 + dt v/L` where the solution grows by the exponential: order 1, and no start of the
+/// velocity mends that.
+#[test]
+fn a_particle_on_a_spring_of_one_cell_follows_the_closed_form_with_order_1() {
+    for scheme in [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl] {
+        for start in [Start::AtZero, Start::HalfStepBack] {
+            let [coarse, fine] = [2000, 4000].map(|steps| swinging(scheme, start, steps));
+            let order = libm::log2(coarse / fine);
+            assert!((order - 1.0).abs() <= 0.02, "{scheme:?} {start:?}: {coarse:e}, {fine:e}");
+            assert!(fine.abs() <= 3e-4, "{scheme:?} {start:?}: {fine:e}");
+        }
     }
 }

@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Sub};
 
 /// The particles that a cell holds.
 pub(super) struct Fit<'a, const D: usize> {
-    /// Positions of all particles (m).
+    /// Positions of all particles (m), inside the grid on periodic axes.
     pub(super) x: &'a [Vector<D>],
     /// Those in the cell, at least one.
     pub(super) members: &'a [usize],
@@ -39,26 +39,32 @@ impl<const D: usize> Fit<'_, D> {
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
     {
         let share = 1.0 / self.members.len() as f64;
-        let (mut mean, mut middle) = (value(self.members[0]) * 0.0, Vector::zeros());
-        for &p in self.members {
-            mean = mean + value(p) * share;
-            middle += self.x[p] * share;
-        }
-        self.sloped(spot, &middle, mean, value)
+        let nothing = value(self.members[0]) * 0.0;
+        let mean = self.members.iter().fold(nothing, |sum, &p| sum + value(p) * share);
+        self.sloped(spot, &self.middle(), mean, value)
+    }
+
+    fn middle(&self) -> Vector<D> {
+        let share = 1.0 / self.members.len() as f64;
+        self.members.iter().map(|&p| self.x[p] * share).sum()
+    }
+
+    /// Second moments of the particles (m^2).
+    fn second(&self, about: &Vector<D>) -> Matrix<D> {
+        let arm = |p: usize| self.x[p] - about;
+        self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
     }
 
     /// `mean + g . (x - about)` with the slope g that fits best; no slope where the particles do not
-    /// span all axes.
+    /// span all axes among themselves. Through the mean of a cell and a row of particles there would
+    /// be one too, as steep as the row is near to the centre, and masses of nodes below zero.
     fn sloped<T>(&self, spot: &Spot<D>, about: &Vector<D>, mean: T, value: impl Fn(usize) -> T) -> T
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
     {
-        let mut second = Matrix::zeros();
-        for &p in self.members {
-            let r = self.x[p] - about;
-            second += dyad(&r, &r);
-        }
-        let Some(inverse) = spanned(&second, spot.smallest) else { return mean };
+        let inverse = spanned(&self.second(&self.middle()), spot.smallest)
+            .and_then(|_| spanned(&self.second(about), spot.smallest));
+        let Some(inverse) = inverse else { return mean };
         let reach = inverse * (spot.x - about);
         self.members
             .iter()
@@ -66,7 +72,7 @@ impl<const D: usize> Fit<'_, D> {
     }
 }
 
-/// The inverse of the second moments, if every axis has one.
+/// The inverse of second moments, if every axis has one.
 fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
     let spans = |axis: usize| second[(axis, axis)] > smallest;
     (0..D).all(spans).then(|| second.try_inverse()).flatten()

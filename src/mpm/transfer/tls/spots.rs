@@ -33,6 +33,8 @@ pub(super) struct Spot<const D: usize> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Spots<const D: usize> {
     all: Vec<Spot<D>>,
+    /// Position of each particle (m), inside the grid on periodic axes.
+    x: Vec<Vector<D>>,
     /// Cell of each particle.
     cell: Vec<usize>,
     /// Particles, cell after cell.
@@ -47,6 +49,7 @@ impl<const D: usize> Spots<D> {
         let cells: usize = grid.cells.iter().product();
         let most = particles.len().min(cells) * RULE.len().pow(D as u32) + particles.len();
         self.all.reserve(most);
+        self.x.resize(particles.len(), Vector::zeros());
         self.cell.resize(particles.len(), 0);
         self.order.resize(particles.len(), 0);
         self.first.resize(cells + 2, 0);
@@ -56,6 +59,11 @@ impl<const D: usize> Spots<D> {
     /// The spots.
     pub(super) fn all(&self) -> &[Spot<D>] {
         &self.all
+    }
+
+    /// Positions of all particles (m), inside the grid on periodic axes.
+    pub(super) fn x(&self) -> &[Vector<D>] {
+        &self.x
     }
 
     /// The particles in the cell of `spot`.
@@ -100,7 +108,12 @@ impl<const D: usize> Spots<D> {
     fn sort(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let cells: usize = grid.cells.iter().product();
         self.first.fill(0);
-        for (cell, x) in self.cell.iter_mut().zip(&particles.x) {
+        for ((cell, inside), x) in self.cell.iter_mut().zip(&mut self.x).zip(&particles.x) {
+            *inside = Vector::from_fn(|axis, _| {
+                // Not moved on other axes, not even by rounding.
+                let turns = if grid.periodic[axis] { grid.turns(x, axis) } else { 0.0 };
+                x[axis] - turns * grid.cells[axis] as f64 * grid.h
+            });
             *cell = grid.cell(x).map_or(cells, |index| fold(&index, &grid.cells));
             self.first[*cell + 1] += 1;
         }
