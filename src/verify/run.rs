@@ -195,3 +195,62 @@ fn fastest(samples: &Samples) -> f64 {
 pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
     errors_of(Quantity::Displacement, samples, truth, t)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// One label whose speed goes up and down while its displacement fades.
+    struct Swing(f64);
+
+    impl Subject for Swing {
+        fn step(&mut self, dt: f64) -> Result<(), Failure> {
+            self.0 += dt;
+            Ok(())
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            samples.clear();
+            samples.dimension = 1;
+            samples.label.push(0.0);
+            samples.weight.push(1.0);
+            samples.displacement.push(1.0 / (1.0 + self.0));
+            samples.velocity.push(libm::cos(self.0));
+        }
+
+        fn census(&self) -> Census {
+            let (particles, crossings, left_domain) = (None, None, None);
+            Census { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
+        }
+    }
+
+    struct Rest;
+
+    impl Truth for Rest {
+        fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+
+        fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+    }
+
+    /// It ends where cos t = 0, and errors of the way there do not count.
+    #[test]
+    fn a_body_that_turns_is_not_at_rest() {
+        let until = 2.5 * std::f64::consts::PI;
+        let clock = Clock::new(until, until / 100.0, 100).unwrap();
+        let comparison = Comparison { at_rest: Some(2.0), ..Comparison::default() };
+        let found = run(&mut Swing(0.0), &Rest, &clock, &comparison);
+        assert_relative_eq!(
+            found.unrest.unwrap(),
+            libm::cos(0.9 * until) / 2.0,
+            max_relative = 1e-9
+        );
+        assert_relative_eq!(found.max_rms, 1.0 / (1.0 + until), max_relative = 1e-12);
+        let moving = run(&mut Swing(0.0), &Rest, &clock, &Comparison::default());
+        assert_eq!((moving.unrest, moving.max_rms > 0.9), (None, true));
+    }
+}

@@ -19,7 +19,7 @@ const CASE: [&str; 13] = [
     "forces",
 ];
 
-const LEVEL: [&str; 16] = [
+const LEVEL: [&str; 17] = [
     "cells",
     "h",
     "spacing",
@@ -34,6 +34,7 @@ const LEVEL: [&str; 16] = [
     "errors",
     "judged",
     "drift",
+    "unrest",
     "order",
     "failure",
 ];
