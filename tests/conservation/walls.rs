@@ -1,8 +1,8 @@
 //! Bodies between walls, and on axes that have none.
 
 use crate::{
-    common::{DT, H, free_body, in_dimension, methods},
-    conservative,
+    common::{DT, H, free_body, in_dimension},
+    conservative, some,
 };
 use mpm_verify::{
     mpm::{
@@ -43,7 +43,7 @@ fn momentum<const D: usize>(solver: &Solver<D>) -> Vector<D> {
 }
 
 fn nothing_is_lost_around_the_corner<const D: usize>(scheme: SchemeName, start: Start) {
-    for method in conservative() {
+    for method in conservative(D) {
         let setup = Setup { start, ..full::<D>(method, scheme, false) };
         let mut solver = Solver::new(setup).unwrap();
         let before = momentum(&solver);
@@ -68,7 +68,7 @@ fn a_periodic_body_keeps_mass_and_momentum(
 
 /// The walls take momentum along their normal, and none along themselves.
 fn slides<const D: usize>(scheme: SchemeName) {
-    for method in conservative() {
+    for method in conservative(D) {
         let mut setup = full::<D>(method, scheme, true);
         setup.particles.v.iter_mut().for_each(|v| v[D - 1] *= 0.1);
         for side in [Side::Low, Side::High] {
@@ -115,7 +115,7 @@ fn far<const D: usize>(solver: &Solver<D>, steps: usize, p: usize) -> f64 {
 /// A layer of one cell between two walls that swing along themselves: every node is driven.
 fn follows<const D: usize>(scheme: SchemeName, start: Start) {
     let bases = [BasisName::Linear, BasisName::UniformGimp, BasisName::ContiguousGimp];
-    for method in methods().filter(|(basis, _)| bases.contains(basis)) {
+    for method in some(D).filter(|(basis, _)| bases.contains(basis)) {
         let mut setup = full::<D>(method, scheme, true);
         let (from, mut to) = (Vector::zeros(), Vector::from_element(H * CELLS as f64));
         let (mut cells, periodic) = ([CELLS; D], std::array::from_fn(|axis| axis < D - 1));
@@ -153,7 +153,7 @@ fn a_layer_between_driven_walls_follows_them_in_every_scheme(
 /// have the velocity of the right time.
 fn falls_with_its_walls<const D: usize>(scheme: SchemeName) {
     let g = Vector::<D>::from_fn(|i, _| if i == D - 1 { 0.0 } else { 2.0 });
-    for method in methods() {
+    for method in some(D) {
         let mut setup = full::<D>(method, scheme, true);
         setup.particles.sigma.fill(Matrix::zeros());
         setup.particles.v.fill(g * 0.1);
@@ -200,7 +200,7 @@ fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
 
 /// The particles of a set go where they are driven, whatever the rest of the body does.
 fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
-    for method in methods() {
+    for method in some(D) {
         let mut setup = Setup { start, ..free_body::<D>(method, scheme) };
         let members = [0, 1, 3];
         setup.effects.push(Box::new(Driven::on(&setup.particles, &members, swing())));
@@ -226,7 +226,7 @@ fn a_driven_set_goes_its_way(
 
 fn impulse_arrives<const D: usize>(scheme: SchemeName) {
     let force = |t: f64| Vector::<D>::from_fn(|i, _| 1e-3 * (1.0 + t + i as f64));
-    for method in conservative() {
+    for method in conservative(D) {
         let mut setup = free_body::<D>(method, scheme);
         let members: Vec<usize> = (0..setup.particles.len()).filter(|p| p % 3 == 1).collect();
         setup.effects.push(Box::new(SetForce::on(&setup.particles, &members, Box::new(force))));
