@@ -4,7 +4,7 @@ use super::{
     basis::{BasisName, Domain, with_basis},
     frame::FrameName,
     mass::MassName,
-    transfer::TransferName,
+    transfer::{Kind, TransferName},
 };
 
 /// Refuses a combination that means nothing.
@@ -18,13 +18,14 @@ pub fn combine(
     frame: FrameName,
 ) -> Result<(), String> {
     let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
-    if transfer == TransferName::Mls && basis == BasisName::Linear {
+    let kind = transfer.kind();
+    if kind == Kind::Fit && basis == BasisName::Linear {
         return Err(format!(
             "the transfer `{t}` needs the inertia tensor of the weights, which the basis `{b}` does \
              not have on its nodes"
         ));
     }
-    if mass == MassName::Consistent && transfer.approximates_mass() {
+    if mass == MassName::Consistent && kind == Kind::Series {
         return Err(format!(
             "the transfer `{t}` stands in for a consistent mass matrix by powers of the lumped one, \
              and the mass matrix is `{m}`"
@@ -32,24 +33,24 @@ pub fn combine(
     }
     // A linear field reaches node i as m_i v(x_i): the lumped matrix times nodal velocities, which
     // a consistent one would amplify.
-    if mass == MassName::Consistent && transfer.is_affine() {
+    if mass == MassName::Consistent && matches!(kind, Kind::Field | Kind::Fit) {
         return Err(format!(
             "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
              matrix is `{m}`"
         ));
     }
-    if transfer == TransferName::Tls && domain(basis) != Domain::Point {
+    if kind == Kind::Cells && domain(basis) != Domain::Point {
         return Err(format!(
             "the transfer `{t}` integrates over cells, and the basis `{b}` over the domains of \
              particles"
         ));
     }
-    if transfer == TransferName::Tls && frame == FrameName::Total {
+    if kind == Kind::Cells && frame == FrameName::Total {
         return Err(format!(
             "the transfer `{t}` fits Cauchy stresses, and the frame `{f}` has none"
         ));
     }
-    if transfer == TransferName::Tls && mass == MassName::Consistent {
+    if kind == Kind::Cells && mass == MassName::Consistent {
         return Err(format!(
             "the transfer `{t}` integrates mass over cells, and the mass matrix `{m}` sums it over \
              particles"

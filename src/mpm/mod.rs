@@ -58,5 +58,5 @@ pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
-    Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferName, Xpic, transfer,
+    Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Tls, Tpic, Transfer, TransferName, Xpic, transfer,
 };

@@ -6,7 +6,7 @@
 //! that of the new position: on the linear basis, whose D changes within a cell, carrying
 //! C = B D^-1 would lose angular momentum.
 
-use super::contract::{Transfer, add_acceleration, mix_velocity};
+use super::contract::{Kind, Transfer, add_acceleration, mix_velocity};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     boundary::Boundary,
@@ -28,6 +28,10 @@ pub struct Apic<const D: usize> {
 }
 
 impl<const D: usize> Transfer<D> for Apic<D> {
+    fn kind(&self) -> Kind {
+        Kind::Field
+    }
+
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.moments.resize(particles.len());
         kernel.moments(grid, particles, &mut self.moments);

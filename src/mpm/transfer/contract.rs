@@ -8,12 +8,32 @@ use crate::mpm::{
     particles::Particles,
 };
 
+/// What a transfer is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Particles carry a velocity.
+    Velocity,
+    /// They carry an affine velocity field.
+    Field,
+    /// They do, and gradients come from its fit rather than from the basis.
+    Fit,
+    /// A series in the lumped mass matrix.
+    Series,
+    /// Fields that are reconstructed in cells.
+    Cells,
+}
+
 /// How particles give their velocity to nodes and take it back: stages made of the passes of a
 /// [`Kernel`]. Each method returns how many passes over the particles it took, for the work
 /// counter. A method that is not overridden does what the original MPM does.
 ///
 /// A transfer keeps the columns that only it needs.
 pub trait Transfer<const D: usize>: Send + Sync {
+    /// What the transfer is made of, which decides what it goes with.
+    fn kind(&self) -> Kind {
+        Kind::Velocity
+    }
+
     /// Prepares for these particles, whose `grad_v` holds the gradient of their initial velocity.
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 

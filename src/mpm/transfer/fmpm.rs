@@ -5,7 +5,7 @@
 //! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved so; particles then
 //! take the grid's velocity. FMPM(1) is PIC.
 
-use super::contract::{Transfer, mix_velocity};
+use super::contract::{Kind, Transfer, mix_velocity};
 use crate::mpm::{
     algebra::Vector,
     boundary::Boundary,
@@ -31,6 +31,10 @@ impl<const D: usize> Fmpm<D> {
 }
 
 impl<const D: usize> Transfer<D> for Fmpm<D> {
+    fn kind(&self) -> Kind {
+        Kind::Series
+    }
+
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.seen.resize(particles.len(), Vector::zeros());
         self.rest.resize(grid.nodes(), Vector::zeros());

@@ -3,7 +3,10 @@
 //! `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - x_p) N_i` and `grad v_p = C_p = B_p D_p^-1` (Hu et
 //! al. 2018, eqs 17-18): grad N_i is never asked for.
 
-use super::{apic::Apic, contract::Transfer};
+use super::{
+    apic::Apic,
+    contract::{Kind, Transfer},
+};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     boundary::Boundary,
@@ -19,6 +22,10 @@ pub struct Mls<const D: usize> {
 }
 
 impl<const D: usize> Transfer<D> for Mls<D> {
+    fn kind(&self) -> Kind {
+        Kind::Fit
+    }
+
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.apic.start(kernel, grid, particles);
     }

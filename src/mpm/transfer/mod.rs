@@ -14,7 +14,7 @@ mod xpic;
 
 pub use apic::Apic;
 pub use blend::Blend;
-pub use contract::Transfer;
+pub use contract::{Kind, Transfer};
 pub use flip::Flip;
 pub use fmpm::Fmpm;
 pub use mls::Mls;
@@ -45,13 +45,9 @@ objects! {
 }
 
 impl TransferName {
-    /// Whether the transfer is a series in the lumped mass matrix.
-    pub fn approximates_mass(self) -> bool {
-        matches!(self, Self::Xpic2 | Self::Xpic5 | Self::Fmpm2 | Self::Fmpm4)
-    }
-
-    /// Whether particles carry an affine velocity field.
-    pub fn is_affine(self) -> bool {
-        matches!(self, Self::Apic | Self::Mls | Self::Tpic)
+    /// What the transfer is made of.
+    pub fn kind(self) -> Kind {
+        // The same in every dimension.
+        transfer::<1>(self).kind()
     }
 }

@@ -4,7 +4,7 @@
 //! `v_p + C_p (x_i - x_p)` (Nakamura, Matsumura & Mizutani 2023, CMAME 411). No inertia tensor is
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
-use super::contract::{Transfer, add_acceleration, mix_velocity};
+use super::contract::{Kind, Transfer, add_acceleration, mix_velocity};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     boundary::Boundary,
@@ -23,6 +23,10 @@ pub struct Tpic<const D: usize> {
 }
 
 impl<const D: usize> Transfer<D> for Tpic<D> {
+    fn kind(&self) -> Kind {
+        Kind::Field
+    }
+
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.moments.resize(particles.len());
         kernel.moments(grid, particles, &mut self.moments);

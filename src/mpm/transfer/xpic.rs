@@ -6,7 +6,7 @@
 //! l is multiplied by 1 - (1 - l)^m. The filter knows no walls, which may be driven; walls act
 //! through the accelerations.
 
-use super::contract::{Transfer, add_acceleration};
+use super::contract::{Kind, Transfer, add_acceleration};
 use crate::mpm::{
     algebra::Vector,
     boundary::Boundary,
@@ -31,6 +31,10 @@ impl<const D: usize> Xpic<D> {
 }
 
 impl<const D: usize> Transfer<D> for Xpic<D> {
+    fn kind(&self) -> Kind {
+        Kind::Series
+    }
+
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.rest.resize(particles.len(), Vector::zeros());
         self.nodal.resize(grid.nodes(), Vector::zeros());

@@ -13,7 +13,7 @@ use self::{
     fit::Fit,
     spots::{Spot, Spots},
 };
-use super::contract::{Transfer, add_acceleration};
+use super::contract::{Kind, Transfer, add_acceleration};
 use crate::mpm::{
     algebra::Vector,
     boundary::Boundary,
@@ -65,6 +65,10 @@ impl<const D: usize> Tls<D> {
 }
 
 impl<const D: usize> Transfer<D> for Tls<D> {
+    fn kind(&self) -> Kind {
+        Kind::Cells
+    }
+
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         let most = self.spots.start(grid, particles);
         let mut points = particles.clone();
