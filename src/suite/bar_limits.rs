@@ -1,12 +1,7 @@
 //! What the FEM bar cannot do: refused before anything runs.
 
 use super::{
-    binder::Binder,
-    hold::Hold,
-    model::Scene,
-    path::Path,
-    words::{ConvergenceWords, MethodWords},
-    yaml::Complaint,
+    binder::Binder, hold::Hold, model::Scene, path::Path, words::ConvergenceWords, yaml::Complaint,
 };
 
 /// Refuses conditions that the bar does not know, if the suite asks for one.
@@ -15,8 +10,7 @@ pub(super) fn check(
     words: &ConvergenceWords,
     scene: &Scene,
 ) -> Result<(), Complaint> {
-    let is_bar = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
-    if !words.has_fem_reference() && !words.methods.iter().any(is_bar) {
+    if !words.has_fem_reference() && words.fem_method().is_none() {
         return Ok(());
     }
     let path = Path::top("scene");

@@ -1,11 +1,7 @@
 //! Whether what a suite judges is there to be compared: in every subject, and in every truth.
 
 use super::{
-    binder::Binder,
-    method::Method,
-    model::ConvergencePlan,
-    path::Path,
-    words::{ConvergenceWords, MethodWords},
+    binder::Binder, method::Method, model::ConvergencePlan, path::Path, words::ConvergenceWords,
     yaml::Complaint,
 };
 use crate::verify::Limits;
@@ -25,8 +21,7 @@ pub(super) fn check(
         let message = format!("a reference has no {name} to compare with, which this suite judges");
         return Err(binder.complain_key(&Path::top("reference"), &message).with_help(help));
     }
-    let fem = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
-    match words.methods.iter().position(fem) {
+    match words.fem_method() {
         Some(i) => {
             let message = format!("the reference FEM gives no {name}, which this suite judges");
             let complaint = binder.complain(&Path::top("methods").then(i), &message);

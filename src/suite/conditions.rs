@@ -83,7 +83,7 @@ pub(super) fn of_time<const D: usize>(
 }
 
 /// Formulas of the coordinates and t, one for each component.
-fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> VelocityField<D> {
+pub(super) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> VelocityField<D> {
     let formulas = formulas.to_vec();
     Box::new(move |x: &Vector<D>, t| {
         let mut variables = [0.0; 4];

@@ -5,7 +5,7 @@ use super::{
     model::Scene,
     path::Path,
     wording::shown,
-    words::{ConvergenceWords, LoadWords, MethodWords},
+    words::{ConvergenceWords, LoadWords},
     yaml::Complaint,
 };
 
@@ -36,8 +36,7 @@ pub(super) fn check(
         let message = "the reference FEM has no damping, and the scene has";
         return Err(binder.complain_key(&Path::top("reference"), message));
     }
-    let fem = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
-    match words.methods.iter().position(fem) {
+    match words.fem_method() {
         Some(i) => {
             let message = "the reference FEM has no damping, and the scene has";
             Err(binder.complain(&Path::top("methods").then(i), message))

@@ -3,7 +3,7 @@
 
 use super::{
     bar::bar,
-    conditions::{boundary, of_time, on_sets, periodic, side},
+    conditions::{boundary, of_place_and_time, of_time, on_sets, periodic, side},
     extent::{cell_size, grid_axis, per_axis},
     filling,
     method::Method,
@@ -12,7 +12,7 @@ use super::{
     start::Initial,
 };
 use crate::{
-    exact::{Forcing, Problem, formula::Formula},
+    exact::{Forcing, Problem},
     mpm::{
         BodyForce, Damping, Effect, Gravity, Grid, Kernel, Particles, Solver, Traction, Vector,
         kernel,
@@ -91,13 +91,6 @@ fn mpm<const D: usize>(
     Ok(Box::new(solver))
 }
 
-fn at<const D: usize>(formulas: &[Formula], x0: &Vector<D>, t: f64) -> Vector<D> {
-    let mut variables = [0.0; 4];
-    variables[..D].copy_from_slice(x0.as_slice());
-    variables[D] = t;
-    Vector::from_fn(|i, _| formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=D])))
-}
-
 fn manufactured_force<const D: usize>(
     made: &Problem,
     particles: &Particles<D>,
@@ -121,8 +114,8 @@ fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<d
     if let Some(formulas) = &scene.gravity {
         effects.push(Box::new(Gravity(of_time(formulas))));
     }
-    if let Some(formulas) = scene.body_force.clone() {
-        effects.push(Box::new(BodyForce::pointwise(move |x0, t| at(&formulas, x0, t))));
+    if let Some(formulas) = &scene.body_force {
+        effects.push(Box::new(BodyForce::pointwise(of_place_and_time(formulas))));
     }
     if let Some(rate) = scene.damping.clone() {
         effects.push(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))));

@@ -9,7 +9,7 @@ use super::{
     model::Scene,
     path::Path,
     scene::COORDINATES,
-    words::{ConvergenceWords, ExactWords, MethodWords, NormName},
+    words::{ConvergenceWords, ExactWords, NormName},
     yaml::Complaint,
 };
 
@@ -45,8 +45,7 @@ pub(super) fn refuse(
         return Err(complaint.with_label("expected a norm at the end: rms, l1, l2 or linf"));
     }
     refuse_driven(binder, scene)?;
-    let fem = |method: &MethodWords| matches!(method, MethodWords::Fem { .. });
-    match words.methods.iter().position(fem) {
+    match words.fem_method() {
         Some(i) => {
             let message = "the reference FEM has no damping and does not come to rest";
             Err(binder.complain(&Path::top("methods").then(i), message))

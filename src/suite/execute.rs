@@ -222,5 +222,5 @@ fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'stati
 
 /// Largest magnitude; NaN if any value is.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| if (a + b).is_nan() { f64::NAN } else { a.max(b.abs()) })
+    values.map(f64::abs).fold(0.0, verify::larger)
 }

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::verify::{
     self, Axis, CaseOutcome, Claim, Convergence, Drift, Expectation, Floor, Interval, Judgement,
-    LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, judge,
+    LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, judge, larger,
 };
 
 /// The error that `plan` judges.
@@ -101,7 +101,6 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
     let counted = || levels.iter().filter(|level| level.usable);
     let errors = counted().map(|level| (level.error, level.error));
     let unrest: Option<Vec<f64>> = counted().map(|level| level.run.unrest).collect();
-    let larger = |a: f64, b: f64| if (a + b).is_nan() { f64::NAN } else { a.max(b) };
     let drifts: Option<Vec<Drift>> = counted().map(|level| level.run.drift).collect();
     Measured {
         errors: errors.reduce(|(least, most), (error, _)| {

@@ -19,17 +19,29 @@ pub(super) fn own(material: &MaterialPlan) -> Option<EquationName> {
     }
 }
 
+/// The equation of motion of a body of this material, if the truth has it.
+pub(super) fn equation(material: &MaterialPlan) -> Option<Equation> {
+    match *material {
+        MaterialPlan::LinearElastic { young, poisson } => {
+            Some(Equation::small_strain(young, poisson))
+        }
+        MaterialPlan::NeoHookean { young, poisson } => Some(Equation::neo_hookean(young, poisson)),
+        MaterialPlan::Hencky { young, poisson } => Some(Equation::hencky(young, poisson)),
+        MaterialPlan::J2 { .. } | MaterialPlan::Newtonian { .. } => None,
+    }
+}
+
 /// The equation that forces are manufactured with, or why there is none.
 pub(super) fn manufactured(material: &MaterialPlan) -> Result<Equation, &'static str> {
-    match *material {
-        MaterialPlan::NeoHookean { young, poisson } => Ok(Equation::neo_hookean(young, poisson)),
-        MaterialPlan::Hencky { young, poisson } => Ok(Equation::hencky(young, poisson)),
+    let reason = match material {
         MaterialPlan::LinearElastic { .. } => {
-            Err("a law in rate form has no stress of the deformation alone")
+            return Err("a law in rate form has no stress of the deformation alone");
         }
-        MaterialPlan::J2 { .. } => Err("plastic flow depends on the whole history of the motion"),
-        MaterialPlan::Newtonian { .. } => Err("viscous stress depends on the rate of deformation"),
-    }
+        MaterialPlan::J2 { .. } => "plastic flow depends on the whole history of the motion",
+        MaterialPlan::Newtonian { .. } => "viscous stress depends on the rate of deformation",
+        MaterialPlan::NeoHookean { .. } | MaterialPlan::Hencky { .. } => "",
+    };
+    equation(material).ok_or(reason)
 }
 
 /// Refuses an FEM bar, a method or the reference, of a material that it has no law for.

@@ -1,7 +1,6 @@
 //! The finest level once more, with the spacing of another axis halved: whose error is the floor?
 
 use super::{
-    judged::error_of,
     model::{Against, Case, ConvergencePlan},
     plan::LevelPlan,
     size,
@@ -41,11 +40,10 @@ pub(super) fn floor(
             Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many")),
             None => run(level).and_then(|outcome| match outcome.run.failure {
                 Some(reason) => Err(reason),
-                None => Ok(error_of(plan, &outcome.run)),
+                None => Ok(outcome.error),
             }),
         };
         Probe { axis, error }
     };
-    let error = error_of(plan, &finest.run);
-    Some(Floor { error, probes: others.into_par_iter().map(probe).collect() })
+    Some(Floor { error: finest.error, probes: others.into_par_iter().map(probe).collect() })
 }

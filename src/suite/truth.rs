@@ -11,10 +11,7 @@ use super::{
     words::{ConvergenceWords, EquationName, ExactWords},
     yaml::{Complaint, NumberText},
 };
-use crate::{
-    exact::{Condition, Equation, Face, Motion, Problem},
-    mpm::MaterialPlan,
-};
+use crate::exact::{Condition, Equation, Face, Motion, Problem};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 const TOLERANCE: f64 = 1e-8;
@@ -76,25 +73,25 @@ fn equation(
     name: EquationName,
     scene: &Scene,
 ) -> Result<Equation, Complaint> {
-    let (message, help) = match (name, &scene.material) {
-        (EquationName::SmallStrain, MaterialPlan::LinearElastic { young, poisson }) => {
-            return Ok(Equation::small_strain(*young, *poisson));
-        }
-        (EquationName::NeoHookean, MaterialPlan::NeoHookean { young, poisson }) => {
-            return Ok(Equation::neo_hookean(*young, *poisson));
-        }
-        (EquationName::Hencky, MaterialPlan::Hencky { young, poisson }) => {
-            return Ok(Equation::hencky(*young, *poisson));
-        }
-        (EquationName::LogStrain, _) => (
+    let known = law::equation(&scene.material);
+    if let Some(equation) = known.filter(|_| law::own(&scene.material) == Some(name)) {
+        return Ok(equation);
+    }
+    let (message, help) = if name == EquationName::LogStrain {
+        (
             "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only"
                 .to_owned(),
             "give other equations a `reference`",
-        ),
-        (name, material) => (
-            format!("`{}` is not the problem of a `{}` material", name.name(), material.name()),
+        )
+    } else {
+        (
+            format!(
+                "`{}` is not the problem of a `{}` material",
+                name.name(),
+                scene.material.name()
+            ),
             "a linear elastic material has `small_strain`, others have the equation of their name",
-        ),
+        )
     };
     Err(binder.complain(path, &message).with_help(help))
 }

@@ -57,6 +57,7 @@ pub use judge::{Judgement, judge};
 pub use level::Level;
 pub use limits::{Limits, Measured};
 pub use norm::Norms;
+pub(crate) use norm::larger;
 pub use observer::{History, displacement_at};
 pub use outcome::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
 pub use pairwise::observed_order;

@@ -83,7 +83,7 @@ fn length(error: &[f64]) -> f64 {
 }
 
 /// The larger of two lengths; NaN if either is (`f64::max` would drop it).
-pub(super) fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 

@@ -8,11 +8,13 @@ pub trait Effect<const D: usize>: Send {
     /// Returns the particle-node pairs visited.
     fn add_force(
         &mut self,
-        t: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64;
+        _t: f64,
+        _particles: &Particles<D>,
+        _kernel: &dyn Kernel<D>,
+        _grid: &mut Grid<D>,
+    ) -> u64 {
+        0
+    }
 
     /// Gives particles a velocity that is not the grid's; `t` (s) is the time that velocities stand
     /// for, and `dt` (s) what they have advanced by. Called whenever velocities have been taken from

@@ -11,16 +11,12 @@
 //! damped velocities.
 
 use super::contract::Effect;
-use crate::mpm::{grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::particles::Particles;
 
 /// A rate of damping alpha(t) (1/s).
 pub struct Damping(pub Box<dyn Fn(f64) -> f64 + Send>);
 
 impl<const D: usize> Effect<D> for Damping {
-    fn add_force(&mut self, _: f64, _: &Particles<D>, _: &dyn Kernel<D>, _: &mut Grid<D>) -> u64 {
-        0
-    }
-
     fn drive_velocity(&self, t: f64, dt: f64, particles: &mut Particles<D>) {
         let factor = libm::exp(-(self.0)(t - 0.5 * dt) * dt);
         for v in &mut particles.v {

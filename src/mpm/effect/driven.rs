@@ -8,8 +8,6 @@ use super::contract::Effect;
 use crate::mpm::{
     algebra::Vector,
     boundary::{VelocityField, continued},
-    grid::Grid,
-    kernel::Kernel,
     particles::Particles,
 };
 
@@ -28,10 +26,6 @@ impl<const D: usize> Driven<D> {
 }
 
 impl<const D: usize> Effect<D> for Driven<D> {
-    fn add_force(&mut self, _: f64, _: &Particles<D>, _: &dyn Kernel<D>, _: &mut Grid<D>) -> u64 {
-        0
-    }
-
     fn drive_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {
         for (p, _) in &self.members {
             particles.v[*p] = continued(&self.value, &particles.x0[*p], t);

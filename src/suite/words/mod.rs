@@ -76,6 +76,11 @@ pub(in crate::suite) struct ConvergenceWords {
 }
 
 impl ConvergenceWords {
+    /// Number of the first entry of `methods` that is an FEM.
+    pub(in crate::suite) fn fem_method(&self) -> Option<usize> {
+        self.methods.iter().position(|method| matches!(method, MethodWords::Fem { .. }))
+    }
+
     /// Whether a fine FEM computation is asked for.
     pub(in crate::suite) fn has_fem_reference(&self) -> bool {
         self.reference.as_ref().is_some_and(|reference| reference.fem.is_some())
