@@ -22,8 +22,9 @@ pub(super) enum Command {
     List(Targets),
     /// Validate suites without running them: grammar, formulas, and the truth itself
     Check(Targets),
-    /// Print the problem of a suite, its source, and what is expected
-    Explain(Targets),
+    /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
+    /// memory), and what is expected
+    Explain(ExplainArgs),
 }
 
 #[derive(Debug, Args)]
@@ -32,6 +33,15 @@ pub(super) struct Targets {
     /// built-in suites where there is no such folder
     #[arg(value_name = "FILE|FOLDER|NAME")]
     pub(super) targets: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Say what a step would no longer take without this effect of the scene
+    #[arg(long, value_name = "EFFECT")]
+    pub(super) without: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,7 @@
 //! `mpm-verify`: run, list, check and explain suites.
 
 mod args;
+mod explain;
 mod output;
 mod run;
 mod select;
@@ -19,7 +20,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::List(args)) => show::list(&args.targets),
         Some(Command::Check(args)) => show::check(&args.targets),
-        Some(Command::Explain(args)) => show::explain(&args.targets),
+        Some(Command::Explain(args)) => explain::explain(&args),
     };
     ExitCode::from(code)
 }

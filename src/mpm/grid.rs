@@ -1,6 +1,7 @@
 //! The background grid: a box of equal cells, and the fields on its nodes.
 
 use super::algebra::Vector;
+use crate::subject::Column;
 
 /// A Cartesian grid with cell size `h` on every axis. Nodes are numbered with the first axis
 /// running fastest.
@@ -55,6 +56,16 @@ impl<const D: usize> Grid<D> {
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.mass.len()
+    }
+
+    /// The fields on the nodes.
+    pub fn columns(&self) -> [Column; 4] {
+        [
+            Column::of_nodes("mass", &self.mass),
+            Column::of_nodes("velocity", &self.velocity),
+            Column::of_nodes("force", &self.force),
+            Column::of_nodes("acceleration", &self.acceleration),
+        ]
     }
 
     /// Volume of a cell (m^D).

@@ -17,6 +17,7 @@ mod algebra;
 mod basis;
 mod boundary;
 mod combination;
+mod counted;
 mod effect;
 mod family;
 mod frame;
@@ -41,7 +42,10 @@ pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Prescribed, Roller, Side, VelocityField};
 pub use combination::combine;
-pub use effect::{BodyForce, Damping, Driven, Effect, Field, Gravity, SetForce, Traction};
+pub use counted::{Counted, Tally};
+pub use effect::{
+    BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, SetForce, Traction,
+};
 pub use frame::FrameName;
 pub use grid::Grid;
 pub use kernel::{Kernel, Shown};

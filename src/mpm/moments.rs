@@ -1,6 +1,7 @@
 //! Where the nodes lie that a particle sees: what affine transfers need of a basis.
 
 use super::algebra::{Matrix, Vector};
+use crate::subject::Column;
 
 /// Second moments below this share of h^2 are rounding: the particle sees the nodes of one point
 /// only along that axis, as on a node of the linear basis.
@@ -24,6 +25,15 @@ impl<const D: usize> Moments<D> {
         self.mean.resize(particles, Vector::zeros());
         self.second.resize(particles, Matrix::zeros());
         self.inverse.resize(particles, Matrix::zeros());
+    }
+
+    /// What is kept.
+    pub(super) fn columns(&self) -> [Column; 3] {
+        [
+            Column::of_particles("mean", &self.mean),
+            Column::of_particles("D", &self.second),
+            Column::of_particles("D^-1", &self.inverse),
+        ]
     }
 
     /// Stores the moments of particle `p`; `h` is the cell size (m).

@@ -1,7 +1,7 @@
 //! Particles: one column per quantity.
 
 use super::algebra::{Matrix, Vector, det};
-use crate::subject::{Failure, Site};
+use crate::subject::{Column, Failure, Site};
 
 /// The material points, structure of arrays. `n` particles; a column exists only if some member
 /// of the solver reads it.
@@ -166,6 +166,24 @@ impl<const D: usize> Particles<D> {
         for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
             *grad_v *= f.try_inverse().unwrap_or_else(Matrix::zeros);
         }
+    }
+
+    /// The columns that are there.
+    pub fn columns(&self) -> Vec<Column> {
+        let all = [
+            Column::of_particles("X", &self.x0),
+            Column::of_particles("x", &self.x),
+            Column::of_particles("x moved", &self.moved),
+            Column::of_particles("v", &self.v),
+            Column::of_particles("mass", &self.mass),
+            Column::of_particles("V0", &self.vol0),
+            Column::of_particles("V", &self.vol),
+            Column::of_particles("sigma", &self.sigma),
+            Column::of_particles("F", &self.def_grad),
+            Column::of_particles("domain", &self.domain),
+            Column::of_particles("grad v", &self.grad_v),
+        ];
+        all.into_iter().filter(|column| column.entries > 0).collect()
     }
 
     /// Number of particles.

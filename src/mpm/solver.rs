@@ -4,7 +4,7 @@ use super::{
     algebra::Matrix, basis::Domain, boundary::Advance, frame::FrameName, grid::Grid, initial,
     particles::Particles, setup::Setup, stage::Stage, transfer::Transfer, whereabouts::Whereabouts,
 };
-use crate::subject::{Census, Failure, Samples, Site, Start, Subject, Totals};
+use crate::subject::{Census, Failure, Profile, Samples, Site, Start, Subject, Totals};
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
@@ -51,6 +51,25 @@ impl<const D: usize> Solver<D> {
     /// The grid as the last stage left it.
     pub fn grid(&self) -> &Grid<D> {
         &self.setup.grid
+    }
+
+    /// The effects, and all that is kept for particles and nodes: what a step works with.
+    pub fn profile(&self) -> Profile {
+        let Setup { grid, particles, transfer, material, effects, .. } = &self.setup;
+        let mut columns = particles.columns();
+        columns.push(self.whereabouts.columns());
+        columns.extend(transfer.columns());
+        columns.extend(material.columns());
+        columns.extend(effects.iter().flat_map(|effect| effect.columns()));
+        columns.extend(grid.columns());
+        columns.retain(|column| column.entries > 0);
+        Profile {
+            effects: effects.iter().map(|effect| effect.name().name()).collect(),
+            particles: particles.len(),
+            nodes: grid.nodes(),
+            columns,
+            passes: Vec::new(),
+        }
     }
 
     /// Runs one stage of a step of length `dt` (s).

@@ -1,7 +1,7 @@
 //! Which cell each particle is in, and how often one has changed its cell.
 
 use super::{algebra::Vector, grid::Grid, particles::Particles};
-use crate::subject::{Failure, Site};
+use crate::subject::{Column, Failure, Site};
 
 /// The cells of all particles, with counters.
 #[derive(Debug)]
@@ -22,6 +22,11 @@ impl<const D: usize> Whereabouts<D> {
         let find = |(p, x): (usize, &Vector<D>)| grid.cell(x).ok_or_else(|| nowhere(p, x));
         let cells = particles.x.iter().enumerate().map(find).collect::<Result<_, _>>()?;
         Ok(Self { cells, crossings: 0, left_domain: 0 })
+    }
+
+    /// What is kept.
+    pub(super) fn columns(&self) -> Column {
+        Column::of_particles("cell", &self.cells)
     }
 
     /// Counts changes of cell and departures. In the total-Lagrangian frame a particle keeps the

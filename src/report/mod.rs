@@ -9,10 +9,12 @@ pub mod drift;
 pub mod figure;
 mod json;
 mod levels;
+mod profile;
 mod svg;
 mod table;
 mod text;
 
 pub use json::json;
+pub use profile::{difference, profile};
 pub use svg::{Figure, svg};
 pub use text::{case, summary, text};

@@ -5,6 +5,7 @@
 
 use super::{
     levels,
+    profile::profile,
     table::{Table, optional, scientific},
 };
 use crate::verify::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
@@ -60,6 +61,9 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
     let settings: Vec<String> =
         case.settings.iter().map(|(key, value)| format!("{key}: {value}")).collect();
     row(lines, "method", &settings.join("; "));
+    for (key, value) in case.profile.iter().flat_map(profile) {
+        row(lines, key, &value);
+    }
     lines.push(String::new());
     match &case.study {
         Study::Convergence(study) => convergence(lines, study),

@@ -14,10 +14,10 @@ use super::{
 use crate::{
     exact::{Forcing, Problem},
     mpm::{
-        BodyForce, Damping, Effect, Gravity, Grid, Kernel, Particles, Solver, Traction, Vector,
-        kernel,
+        BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, Particles, Setup, Solver,
+        Traction, Vector, kernel,
     },
-    subject::Subject,
+    subject::{Profile, Subject},
     verify::Quantity,
 };
 
@@ -33,10 +33,35 @@ pub(super) fn subject(
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
-        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, level),
-        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, level),
-        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, level),
+        (Method::Mpm { .. }, 1) => Ok(Box::new(mpm::<1>(plan, method, level)?)),
+        (Method::Mpm { .. }, 2) => Ok(Box::new(mpm::<2>(plan, method, level)?)),
+        (Method::Mpm { .. }, 3) => Ok(Box::new(mpm::<3>(plan, method, level)?)),
         (Method::Mpm { .. }, d) => Err(format!("there is no MPM in {d} dimensions")),
+    }
+}
+
+/// What a step of `method` takes on one level: the second step, the first having made all room.
+/// None of a method that does not say, and of one that does not get so far.
+pub(super) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
+    fn of_second_step<const D: usize>(
+        plan: &ConvergencePlan,
+        method: Method,
+        level: LevelPlan,
+    ) -> Option<Profile> {
+        let mut setup = setup::<D>(plan, method, level).ok()?;
+        let (kernel, tally) = Counted::new(setup.kernel);
+        setup.kernel = Box::new(kernel);
+        let mut solver = Solver::new(setup).ok()?;
+        solver.step(level.dt).ok()?;
+        tally.take();
+        solver.step(level.dt).ok()?;
+        Some(Profile { passes: tally.take(), ..solver.profile() })
+    }
+    match (method, plan.scene.dimension()) {
+        (Method::Fem { .. }, _) => None,
+        (Method::Mpm { .. }, 1) => of_second_step::<1>(plan, method, level),
+        (Method::Mpm { .. }, 2) => of_second_step::<2>(plan, method, level),
+        (Method::Mpm { .. }, _) => of_second_step::<3>(plan, method, level),
     }
 }
 
@@ -57,7 +82,15 @@ fn mpm<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,
     level: LevelPlan,
-) -> Result<Box<dyn Subject>, String> {
+) -> Result<Solver<D>, String> {
+    Solver::new(setup(plan, method, level)?).map_err(|failure| failure.to_string())
+}
+
+fn setup<const D: usize>(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Setup<D>, String> {
     let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else {
         return Err("not an MPM method".to_owned());
     };
@@ -74,7 +107,7 @@ fn mpm<const D: usize>(
     let mut effects = effects(scene, &particles);
     effects.extend(plan.manufactured().map(|made| manufactured_force(made, &particles)));
     effects.extend(on_sets(scene, &particles)?);
-    let setup = crate::mpm::Setup {
+    Ok(Setup {
         kernel,
         transfer: crate::mpm::transfer(transfer),
         mass: crate::mpm::mass_matrix(mass),
@@ -86,9 +119,7 @@ fn mpm<const D: usize>(
         particles,
         scheme,
         start,
-    };
-    let solver = Solver::new(setup).map_err(|failure| failure.to_string())?;
-    Ok(Box::new(solver))
+    })
 }
 
 fn manufactured_force<const D: usize>(

@@ -183,6 +183,7 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase, progress: Progress<'_>) ->
         case: case.name.clone(),
         subject: "mpm",
         settings: vec![("basis".to_owned(), case.basis.name().to_owned())],
+        profile: None,
         expected,
         because: case.because.clone(),
         verdict: verdict.to_owned(),

@@ -3,7 +3,7 @@
 use super::{
     formal::formal_order,
     model::{Case, ConvergencePlan},
-    statement,
+    profiles, statement,
     words::NormName,
 };
 use crate::verify::{
@@ -170,6 +170,7 @@ fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> 
         case: case.name.clone(),
         subject: case.method.subject(),
         settings: statement::settings(plan, case),
+        profile: profiles::of(plan, case),
         expected: expectation.summary(),
         because: expectation.because.clone(),
         verdict: String::new(),

@@ -39,6 +39,7 @@ mod model;
 mod path;
 mod plan;
 mod probe;
+pub mod profiles;
 mod reference;
 mod refine;
 mod scene;

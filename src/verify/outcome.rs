@@ -4,6 +4,7 @@ use super::{
     axis::Axis, conservation::Conserved, figures::figures, floor::Floor, judge::Judgement,
     observer::History, quantity::Quantity, richardson::Richardson, run::Run, verdict::Verdict,
 };
+use crate::subject::Profile;
 
 /// One suite, run.
 #[derive(Debug, Clone)]
@@ -31,6 +32,8 @@ pub struct CaseOutcome {
     pub subject: &'static str,
     /// What makes this case: basis, transfer, mass matrix, start, truth.
     pub settings: Vec<(String, String)>,
+    /// What a step takes on the coarsest level, from a subject that says.
+    pub profile: Option<Profile>,
     /// What was expected, in one line.
     pub expected: String,
     /// The suite's reason for expecting it.

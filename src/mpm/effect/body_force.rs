@@ -2,8 +2,11 @@
 //!
 //! `f_ext_i = sum_p m_p b(X_p, t) N_i(x_p)`.
 
-use super::contract::Effect;
-use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles};
+use super::{contract::Effect, name::EffectName};
+use crate::{
+    mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles},
+    subject::Column,
+};
 
 /// Fills in the force per unit mass (m/s2) of every particle at a time (s), from their reference
 /// positions. The particles of a run, their order and their reference positions never change.
@@ -33,6 +36,14 @@ impl<const D: usize> BodyForce<D> {
 }
 
 impl<const D: usize> Effect<D> for BodyForce<D> {
+    fn name(&self) -> EffectName {
+        EffectName::BodyForce
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("b", &self.b)]
+    }
+
     fn add_force(
         &mut self,
         t: f64,

@@ -1,9 +1,21 @@
 //! What an effect is to the rest of the solver.
 
-use crate::mpm::{grid::Grid, kernel::Kernel, particles::Particles};
+use super::name::EffectName;
+use crate::{
+    mpm::{grid::Grid, kernel::Kernel, particles::Particles},
+    subject::Column,
+};
 
 /// A pass between stages. Hooks are empty unless an effect fills them.
 pub trait Effect<const D: usize>: Send {
+    /// Its name, as suites write it.
+    fn name(&self) -> EffectName;
+
+    /// What it keeps for particles or nodes.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
+
     /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
     /// Returns the particle-node pairs visited.
     fn add_force(

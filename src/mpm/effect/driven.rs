@@ -4,11 +4,14 @@
 //! grid. What is around them learns of it when velocities are mapped to the grid: in MUSL within
 //! the same step, in USF and USL in the next.
 
-use super::contract::Effect;
-use crate::mpm::{
-    algebra::Vector,
-    boundary::{VelocityField, continued},
-    particles::Particles,
+use super::{contract::Effect, name::EffectName};
+use crate::{
+    mpm::{
+        algebra::Vector,
+        boundary::{VelocityField, continued},
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// A velocity v(X, t) (m/s) that a set of particles has.
@@ -26,6 +29,14 @@ impl<const D: usize> Driven<D> {
 }
 
 impl<const D: usize> Effect<D> for Driven<D> {
+    fn name(&self) -> EffectName {
+        EffectName::Driven
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("driven", &self.members)]
+    }
+
     fn drive_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {
         for (p, _) in &self.members {
             particles.v[*p] = continued(&self.value, &particles.x0[*p], t);

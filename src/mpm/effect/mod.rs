@@ -1,11 +1,13 @@
-//! Effects: the family. A member is one file and one line below; a scene lists the effects it
-//! wants, and what it does not list costs nothing.
+//! Effects: the family. A member is one file, one line in [`name`](EffectName), and its export
+//! below; a scene lists the effects it wants, and what it does not list costs nothing: no call, no
+//! column, no branch.
 
 mod body_force;
 mod contract;
 mod damping;
 mod driven;
 mod gravity;
+mod name;
 mod set_force;
 mod traction;
 
@@ -14,5 +16,6 @@ pub use contract::Effect;
 pub use damping::Damping;
 pub use driven::Driven;
 pub use gravity::Gravity;
+pub use name::EffectName;
 pub use set_force::SetForce;
 pub use traction::Traction;

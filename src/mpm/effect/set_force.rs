@@ -3,8 +3,11 @@
 //! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, V0 being its whole volume: a body force
 //! that is uniform in the reference configuration, and follows the particles.
 
-use super::contract::Effect;
-use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles};
+use super::{contract::Effect, name::EffectName};
+use crate::{
+    mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles},
+    subject::Column,
+};
 
 /// A total force f(t) (N, per m^(3-D) of thickness) on a set.
 pub struct SetForce<const D: usize> {
@@ -26,6 +29,14 @@ impl<const D: usize> SetForce<D> {
 }
 
 impl<const D: usize> Effect<D> for SetForce<D> {
+    fn name(&self) -> EffectName {
+        EffectName::SetForce
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("share", &self.shares)]
+    }
+
     fn add_force(
         &mut self,
         t: f64,

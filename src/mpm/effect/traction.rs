@@ -4,9 +4,10 @@
 //! the surface. The body need not end on a node: the force follows the particles (Wobbes & Tielen
 //! 2015, Steffen's bar), so it acts half a particle spacing inside the surface.
 
-use super::contract::Effect;
-use crate::mpm::{
-    algebra::Vector, boundary::Side, grid::Grid, kernel::Kernel, particles::Particles,
+use super::{contract::Effect, name::EffectName};
+use crate::{
+    mpm::{algebra::Vector, boundary::Side, grid::Grid, kernel::Kernel, particles::Particles},
+    subject::Column,
 };
 
 /// Traction p0(t) (Pa, per reference area) on one face of the body.
@@ -38,6 +39,14 @@ impl<const D: usize> Traction<D> {
 }
 
 impl<const D: usize> Effect<D> for Traction<D> {
+    fn name(&self) -> EffectName {
+        EffectName::Traction
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("layer", &self.layer)]
+    }
+
     fn add_force(
         &mut self,
         t: f64,

@@ -1,12 +1,17 @@
 //! What a material is to the rest of the solver.
 
-use crate::mpm::particles::Particles;
+use crate::{mpm::particles::Particles, subject::Column};
 
 /// A constitutive law, with the state that only it reads. It meets the solver between stages: one
 /// virtual call per step.
 pub trait Material<const D: usize>: Send {
     /// Whether the law reads F: the column exists only then, or if the basis asks for it.
     fn reads_deformation(&self) -> bool;
+
+    /// What the law remembers of each particle.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
 
     /// New stresses and volumes of all particles from their velocity gradients over `dt` (s). F,
     /// where it exists, is that of the end of the step already. Allocates in the first call only.

@@ -13,9 +13,12 @@ use super::{
     linear_elastic::LinearElastic,
     spectral::{assembled, half_log, spectral},
 };
-use crate::mpm::{
-    algebra::{Matrix, Vector, det},
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector, det},
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// Isotropic elasto-plasticity with linear hardening.
@@ -84,6 +87,10 @@ impl J2 {
 impl<const D: usize> Material<D> for J2 {
     fn reads_deformation(&self) -> bool {
         true
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("plastic flow", &self.flowed)]
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {

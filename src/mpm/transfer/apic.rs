@@ -7,13 +7,16 @@
 //! C = B D^-1 would lose angular momentum.
 
 use super::contract::{Kind, Transfer, add_acceleration, mix_velocity};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    boundary::Boundary,
-    grid::Grid,
-    kernel::{Kernel, Shown},
-    moments::Moments,
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector},
+        boundary::Boundary,
+        grid::Grid,
+        kernel::{Kernel, Shown},
+        moments::Moments,
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// Affine particle in cell.
@@ -38,6 +41,11 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         let gradients = particles.grad_v.iter().zip(&self.moments.second);
         self.b = gradients.map(|(grad_v, second)| grad_v * second).collect();
         self.c.resize(particles.len(), Matrix::zeros());
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let own = [Column::of_particles("B", &self.b), Column::of_particles("C", &self.c)];
+        own.into_iter().chain(self.moments.columns()).collect()
     }
 
     fn reads_grid_velocity(&self) -> bool {

@@ -1,11 +1,14 @@
 //! What a transfer is to the rest of the solver.
 
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    boundary::Boundary,
-    grid::Grid,
-    kernel::{Kernel, Shown},
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector},
+        boundary::Boundary,
+        grid::Grid,
+        kernel::{Kernel, Shown},
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// What a transfer is made of.
@@ -36,6 +39,11 @@ pub trait Transfer<const D: usize>: Send + Sync {
 
     /// Prepares for these particles, whose `grad_v` holds the gradient of their initial velocity.
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
+
+    /// What the transfer keeps for particles or nodes.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
 
     /// Whether [`Transfer::g2p_velocity`] reads the grid's velocities, not its accelerations only.
     fn reads_grid_velocity(&self) -> bool;

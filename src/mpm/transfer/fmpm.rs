@@ -6,12 +6,15 @@
 //! take the grid's velocity. FMPM(1) is PIC.
 
 use super::contract::{Kind, Transfer, mix_velocity};
-use crate::mpm::{
-    algebra::Vector,
-    boundary::Boundary,
-    grid::Grid,
-    kernel::{Kernel, Shown},
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::Vector,
+        boundary::Boundary,
+        grid::Grid,
+        kernel::{Kernel, Shown},
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// Full-mass-matrix MPM of order k.
@@ -39,6 +42,14 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         self.seen.resize(particles.len(), Vector::zeros());
         self.rest.resize(grid.nodes(), Vector::zeros());
         self.nodal.resize(grid.nodes(), Vector::zeros());
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![
+            Column::of_particles("seen", &self.seen),
+            Column::of_nodes("rest", &self.rest),
+            Column::of_nodes("work", &self.nodal),
+        ]
     }
 
     fn reads_grid_velocity(&self) -> bool {

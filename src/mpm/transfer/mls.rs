@@ -7,12 +7,15 @@ use super::{
     apic::Apic,
     contract::{Kind, Transfer},
 };
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    boundary::Boundary,
-    grid::Grid,
-    kernel::Kernel,
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector},
+        boundary::Boundary,
+        grid::Grid,
+        kernel::Kernel,
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// Moving least squares MPM.
@@ -28,6 +31,10 @@ impl<const D: usize> Transfer<D> for Mls<D> {
 
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.apic.start(kernel, grid, particles);
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        self.apic.columns()
     }
 
     fn reads_grid_velocity(&self) -> bool {

@@ -5,13 +5,16 @@
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
 use super::contract::{Kind, Transfer, add_acceleration, mix_velocity};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    boundary::Boundary,
-    grid::Grid,
-    kernel::{Kernel, Shown},
-    moments::Moments,
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector},
+        boundary::Boundary,
+        grid::Grid,
+        kernel::{Kernel, Shown},
+        moments::Moments,
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// Taylor particle in cell.
@@ -31,6 +34,11 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         self.moments.resize(particles.len());
         kernel.moments(grid, particles, &mut self.moments);
         self.c.clone_from(&particles.grad_v);
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let own = [Column::of_particles("C", &self.c)];
+        own.into_iter().chain(self.moments.columns()).collect()
     }
 
     fn reads_grid_velocity(&self) -> bool {

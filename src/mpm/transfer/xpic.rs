@@ -7,12 +7,15 @@
 //! through the accelerations.
 
 use super::contract::{Kind, Transfer, add_acceleration};
-use crate::mpm::{
-    algebra::Vector,
-    boundary::Boundary,
-    grid::Grid,
-    kernel::{Kernel, Shown},
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::Vector,
+        boundary::Boundary,
+        grid::Grid,
+        kernel::{Kernel, Shown},
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// Extended particle in cell of order m.
@@ -38,6 +41,10 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
         self.rest.resize(particles.len(), Vector::zeros());
         self.nodal.resize(grid.nodes(), Vector::zeros());
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("rest", &self.rest), Column::of_nodes("work", &self.nodal)]
     }
 
     fn reads_grid_velocity(&self) -> bool {

@@ -14,12 +14,15 @@ use self::{
     spots::{Spot, Spots},
 };
 use super::contract::{Kind, Transfer, add_acceleration};
-use crate::mpm::{
-    algebra::Vector,
-    boundary::Boundary,
-    grid::Grid,
-    kernel::{Kernel, Shown},
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::Vector,
+        boundary::Boundary,
+        grid::Grid,
+        kernel::{Kernel, Shown},
+        particles::Particles,
+    },
+    subject::Column,
 };
 
 /// FLIP with fields reconstructed in cells.
@@ -79,6 +82,11 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         points.sigma.reserve(most);
         self.points = Some(points);
         self.place(grid, particles);
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let points = self.points.iter().flat_map(Particles::columns);
+        self.spots.columns().into_iter().chain(points).collect()
     }
 
     fn reads_grid_velocity(&self) -> bool {

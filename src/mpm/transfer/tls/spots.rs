@@ -1,7 +1,10 @@
 //! Where integrals are taken: the Gauss points of full cells, and the particles themselves in cells
 //! at the rim of the body, where no polynomial may reach beyond it.
 
-use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
+use crate::{
+    mpm::{algebra::Vector, grid::Grid, particles::Particles},
+    subject::Column,
+};
 
 /// Gauss's rule along an axis, exact for a cubic B-spline times a linear field.
 const RULE: [(f64, f64); 3] = [
@@ -44,6 +47,17 @@ pub(super) struct Spots<const D: usize> {
 }
 
 impl<const D: usize> Spots<D> {
+    /// What is kept: of these there are as many as cells have particles, or corners.
+    pub(super) fn columns(&self) -> [Column; 5] {
+        [
+            Column::of_particles("spots", &self.all),
+            Column::of_particles("x in the grid", &self.x),
+            Column::of_particles("cell", &self.cell),
+            Column::of_particles("order", &self.order),
+            Column::of_nodes("first", &self.first),
+        ]
+    }
+
     /// Makes room, and says for how many spots at most.
     pub(super) fn start(&mut self, grid: &Grid<D>, particles: &Particles<D>) -> usize {
         let cells: usize = grid.cells.iter().product();

@@ -1,0 +1,107 @@
+//! `mpm-verify explain`: the problem, what a step of each case takes, and what is expected.
+
+use super::{args::ExplainArgs, output, show, status::BAD_INPUT};
+use mpm_verify::{
+    mpm::EffectName,
+    report,
+    suite::{StudyPlan, Suite, profiles, statement},
+};
+
+/// Prints the page of each suite.
+pub(super) fn explain(args: &ExplainArgs) -> u8 {
+    let without = match args.without.as_deref().map(named).transpose() {
+        Ok(without) => without,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
+    show::each(&args.targets.targets, |suite| explanation(suite, without))
+}
+
+fn named(name: &str) -> Result<EffectName, String> {
+    if let Some(effect) = EffectName::ALL.iter().find(|effect| effect.name() == name) {
+        return Ok(*effect);
+    }
+    let known: Vec<&str> = EffectName::ALL.iter().map(|effect| effect.name()).collect();
+    let nearest = known
+        .iter()
+        .map(|known| (strsim::jaro_winkler(known, name), known))
+        .filter(|(likeness, _)| *likeness > 0.8)
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    let hint = match nearest {
+        Some((_, nearest)) => format!("did you mean `{nearest}`?"),
+        None => format!("known effects: {}", known.join(", ")),
+    };
+    Err(format!("error: --without {name}: there is no such effect\nhelp: {hint}"))
+}
+
+fn explanation(suite: &Suite, without: Option<EffectName>) -> String {
+    let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());
+    page += &line("source", &suite.source);
+    for (key, value) in statement::rows(suite) {
+        page += &line(&key, &value);
+    }
+    for case in cases(suite) {
+        page += &format!(
+            "\n{}\n  expected: {}\n  because: {}\n",
+            case.name, case.outcome, case.because
+        );
+        page += &taken(suite, &case.name, without);
+    }
+    page + "\n"
+}
+
+fn line(key: &str, value: &str) -> String {
+    format!("  {key:18}{value}\n")
+}
+
+/// What a step of the case takes, and what it would not without an effect.
+fn taken(suite: &Suite, case: &str, without: Option<EffectName>) -> String {
+    let Some(all) = profiles::of_case(suite, case, None) else { return String::new() };
+    let mut page: String =
+        report::profile(&all).iter().map(|(key, text)| line(key, text)).collect();
+    let Some(effect) = without else { return page };
+    page += &match profiles::of_case(suite, case, Some(effect)) {
+        _ if !all.effects.contains(&effect.name()) => {
+            line("without", &format!("`{}` is not there, nothing changes", effect.name()))
+        }
+        None => line("without", &format!("`{}` the case does not run", effect.name())),
+        Some(rest) => {
+            let rows = report::difference(&all, &rest);
+            let rows: String = rows.iter().map(|(key, text)| line(key, text)).collect();
+            line("without", &format!("`{}` these lines change:", effect.name())) + &rows
+        }
+    };
+    page
+}
+
+/// A case with what is expected of it and why.
+struct Expected {
+    name: String,
+    outcome: String,
+    because: String,
+}
+
+fn cases(suite: &Suite) -> Vec<Expected> {
+    match &suite.study {
+        StudyPlan::Convergence(plan) => plan
+            .cases
+            .iter()
+            .map(|case| Expected {
+                name: case.name.clone(),
+                outcome: case.expectation.summary(),
+                because: case.expectation.because.clone(),
+            })
+            .collect(),
+        StudyPlan::InternalForce(plan) => plan
+            .cases
+            .iter()
+            .map(|case| Expected {
+                name: case.name.clone(),
+                outcome: case.expected.summary(),
+                because: case.because.clone(),
+            })
+            .collect(),
+    }
+}

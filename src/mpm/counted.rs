@@ -1,0 +1,166 @@
+//! A kernel that counts its passes: what a step does, seen from outside.
+
+use super::{
+    algebra::{Matrix, Vector},
+    basis::Domain,
+    grid::Grid,
+    kernel::{Kernel, Shown},
+    moments::Moments,
+    particles::Particles,
+};
+use std::sync::{
+    Arc,
+    atomic::{AtomicU64, Ordering::Relaxed},
+};
+
+/// Particles that each kind of pass has visited.
+#[derive(Debug, Default)]
+pub struct Tally([AtomicU64; NAMES.len()]);
+
+const NAMES: [&str; 11] = [
+    "p2g mass",
+    "p2g momentum",
+    "p2g internal force",
+    "p2g affine force",
+    "p2g point force",
+    "g2p",
+    "g2p gradient",
+    "g2p moment",
+    "moments",
+    "mass matrix",
+    "g2p position",
+];
+
+impl Tally {
+    fn add(&self, name: &str, particles: usize) {
+        if let Some(pass) = NAMES.iter().position(|known| *known == name) {
+            self.0[pass].fetch_add(particles as u64, Relaxed);
+        }
+    }
+
+    /// The passes since the last call, with the particles that each has visited.
+    pub fn take(&self) -> Vec<(&'static str, u64)> {
+        let taken = NAMES.iter().zip(&self.0).map(|(name, count)| (*name, count.swap(0, Relaxed)));
+        taken.filter(|(_, visited)| *visited > 0).collect()
+    }
+}
+
+/// A kernel whose passes are counted.
+pub struct Counted<const D: usize> {
+    kernel: Box<dyn Kernel<D>>,
+    tally: Arc<Tally>,
+}
+
+impl<const D: usize> Counted<D> {
+    /// Wraps a kernel; the tally is what the caller reads.
+    pub fn new(kernel: Box<dyn Kernel<D>>) -> (Self, Arc<Tally>) {
+        let tally = Arc::new(Tally::default());
+        (Self { kernel, tally: Arc::clone(&tally) }, tally)
+    }
+}
+
+impl<const D: usize> Kernel<D> for Counted<D> {
+    fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
+        self.tally.add("p2g mass", particles.len());
+        self.kernel.p2g_mass(particles, grid);
+    }
+
+    fn p2g_momentum(
+        &self,
+        particles: &Particles<D>,
+        shown: Shown<'_, D>,
+        grid: &Grid<D>,
+        momentum: &mut [Vector<D>],
+    ) {
+        self.tally.add("p2g momentum", particles.len());
+        self.kernel.p2g_momentum(particles, shown, grid, momentum);
+    }
+
+    fn p2g_internal_force(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
+        self.tally.add("p2g internal force", particles.len());
+        self.kernel.p2g_internal_force(particles, grid);
+    }
+
+    fn p2g_affine_force(&self, particles: &Particles<D>, moments: &Moments<D>, grid: &mut Grid<D>) {
+        self.tally.add("p2g affine force", particles.len());
+        self.kernel.p2g_affine_force(particles, moments, grid);
+    }
+
+    fn p2g_point_force(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        force: &Vector<D>,
+        grid: &mut Grid<D>,
+    ) {
+        self.tally.add("p2g point force", 1);
+        self.kernel.p2g_point_force(particles, p, force, grid);
+    }
+
+    fn g2p(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        keep_and_factor: (f64, f64),
+        value: &mut [Vector<D>],
+    ) {
+        self.tally.add("g2p", particles.len());
+        self.kernel.g2p(grid, field, particles, keep_and_factor, value);
+    }
+
+    fn g2p_gradient(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        gradient: &mut [Matrix<D>],
+    ) {
+        self.tally.add("g2p gradient", particles.len());
+        self.kernel.g2p_gradient(grid, field, particles, gradient);
+    }
+
+    fn g2p_moment(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        seen: (&Particles<D>, &Moments<D>),
+        keep_and_factor: (f64, f64),
+        moment: &mut [Matrix<D>],
+    ) {
+        self.tally.add("g2p moment", seen.0.len());
+        self.kernel.g2p_moment(grid, field, seen, keep_and_factor, moment);
+    }
+
+    fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
+        self.tally.add("moments", particles.len());
+        self.kernel.moments(grid, particles, moments);
+    }
+
+    fn mass_entries(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        entry: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        self.tally.add("mass matrix", particles.len());
+        self.kernel.mass_entries(grid, particles, entry);
+    }
+
+    fn g2p_position(&self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>) {
+        self.tally.add("g2p position", particles.len());
+        self.kernel.g2p_position(grid, dt, particles);
+    }
+
+    fn support(&self) -> u64 {
+        self.kernel.support()
+    }
+
+    fn domain(&self) -> Domain {
+        self.kernel.domain()
+    }
+
+    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
+        self.kernel.grid(origin, h, cells, periodic)
+    }
+}

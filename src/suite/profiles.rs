@@ -1,0 +1,47 @@
+//! What a step of a case takes, with all that its scene lists and without one effect of it.
+
+use super::{
+    dispatch,
+    model::{Case, ConvergencePlan, Scene, StudyPlan, Suite},
+};
+use crate::{mpm::EffectName, subject::Profile};
+
+/// What a step of the case called `name` takes on the coarsest level, without one effect if that
+/// is wanted. None of a case that has no steps, or whose subject does not say.
+pub fn of_case(suite: &Suite, name: &str, without: Option<EffectName>) -> Option<Profile> {
+    let StudyPlan::Convergence(plan) = &suite.study else { return None };
+    let case = plan.cases.iter().find(|case| case.name == name)?;
+    match without {
+        None => of(plan, case),
+        Some(effect) => of(&lacking(plan, effect), case),
+    }
+}
+
+/// What a step of `case` takes on the coarsest level.
+pub(super) fn of(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
+    dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
+}
+
+/// The plan with a scene that does not list `effect`.
+fn lacking(plan: &ConvergencePlan, effect: EffectName) -> ConvergencePlan {
+    let mut plan = plan.clone();
+    if let (EffectName::BodyForce, Some(problem)) = (effect, &mut plan.exact) {
+        problem.manufactured = false;
+    }
+    plan.scene.remove(effect);
+    plan
+}
+
+impl Scene {
+    /// Takes an effect out of the scene, if it is there.
+    fn remove(&mut self, effect: EffectName) {
+        match effect {
+            EffectName::Gravity => self.gravity = None,
+            EffectName::BodyForce => self.body_force = None,
+            EffectName::Damping => self.damping = None,
+            EffectName::Traction => self.faces.iter_mut().for_each(|face| face.traction = None),
+            EffectName::SetForce => self.sets.iter_mut().for_each(|set| set.force = None),
+            EffectName::Driven => self.sets.iter_mut().for_each(|set| set.velocity = None),
+        }
+    }
+}
