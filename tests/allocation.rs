@@ -1,4 +1,4 @@
-//! The hot loop allocates nothing.
+//! The hot loop allocates nothing, and what a solver says that it keeps is what the heap holds.
 
 mod common;
 
@@ -11,10 +11,11 @@ use mpm_verify::{
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, BodyForce, Damping, Driven, Fixed, Gravity, MaterialPlan, Prescribed, Roller,
-        SchemeName, SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
+        BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Gravity, MaterialPlan,
+        Particles, Prescribed, Roller, SchemeName, SetForce, Side, Solver, Traction, TransferName,
+        Vector, VelocityField,
     },
-    subject::{Samples, Start, Subject},
+    subject::{Holder, Samples, Start, Subject},
 };
 use rstest::rstest;
 
@@ -113,6 +114,64 @@ fn a_material_allocates_in_the_first_step_only(#[case] plan: MaterialPlan) {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
     setup.material = plan.build();
     holds_its_memory(plan.name(), &mut Solver::new(setup).unwrap(), DT);
+}
+
+/// What a solver of `particles` particles along the first axis keeps for particles: as it says
+/// (bytes), and as the heap says, which also holds the grid and what does not grow.
+fn kept<const D: usize>(
+    method: (BasisName, TransferName),
+    particles: usize,
+    effects: bool,
+) -> (usize, i64) {
+    let mut solver = None;
+    let heap = measure(|| {
+        let mut setup = free_body::<D>(method, SchemeName::Musl);
+        let mut to = Vector::<D>::from_element(0.26);
+        to[0] = 0.01 * particles as f64 + 0.25;
+        let block = Block { from: Vector::from_element(0.25), to, density: 1.0 };
+        setup.particles = Particles::fill(&block, 0.01, 1);
+        setup.particles.v.fill(Vector::zeros());
+        if effects {
+            let gravity = Gravity(Box::new(|t| Vector::<D>::from_element(-9.81 * t)));
+            let force = BodyForce::pointwise(|x, t| x * t);
+            let damping = Damping(Box::new(|t| 0.1 * t));
+            setup.effects = vec![Box::new(gravity), Box::new(force), Box::new(damping)];
+        }
+        let mut made = Solver::new(setup).unwrap();
+        made.step(1e-6).unwrap();
+        solver = Some(made);
+    });
+    let profile = solver.unwrap().profile();
+    assert_eq!(profile.particles, particles);
+    let columns = profile.columns.iter().filter(|column| column.holder == Holder::Particle);
+    let said = columns.map(|column| column.entries * column.bytes).sum();
+    (said, heap.bytes_current)
+}
+
+fn says_what_it_keeps<const D: usize>() {
+    // Taylor least squares has columns for points of cells, of which no solver knows the number.
+    for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
+        for effects in [false, true] {
+            let (few, many) = (kept::<D>(method, 20, effects), kept::<D>(method, 100, effects));
+            let (said, held) = (many.0 - few.0, many.1 - few.1);
+            assert_eq!(said as i64, held, "{D}-D {method:?}, effects: {effects}, 80 particles");
+        }
+    }
+}
+
+#[rstest]
+fn what_is_said_to_be_kept_for_particles_is_what_the_heap_holds(
+    #[values(1, 2, 3)] dimension: usize,
+) {
+    in_dimension!(dimension, says_what_it_keeps());
+}
+
+#[test]
+fn no_effect_is_left_out_above() {
+    let tested = ["gravity", "damping", "traction", "force", "velocity", "body_force"];
+    for effect in EffectName::ALL {
+        assert!(tested.contains(&effect.name()), "`{}` is not held to its memory", effect.name());
+    }
 }
 
 #[test]

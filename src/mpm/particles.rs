@@ -83,7 +83,8 @@ impl<const D: usize> Particles<D> {
         let (length, count) = (block.to - block.from, block.counts(h, per_axis));
         let spacing = Vector::<D>::from_fn(|axis, _| length[axis] / count[axis] as f64);
         let volume = spacing.iter().product::<f64>();
-        let x0: Vec<Vector<D>> = block.centres(h, per_axis).filter(inside).collect();
+        let mut x0: Vec<Vector<D>> = block.centres(h, per_axis).filter(inside).collect();
+        x0.shrink_to_fit();
         let total = x0.len();
         Self {
             x: x0.clone(),

@@ -20,7 +20,8 @@ impl<const D: usize> Whereabouts<D> {
     /// [`Failure::LeftDomain`] for the first particle that has none.
     pub(super) fn new(grid: &Grid<D>, particles: &Particles<D>) -> Result<Self, Failure> {
         let find = |(p, x): (usize, &Vector<D>)| grid.cell(x).ok_or_else(|| nowhere(p, x));
-        let cells = particles.x.iter().enumerate().map(find).collect::<Result<_, _>>()?;
+        let mut cells = particles.x.iter().enumerate().map(find).collect::<Result<Vec<_>, _>>()?;
+        cells.shrink_to_fit();
         Ok(Self { cells, crossings: 0, left_domain: 0 })
     }
 

@@ -8,6 +8,9 @@
 //!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
 //!     "verdict": "converging", "expected": "...", "passed": true,
 //!     "reason": "...", "unmet": [],
+//!     "profile": {"effects": ["gravity"], "particles": 20, "nodes": 26,
+//!         "passes": [{"pass": "p2g mass", "particles": 20}],
+//!         "columns": [{"name": "v", "of": "particle", "entries": 20, "bytes": 8}]},
 //!     "floor": {"cause": "time", "error": 1e-4,
 //!         "probes": [{"axis": "time", "error": 5e-5, "failure": null}]},
 //!     "levels": [{"cells": 5, "h": 5.0, "spacing": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
@@ -23,10 +26,13 @@
 //! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
 //! `{"position", "n_left", "n_right", "force", "predicted"}`. `axis` is what was refined (`space`,
 //! `time`, `particles`) and `spacing` that of this axis; where particles are, there is no formal order.
+//! `profile` is what one step takes on the coarsest level, from a subject that says (MPM); `bytes`
+//! are those of one entry.
 //! `floor` is what became of the finest level's error with another spacing halved, where that was
 //! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
 //! or removed without a new major version.
 
+use crate::subject::{Column, Holder, Profile};
 use crate::verify::{
     Axis, CaseOutcome, Conserved, Floor, FloorCause, ForceRow, Interval, LevelOutcome, Probe,
     Study, SuiteOutcome,
@@ -63,6 +69,7 @@ fn case(outcome: &CaseOutcome) -> Value {
         "passed": outcome.passed(),
         "reason": outcome.reason,
         "unmet": outcome.unmet,
+        "profile": outcome.profile.as_ref().map(profile),
         "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
         "levels": levels.iter().map(level).collect::<Vec<_>>(),
         "forces": match &outcome.study {
@@ -74,6 +81,25 @@ fn case(outcome: &CaseOutcome) -> Value {
 
 fn interval(order: Interval) -> Value {
     json!({"value": number(order.value), "low": number(order.low), "high": number(order.high)})
+}
+
+fn profile(profile: &Profile) -> Value {
+    let pass = |(pass, particles): &(&str, u64)| json!({"pass": pass, "particles": particles});
+    let column = |column: &Column| {
+        let of = match column.holder {
+            Holder::Particle => "particle",
+            Holder::Node => "node",
+        };
+        let Column { name, entries, bytes, .. } = column;
+        json!({"name": name, "of": of, "entries": entries, "bytes": bytes})
+    };
+    json!({
+        "effects": profile.effects,
+        "particles": profile.particles,
+        "nodes": profile.nodes,
+        "passes": profile.passes.iter().map(pass).collect::<Vec<_>>(),
+        "columns": profile.columns.iter().map(column).collect::<Vec<_>>(),
+    })
 }
 
 fn floor(floor: &Floor) -> Value {

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     exact::{Region, formula::Formula},
-    mpm::MaterialPlan,
+    mpm::{EffectName, MaterialPlan},
 };
 
 /// Names of the coordinates in formulas.
@@ -64,6 +64,7 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         damping: None,
         initial_velocity: initial_velocity(binder, &path, words, dimension)?,
     };
+    combined(binder, &path.then("loads"), &words.loads)?;
     for (i, load) in words.loads.iter().enumerate() {
         add_load(binder, &path.then("loads").then(i), load, &mut scene)?;
     }
@@ -152,6 +153,15 @@ fn initial_velocity(
         .initial_velocity
         .as_ref()
         .map_or(Ok(Vec::new()), |texts| binder.vector(&path, texts, dimension, &variables))
+}
+
+/// Effects that need each other or exclude each other.
+fn combined(binder: &Binder<'_>, path: &Path, loads: &[LoadWords]) -> Result<(), Complaint> {
+    let listed: Vec<EffectName> = loads.iter().map(LoadWords::effect).collect();
+    EffectName::combine(&listed).map_err(|(effect, message)| {
+        let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
+        binder.complain_key(&path.then(at).then(effect.name()), &message)
+    })
 }
 
 fn add_load(

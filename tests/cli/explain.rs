@@ -40,3 +40,34 @@ fn a_suite_of_ones_own() {
         assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
     }
 }
+
+#[test]
+fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
+    let found = Folder::new().call(&["explain", "set-force", "--without", "force"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    for words in [
+        "effects           body_force, force\n",
+        "a step            p2g mass, p2g momentum, p2g internal force, p2g point force at 24 of 16",
+        "share 16 at 8 of 16\n",
+        "without           `force` these lines change:\n",
+        "    becomes         body_force\n",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
+fn without_what_is_not_there_nothing_changes() {
+    let found = Folder::new().call(&["explain", "set-force", "--without", "gravity"]);
+    assert!(found.out.contains("`gravity` is not there, nothing changes"), "{}", found.out);
+}
+
+#[rstest]
+#[case("gravty", "did you mean `gravity`?")]
+#[case("colour", "known effects: gravity, body_force, traction,")]
+fn an_effect_that_is_not_known(#[case] name: &str, #[case] hint: &str) {
+    let found = Folder::new().call(&["explain", "set-force", "--without", name]);
+    assert_eq!((found.code, found.out.as_str()), (super::BAD_INPUT, ""));
+    assert!(found.errors.contains("there is no such effect"), "{}", found.errors);
+    assert!(found.errors.contains(hint), "{}", found.errors);
+}

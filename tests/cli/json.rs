@@ -3,7 +3,7 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
 use serde_json::Value;
 
-const CASE: [&str; 13] = [
+const CASE: [&str; 14] = [
     "case",
     "subject",
     "axis",
@@ -14,6 +14,7 @@ const CASE: [&str; 13] = [
     "passed",
     "reason",
     "unmet",
+    "profile",
     "floor",
     "levels",
     "forces",

@@ -1,7 +1,7 @@
 //! The words of a scene.
 
 use crate::{
-    mpm::MaterialWords,
+    mpm::{EffectName, MaterialWords},
     suite::yaml::{NumberText, Ordered},
 };
 use serde::Deserialize;
@@ -91,4 +91,18 @@ pub(in crate::suite) enum LoadWords {
     Force { on: String, value: Vec<NumberText> },
     /// Velocity of a set (m/s), formulas of the coordinates and t.
     Velocity { on: String, value: Vec<NumberText> },
+}
+
+impl LoadWords {
+    /// The effect that the entry asks for.
+    pub(in crate::suite) fn effect(&self) -> EffectName {
+        match self {
+            Self::Gravity(_) => EffectName::Gravity,
+            Self::Damping(_) => EffectName::Damping,
+            Self::BodyForce(_) => EffectName::BodyForce,
+            Self::Traction { .. } => EffectName::Traction,
+            Self::Force { .. } => EffectName::SetForce,
+            Self::Velocity { .. } => EffectName::Driven,
+        }
+    }
 }

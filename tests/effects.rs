@@ -1,0 +1,207 @@
+//! Only the effects that a scene lists are simulated: what is not listed is not computed and not
+//! stored, and what is listed adds what the README says, verified by the suites that it names.
+
+mod common;
+
+use common::{DT, free_body, in_dimension, methods};
+use mpm_verify::{
+    mpm::{
+        BasisName, BodyForce, Counted, Damping, Driven, Effect, EffectName, Gravity, Particles,
+        SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName, Vector,
+    },
+    subject::{Column, Holder, Profile, Subject},
+    suite::{Suite, embedded, profiles},
+};
+use rstest::rstest;
+
+type Boxed<const D: usize> = Box<dyn Effect<D>>;
+
+/// One of every effect, as strong as `size`: with 0 it changes nothing.
+fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxed<D> {
+    let particles = &setup.particles;
+    let uniform = move |t: f64| Vector::<D>::from_element(size * (1.0 + t));
+    let members: &[usize] = if size == 0.0 { &[] } else { &[0, 1] };
+    match name {
+        EffectName::Gravity => Box::new(Gravity(Box::new(uniform))),
+        EffectName::BodyForce => Box::new(BodyForce::pointwise(move |x, t| x * (size * t))),
+        EffectName::Traction => Box::new(Traction::on(particles, 0, Side::High, Box::new(uniform))),
+        EffectName::SetForce => Box::new(SetForce::on(particles, &[0, 1], Box::new(uniform))),
+        EffectName::Driven => {
+            Box::new(Driven::on(particles, members, Box::new(move |_, t| uniform(t))))
+        }
+        EffectName::Damping => Box::new(Damping(Box::new(move |t| size * (1.0 + t)))),
+    }
+}
+
+/// Every column of the particles as bits, 0 and -0 being one: `f + 0` is where they differ.
+fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
+    let Particles { x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, grad_v, spacing } =
+        particles;
+    let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
+    let matrices = [sigma, def_grad, domain, grad_v].into_iter().flatten().flatten();
+    let scalars = [mass, vol0, vol].into_iter().flatten();
+    vectors.chain(matrices).chain(scalars).chain(spacing).map(|v| (v + 0.0).to_bits()).collect()
+}
+
+fn stepped<const D: usize>(setup: Setup<D>) -> Vec<u64> {
+    let mut solver = Solver::new(setup).unwrap();
+    (0..20).for_each(|_| solver.step(DT).unwrap());
+    bits(solver.particles())
+}
+
+/// A body without the effect, with the effect of no strength, and with some strength.
+fn is_absent_or_null<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) {
+    let without = stepped(free_body::<D>(method, scheme));
+    for &name in EffectName::ALL {
+        let with = |size: f64| {
+            let mut setup = free_body::<D>(method, scheme);
+            setup.effects = vec![effect(name, &setup, size)];
+            stepped(setup)
+        };
+        let what = format!("{D}-D {method:?} {scheme:?}: `{}`", name.name());
+        assert!(with(0.0) == without, "{what} of no strength is not the same as none");
+        assert!(with(0.1) != without, "{what} does nothing");
+    }
+}
+
+#[rstest]
+fn an_effect_of_no_strength_is_none_bit_for_bit(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(
+        (BasisName::Linear, TransferName::Flip),
+        (BasisName::ContiguousGimp, TransferName::Apic)
+    )]
+    method: (BasisName, TransferName),
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    in_dimension!(dimension, is_absent_or_null(method, scheme));
+}
+
+/// What the second step of the free body takes, with linear functions, FLIP and MUSL.
+fn taken(effects: impl Fn(&Setup<2>) -> Vec<Boxed<2>>) -> Profile {
+    let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
+    setup.effects = effects(&setup);
+    let (kernel, tally) = Counted::new(setup.kernel);
+    setup.kernel = Box::new(kernel);
+    let mut solver = Solver::new(setup).unwrap();
+    solver.step(DT).unwrap();
+    tally.take();
+    solver.step(DT).unwrap();
+    Profile { passes: tally.take(), ..solver.profile() }
+}
+
+#[test]
+fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
+    let empty = taken(|_| Vec::new());
+    let named = |holder: Holder| -> Vec<(&str, usize)> {
+        let of = empty.columns.iter().filter(|column| column.holder == holder);
+        of.map(|column| (column.name, column.bytes)).collect()
+    };
+    let of_particles = [
+        ("X", 16),
+        ("x", 16),
+        ("v", 16),
+        ("mass", 8),
+        ("V0", 8),
+        ("V", 8),
+        ("sigma", 32),
+        ("grad v", 32),
+        ("cell", 16),
+    ];
+    assert_eq!(named(Holder::Particle), of_particles);
+    let of_nodes = [("mass", 8), ("velocity", 16), ("force", 16), ("acceleration", 16)];
+    assert_eq!(named(Holder::Node), of_nodes);
+    let passes =
+        ["p2g mass", "p2g momentum", "p2g internal force", "g2p", "g2p gradient", "g2p position"];
+    assert_eq!(empty.passes, passes.map(|name| (name, 36)));
+}
+
+/// What `all` has and `some` has not.
+fn added<T: PartialEq + Copy>(all: &[T], some: &[T]) -> Vec<T> {
+    all.iter().filter(|one| !some.contains(one)).copied().collect()
+}
+
+/// The row of the README for an effect, but for the suites that verify it.
+fn row(name: EffectName) -> String {
+    let empty = taken(|_| Vec::new());
+    let with = taken(|setup| vec![effect(name, setup, 0.1)]);
+    let kept = |holder: Holder| {
+        let held = |profile: &Profile| -> Vec<Column> {
+            profile.columns.iter().filter(|column| column.holder == holder).copied().collect()
+        };
+        let text = |column: &Column| {
+            let whole = column.entries == with.holders(holder);
+            format!(
+                "{} {} B{}",
+                column.name,
+                column.bytes,
+                if whole { "" } else { " where it acts" }
+            )
+        };
+        let columns: Vec<String> = added(&held(&with), &held(&empty)).iter().map(text).collect();
+        if columns.is_empty() { "nothing".to_owned() } else { columns.join(", ") }
+    };
+    let particles = with.particles as u64;
+    let text = |(pass, visited): &(&str, u64)| {
+        format!("{pass}{}", if *visited < particles { " where it acts" } else { "" })
+    };
+    let passes: Vec<String> = added(&with.passes, &empty.passes).iter().map(text).collect();
+    let passes = if passes.is_empty() { "nothing".to_owned() } else { passes.join(", ") };
+    let (particle, node) = (kept(Holder::Particle), kept(Holder::Node));
+    format!("| `{}` | {particle} | {node} | {passes} |", name.name())
+}
+
+/// Whether some case of a suite has the effect: every case is gated.
+fn lists(suite: &str, effect: EffectName) -> bool {
+    let source = embedded::source(suite).unwrap_or_else(|| panic!("there is no suite `{suite}`"));
+    let suite = Suite::load(&source.unwrap()).unwrap();
+    suite.case_names().iter().any(|case| {
+        profiles::of_case(&suite, case, None)
+            .is_some_and(|profile| profile.effects.contains(&effect.name()))
+    })
+}
+
+#[test]
+fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
+    let readme = include_str!("../README.md");
+    let rows: Vec<String> = EffectName::ALL.iter().map(|name| row(*name)).collect();
+    for (name, row) in EffectName::ALL.iter().zip(&rows) {
+        let found = readme.lines().find_map(|line| line.strip_prefix(row.as_str()));
+        let suites = found.unwrap_or_else(|| {
+            panic!("README: the table of effects must hold\n{}", rows.join(" `suite` |\n"))
+        });
+        let suites: Vec<&str> = suites.split('`').skip(1).step_by(2).collect();
+        assert!(!suites.is_empty(), "README: no suite verifies `{}`", name.name());
+        for suite in suites {
+            assert!(lists(suite, *name), "README: `{suite}` has no `{}`", name.name());
+        }
+    }
+}
+
+/// The passes that a counting kernel sees are those that the work counter of reports is made of.
+#[test]
+fn the_passes_of_a_step_make_up_its_transfers() {
+    // Taylor least squares sums over points of cells, and counts particles.
+    for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
+        let mut setup = free_body::<2>(method, SchemeName::Musl);
+        let listed = [EffectName::Gravity, EffectName::BodyForce, EffectName::SetForce];
+        setup.effects = listed.map(|name| effect(name, &setup, 0.1)).into();
+        let support = setup.kernel.support();
+        let (kernel, tally) = Counted::new(setup.kernel);
+        setup.kernel = Box::new(kernel);
+        let mut solver = Solver::new(setup).unwrap();
+        tally.take();
+        (0..3).for_each(|_| solver.step(DT).unwrap());
+        let visited: u64 = tally.take().iter().map(|(_, visited)| visited).sum();
+        assert_eq!(visited * support, solver.census().transfers, "{method:?}");
+    }
+}
+
+#[test]
+fn what_an_effect_needs_or_excludes_is_another() {
+    for &effect in EffectName::ALL {
+        assert!(!effect.needs().contains(&effect) && !effect.excludes().contains(&effect));
+        let alone = EffectName::combine(&[effect]).is_ok();
+        assert_eq!(alone, effect.needs().is_empty(), "`{}` alone", effect.name());
+    }
+}
