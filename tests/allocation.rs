@@ -11,9 +11,9 @@ use mpm_verify::{
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Gravity, MaterialPlan,
-        Particles, Prescribed, Roller, SchemeName, SetForce, Side, Solver, Traction, TransferName,
-        Vector, VelocityField,
+        BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Gravity, LocalDamping,
+        MaterialPlan, Particles, Prescribed, Roller, SchemeName, SetForce, Side, Solver, Traction,
+        TransferName, Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
 };
@@ -47,6 +47,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         round: None,
         body_force: Vec::new(),
         damping: None,
+        local_damping: None,
         at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),
@@ -79,6 +80,7 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         setup.effects = vec![
             Box::new(gravity),
             Box::new(Damping(Box::new(|t| 0.1 * t))),
+            Box::new(LocalDamping(0.5)),
             Box::new(traction),
             Box::new(force),
             Box::new(driven),
@@ -168,7 +170,8 @@ fn what_is_said_to_be_kept_for_particles_is_what_the_heap_holds(
 
 #[test]
 fn no_effect_is_left_out_above() {
-    let tested = ["gravity", "damping", "traction", "force", "velocity", "body_force"];
+    let tested =
+        ["gravity", "damping", "traction", "force", "velocity", "body_force", "local_damping"];
     for effect in EffectName::ALL {
         assert!(tested.contains(&effect.name()), "`{}` is not held to its memory", effect.name());
     }

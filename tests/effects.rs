@@ -6,8 +6,8 @@ mod common;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
-        BasisName, BodyForce, Counted, Damping, Driven, Effect, EffectName, Gravity, Particles,
-        SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName, Vector,
+        BasisName, BodyForce, Counted, Damping, Driven, Effect, EffectName, Gravity, LocalDamping,
+        Particles, SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName, Vector,
     },
     subject::{Column, Holder, Profile, Subject},
     suite::{Suite, embedded, profiles},
@@ -29,6 +29,7 @@ fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxe
         EffectName::Driven => {
             Box::new(Driven::on(particles, members, Box::new(move |_, t| uniform(t))))
         }
+        EffectName::LocalDamping => Box::new(LocalDamping(size)),
         EffectName::Damping => Box::new(Damping(Box::new(move |t| size * (1.0 + t)))),
     }
 }

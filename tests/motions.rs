@@ -42,6 +42,7 @@ fn problem(
         regions: Vec::new(),
         body_force: Vec::new(),
         damping: None,
+        local_damping: None,
         at_rest: false,
         manufactured: true,
         faces: Vec::new(),

@@ -63,6 +63,9 @@ pub struct Problem {
     pub body_force: Vec<Formula>,
     /// Rate alpha(t) (1/s) of a body force `-alpha u_t`, a formula of t.
     pub damping: Option<Formula>,
+    /// Share zeta of the force that is out of balance, `Div P + rho0 b`, with which a body force
+    /// opposes the motion, component by component (Cundall 1987).
+    pub local_damping: Option<f64>,
     /// Whether the motion is the state in which the body comes to rest: no function of t, held to
     /// the loads at the end of the run and to no initial condition.
     pub at_rest: bool,
@@ -135,7 +138,20 @@ impl Problem {
         if self.manufactured {
             return self.balance(now);
         }
-        std::array::from_fn(|i| self.given(i, label, t) + self.damping(i, t, now))
+        let given = std::array::from_fn(|i| self.given(i, label, t));
+        let local = self.opposed(now, &given);
+        std::array::from_fn(|i| given[i] + self.damping(i, t, now) + local[i])
+    }
+
+    /// The force of local damping (m/s2): `-zeta |Div P / rho0 + b| sign(u_t)`.
+    fn opposed(&self, now: &Derivatives, given: &[f64; 3]) -> [f64; 3] {
+        let Some(share) = self.local_damping else { return [0.0; 3] };
+        let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
+        std::array::from_fn(|i| {
+            let unbalanced = stress[i] / self.density + given[i];
+            let sign = if now.velocity[i] == 0.0 { 0.0 } else { now.velocity[i].signum() };
+            -share * unbalanced.abs() * sign
+        })
     }
 
     /// The body force that the motion needs, `u_tt - Div P / rho0`.

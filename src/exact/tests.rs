@@ -35,6 +35,7 @@ fn held(dimension: usize) -> Problem {
         round: None,
         body_force: Vec::new(),
         damping: None,
+        local_damping: None,
         at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),
@@ -100,6 +101,32 @@ fn damping_is_a_force_in_the_equation_of_motion() {
     assert!(found.condition.starts_with("equation of motion"), "{found}");
     let made = Problem { manufactured: true, ..damped };
     assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
+}
+
+/// The first half period of a bar with c = 1 that local damping makes stiffer on its way out, to
+/// `pi sqrt(1.6)`, and softer on its way back, to half of that.
+#[test]
+fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
+    let swing = |out: &str, back: &str| {
+        let turn = format!("pi/(2*{out})");
+        format!("sin(pi*X)*sin({out}*min(t, {turn}))*cos({back}*max(t - {turn}, 0))")
+    };
+    let half = "pi*sqrt(0.4)";
+    let wave = swing("(2*pi*sqrt(0.4))", half);
+    let locally =
+        |share, wave: &str| Problem { local_damping: share, ..bar(wave, Condition::Fixed) };
+    locally(Some(0.6), &wave).check().unwrap();
+    for wrong in [
+        locally(None, &wave),
+        locally(Some(0.59), &wave),
+        locally(Some(0.6), &swing(half, "(2*pi*sqrt(0.4))")),
+    ] {
+        let found = wrong.check().unwrap_err();
+        assert!(found.condition.starts_with("equation of motion"), "{found}");
+    }
+    // Gravity is part of what is out of balance.
+    let weighed = Problem { gravity: vec![bind("1", &["t"])], ..locally(Some(0.6), &wave) };
+    assert!(weighed.check().is_err());
 }
 
 /// A bar that hangs: it is in equilibrium with the load at the end only.

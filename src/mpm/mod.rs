@@ -44,7 +44,8 @@ pub use boundary::{Advance, Boundary, Fixed, Prescribed, Roller, Side, VelocityF
 pub use combination::combine;
 pub use counted::{Counted, Tally};
 pub use effect::{
-    BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, SetForce, Traction,
+    BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, LocalDamping, SetForce,
+    Traction,
 };
 pub use frame::FrameName;
 pub use grid::Grid;

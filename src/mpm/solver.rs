@@ -124,8 +124,11 @@ impl<const D: usize> Solver<D> {
     fn force(&mut self) {
         let Setup { grid, particles, kernel, transfer, effects, .. } = &mut self.setup;
         let passes = transfer.p2g_internal_force(kernel.as_ref(), particles, grid);
-        for effect in effects {
+        for effect in effects.iter_mut() {
             self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
+        }
+        for effect in &self.setup.effects {
+            effect.oppose_motion(&mut self.setup.grid);
         }
         self.count(passes);
     }
@@ -197,11 +200,20 @@ impl<const D: usize> Solver<D> {
         self.transfers += passes * pairs;
     }
 
+    /// Whether anybody reads the velocities of the grid before those of the particles are new.
+    fn reads_grid_velocity(&self) -> bool {
+        let Setup { transfer, effects, .. } = &self.setup;
+        transfer.reads_grid_velocity() || effects.iter().any(|effect| effect.reads_grid_velocity())
+    }
+
     /// `v(-dt/2) = v(0) - dt/2 a(0)`.
     fn half_step_back(&mut self, dt: f64) -> Result<(), Failure> {
         // a(0) is that of the whole step around t = 0.
         self.stands = -0.5 * dt;
         self.run(Stage::Mass, dt)?;
+        if self.setup.effects.iter().any(|effect| effect.reads_grid_velocity()) {
+            self.run(Stage::Momentum, dt)?;
+        }
         self.run(Stage::Force, dt)?;
         self.run(Stage::Acceleration, dt)?;
         self.stands = -0.5 * dt;
@@ -222,7 +234,7 @@ impl<const D: usize> Subject for Solver<D> {
             }
         }
         self.started = true;
-        for &stage in self.setup.scheme.stages(self.setup.transfer.reads_grid_velocity()) {
+        for &stage in self.setup.scheme.stages(self.reads_grid_velocity()) {
             self.run(stage, dt)?;
         }
         self.time += dt;

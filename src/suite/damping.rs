@@ -1,4 +1,4 @@
-//! What damping asks of a suite.
+//! Damping, and what it asks of a suite.
 
 use super::{
     binder::Binder,
@@ -6,21 +6,47 @@ use super::{
     path::Path,
     wording::shown,
     words::{ConvergenceWords, LoadWords},
-    yaml::Complaint,
+    yaml::{Complaint, NumberText},
 };
+use crate::exact::formula::Formula;
 
 /// Times of a run at which the rate is looked at.
 const TIMES: u32 = 1000;
 
-/// Refuses a rate that is negative at some time up to `until` (s), and the FEM, which has no
-/// damping.
+/// Refuses a rate that is negative at some time up to `until` (s), the FEM, which has no damping,
+/// and a manufactured force beside a local damping, which would oppose it too.
 pub(super) fn check(
     binder: &Binder<'_>,
     words: &ConvergenceWords,
     scene: &Scene,
     until: f64,
 ) -> Result<(), Complaint> {
-    let Some(rate) = &scene.damping else { return Ok(()) };
+    if scene.local_damping.is_some() && words.manufactured.is_some() {
+        let message = "local damping opposes the whole force, and a part of it is manufactured";
+        let complaint = binder.complain_key(&Path::top("manufactured"), message);
+        return Err(complaint.with_help("state the motion under `exact`, or use `damping`"));
+    }
+    if let Some(rate) = &scene.damping {
+        never_negative(binder, words, rate, until)?;
+    } else if scene.local_damping.is_none() {
+        return Ok(());
+    }
+    let message = "the reference FEM has no damping, and the scene has";
+    if words.has_fem_reference() {
+        return Err(binder.complain_key(&Path::top("reference"), message));
+    }
+    match words.fem_method() {
+        Some(i) => Err(binder.complain(&Path::top("methods").then(i), message)),
+        None => Ok(()),
+    }
+}
+
+fn never_negative(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    rate: &Formula,
+    until: f64,
+) -> Result<(), Complaint> {
     let load = words.scene.loads.iter().position(|load| matches!(load, LoadWords::Damping(_)));
     let path = Path::top("scene").then("loads").then(load.unwrap_or(0)).then("damping");
     for k in 0..=TIMES {
@@ -32,15 +58,25 @@ pub(super) fn check(
             return Err(binder.complain(&path, &message).with_label(label));
         }
     }
-    if words.has_fem_reference() {
-        let message = "the reference FEM has no damping, and the scene has";
-        return Err(binder.complain_key(&Path::top("reference"), message));
+    Ok(())
+}
+
+/// Gives the scene a local damping, a share of the force out of balance.
+pub(super) fn add_local(
+    binder: &Binder<'_>,
+    path: &Path,
+    text: &NumberText,
+    scene: &mut Scene,
+) -> Result<(), Complaint> {
+    if scene.local_damping.is_some() {
+        return Err(binder.complain(path, "local damping appears twice"));
     }
-    match words.fem_method() {
-        Some(i) => {
-            let message = "the reference FEM has no damping, and the scene has";
-            Err(binder.complain(&Path::top("methods").then(i), message))
-        }
-        None => Ok(()),
+    let share = binder.number(path, text)?;
+    if !(0.0..1.0).contains(&share) {
+        let message = format!("the share of local damping is {}", shown(share));
+        let label = "expected zero or a number below 1";
+        return Err(binder.complain(path, &message).with_label(label));
     }
+    scene.local_damping = Some(share);
+    Ok(())
 }

@@ -14,8 +14,8 @@ use super::{
 use crate::{
     exact::{Forcing, Problem},
     mpm::{
-        BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, Particles, Setup, Solver,
-        Traction, Vector, kernel,
+        BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, LocalDamping, Particles, Setup,
+        Solver, Traction, Vector, kernel,
     },
     subject::{Profile, Subject},
     verify::Quantity,
@@ -151,6 +151,9 @@ fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<d
     if let Some(rate) = scene.damping.clone() {
         effects.push(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))));
     }
+    effects.extend(
+        scene.local_damping.map(|share| -> Box<dyn Effect<D>> { Box::new(LocalDamping(share)) }),
+    );
     for face in &scene.faces {
         if let Some(formulas) = &face.traction {
             let pull = Traction::on(particles, face.axis, side(face), of_time(formulas));

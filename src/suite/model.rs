@@ -123,6 +123,8 @@ pub struct Scene {
     pub body_force: Option<Vec<Formula>>,
     /// Rate (1/s) at which velocities decay, a formula of t.
     pub damping: Option<Formula>,
+    /// Share of the force out of balance that opposes the motion.
+    pub local_damping: Option<f64>,
     /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
     pub initial_displacement: Vec<Formula>,
     /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.

@@ -2,7 +2,7 @@
 
 use super::{
     binder::Binder,
-    body,
+    body, damping,
     hold::{self, FACES, face},
     law,
     material::material,
@@ -62,6 +62,7 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         gravity: None,
         body_force: None,
         damping: None,
+        local_damping: None,
         initial_velocity: initial_velocity(binder, &path, words, dimension)?,
     };
     combined(binder, &path.then("loads"), &words.loads)?;
@@ -185,6 +186,9 @@ fn add_load(
                 return Err(binder.complain(&path, "damping appears twice"));
             }
             scene.damping = Some(binder.formula(&path, text, &["t"])?);
+        }
+        LoadWords::LocalDamping(text) => {
+            damping::add_local(binder, &path.then("local_damping"), text, scene)?;
         }
         LoadWords::BodyForce(texts) => {
             let path = path.then("body_force");

@@ -170,6 +170,9 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     if let Some(damping) = &scene.damping {
         push(rows, "damping", &format!("{} 1/s", damping.source()));
     }
+    if let Some(share) = scene.local_damping {
+        push(rows, "local damping", &format!("{} of the force out of balance", shown(share)));
+    }
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
     push(rows, "initial velocity", &sources(&scene.initial_velocity));
 }

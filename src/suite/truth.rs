@@ -149,6 +149,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         gravity: scene.gravity.clone().unwrap_or_default(),
         body_force: scene.body_force.clone().unwrap_or_default(),
         damping: scene.damping.clone(),
+        local_damping: scene.local_damping,
         at_rest: false,
         manufactured: false,
         faces: scene.faces.iter().map(|words| face(scene, words)).collect(),

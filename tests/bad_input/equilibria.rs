@@ -75,6 +75,33 @@ fn damping(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SETTLED, edits, words);
 }
 
+const RATE: &str = "    - damping: \"pi*c/l0\"";
+
+#[rstest]
+#[case::of_the_whole_force(
+    &[(RATE, "    - local_damping: ▸1")],
+    &["the share of local damping is 1", "expected zero or a number below 1"]
+)]
+#[case::that_drives(&[(RATE, "    - local_damping: ▸\"-c\"")], &["expected zero or a number below 1"])]
+#[case::that_changes(&[(RATE, "    - local_damping: \"1/(1 + ▸t)\"")], &["`t`"])]
+#[case::twice(
+    &[(RATE, "    - local_damping: 0.5\n    - local_damping: ▸0.5")],
+    &["local damping appears twice"]
+)]
+#[case::of_a_manufactured_force(
+    &[(RATE, "    - local_damping: 0.5"), (STATE, "▸manufactured:"), ("of: stress, ", "")],
+    &["a part of it is manufactured", "use `damping`"]
+)]
+fn local_damping(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(SETTLED, edits, words);
+}
+
+#[test]
+fn local_damping_of_finite_elements() {
+    let bar = include_str!("../../verification/local-damping-bar.yaml");
+    refused(bar, &[(MPM, FEM)], &["the reference FEM has no damping"]);
+}
+
 /// The oedometer has a motion for its truth.
 #[test]
 fn rest_is_asked_of_a_body_that_comes_to_rest() {

@@ -28,6 +28,16 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
+    /// Whether [`Effect::oppose_motion`] reads the velocities of the grid: schemes map them before the
+    /// forces only if somebody does.
+    fn reads_grid_velocity(&self) -> bool {
+        false
+    }
+
+    /// Changes `grid.force`, the sum of all forces, in the light of `grid.velocity`, that which
+    /// particles bring to the step. Called once all effects have added their forces.
+    fn oppose_motion(&self, _grid: &mut Grid<D>) {}
+
     /// Gives particles a velocity that is not the grid's; `t` (s) is the time that velocities stand
     /// for, and `dt` (s) what they have advanced by. Called whenever velocities have been taken from
     /// the grid, and at the start of a run with `dt` = 0.

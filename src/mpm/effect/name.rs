@@ -57,6 +57,8 @@ effects! {
     Driven = "velocity";
     /// Damping in proportion to mass.
     Damping = "damping";
+    /// A share of the force out of balance, against the motion.
+    LocalDamping = "local_damping";
 }
 
 impl EffectName {

@@ -83,6 +83,8 @@ pub(in crate::suite) enum LoadWords {
     Gravity(Vec<NumberText>),
     /// Rate (1/s) at which velocities decay, a formula of t.
     Damping(NumberText),
+    /// Share of the force out of balance that opposes the motion, node by node.
+    LocalDamping(NumberText),
     /// Force per unit mass (m/s2), formulas of the coordinates and t.
     BodyForce(Vec<NumberText>),
     /// Force per reference area on one face (Pa), formulas of t.
@@ -99,6 +101,7 @@ impl LoadWords {
         match self {
             Self::Gravity(_) => EffectName::Gravity,
             Self::Damping(_) => EffectName::Damping,
+            Self::LocalDamping(_) => EffectName::LocalDamping,
             Self::BodyForce(_) => EffectName::BodyForce,
             Self::Traction { .. } => EffectName::Traction,
             Self::Force { .. } => EffectName::SetForce,

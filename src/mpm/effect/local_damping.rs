@@ -1,0 +1,61 @@
+//! Local damping: a force against the motion, in proportion to the force that is out of balance.
+//!
+//! `f_i <- f_i - zeta |f_i| sign(v_i)`, component by component and node by node, once all other
+//! forces are there (Cundall 1987, in Analytical and Computational Methods in Engineering Rock
+//! Mechanics, ch. 4). A body in equilibrium feels nothing, whatever its loads, and no frequency has
+//! to be known: each mode loses the same share of its amplitude in each of its own half periods,
+//! `sqrt((1 - zeta)/(1 + zeta))` where all of the body turns at once.
+//!
+//! The sign is that of the velocity that particles bring to the step, half a step behind the forces,
+//! so where the motion turns the damping turns up to a step late: of first order in time. As it acts
+//! on nodes, what no node sees of FLIP's velocities is left as it is.
+
+use super::{contract::Effect, name::EffectName};
+use crate::mpm::grid::Grid;
+
+/// The share zeta, 0 <= zeta < 1, of the force that is out of balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalDamping(pub f64);
+
+impl<const D: usize> Effect<D> for LocalDamping {
+    fn name(&self) -> EffectName {
+        EffectName::LocalDamping
+    }
+
+    fn reads_grid_velocity(&self) -> bool {
+        true
+    }
+
+    fn oppose_motion(&self, grid: &mut Grid<D>) {
+        for (force, velocity) in grid.force.iter_mut().zip(&grid.velocity) {
+            for (f, v) in force.iter_mut().zip(velocity) {
+                // A node at rest is not damped; neither is one without a number for its velocity,
+                // which the particles will tell of.
+                if *v > 0.0 {
+                    *f -= self.0 * f.abs();
+                } else if *v < 0.0 {
+                    *f += self.0 * f.abs();
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{BasisName, Vector, kernel};
+
+    #[test]
+    fn each_component_is_opposed_by_a_share_of_its_own_force() {
+        let kernel = kernel::<2>(BasisName::Linear);
+        let mut grid = kernel.grid(Vector::zeros(), 1.0, [1, 1], [false; 2]);
+        grid.velocity[0] = Vector::<2>::new(1.0, -1e-9);
+        grid.velocity[1] = Vector::<2>::new(-2.0, 0.0);
+        grid.force[0] = Vector::<2>::new(8.0, 4.0);
+        grid.force[1] = Vector::<2>::new(-8.0, 4.0);
+        Effect::<2>::oppose_motion(&LocalDamping(0.25), &mut grid);
+        assert_eq!(grid.force[0], Vector::<2>::new(6.0, 5.0));
+        assert_eq!(grid.force[1], Vector::<2>::new(-6.0, 4.0));
+    }
+}
