@@ -11,9 +11,9 @@ use mpm_verify::{
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Gravity, LocalDamping,
-        MaterialPlan, Particles, Prescribed, Roller, SchemeName, SetForce, Side, Solver, Traction,
-        TransferName, Vector, VelocityField,
+        BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Friction, Gravity,
+        LocalDamping, MaterialPlan, Particles, Prescribed, Roller, SchemeName, SetForce, Side,
+        Solver, Traction, TransferName, Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
 };
@@ -90,6 +90,7 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         setup.boundary = vec![
             Box::new(Prescribed::face(grid, method.0, last, Side::High, drive())),
             Box::new(Roller::face(grid, last, Side::Low)),
+            Box::new(Friction::face(grid, 0, Side::High, 0.3)),
             Box::new(Fixed::face(grid, 0, Side::Low)),
         ];
         setup.start = start;

@@ -6,11 +6,12 @@ mod common;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
-        BasisName, BodyForce, Counted, Damping, Driven, Effect, EffectName, Gravity, LocalDamping,
-        Particles, SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName, Vector,
+        BasisName, BodyForce, Boundary, Counted, Damping, Driven, Effect, EffectName, Fixed,
+        Friction, Gravity, Grid, LocalDamping, Particles, Prescribed, Roller, SchemeName, SetForce,
+        Setup, Side, Solver, Traction, TransferName, Vector,
     },
     subject::{Column, Holder, Profile, Subject},
-    suite::{Suite, embedded, profiles},
+    suite::{Hold, StudyPlan, Suite, embedded, profiles},
 };
 use rstest::rstest;
 
@@ -79,9 +80,9 @@ fn an_effect_of_no_strength_is_none_bit_for_bit(
 }
 
 /// What the second step of the free body takes, with linear functions, FLIP and MUSL.
-fn taken(effects: impl Fn(&Setup<2>) -> Vec<Boxed<2>>) -> Profile {
+fn taken(add: impl FnOnce(&mut Setup<2>)) -> Profile {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
-    setup.effects = effects(&setup);
+    add(&mut setup);
     let (kernel, tally) = Counted::new(setup.kernel);
     setup.kernel = Box::new(kernel);
     let mut solver = Solver::new(setup).unwrap();
@@ -93,7 +94,7 @@ fn taken(effects: impl Fn(&Setup<2>) -> Vec<Boxed<2>>) -> Profile {
 
 #[test]
 fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
-    let empty = taken(|_| Vec::new());
+    let empty = taken(|_| ());
     let named = |holder: Holder| -> Vec<(&str, usize)> {
         let of = empty.columns.iter().filter(|column| column.holder == holder);
         of.map(|column| (column.name, column.bytes)).collect()
@@ -122,10 +123,25 @@ fn added<T: PartialEq + Copy>(all: &[T], some: &[T]) -> Vec<T> {
     all.iter().filter(|one| !some.contains(one)).copied().collect()
 }
 
-/// The row of the README for an effect, but for the suites that verify it.
-fn row(name: EffectName) -> String {
-    let empty = taken(|_| Vec::new());
-    let with = taken(|setup| vec![effect(name, setup, 0.1)]);
+/// Walls by the words of suites, each on the low face of the second axis.
+const WALLS: [&str; 4] = ["fixed", "roller", "velocity", "friction"];
+
+fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
+    match name {
+        "fixed" => Box::new(Fixed::face(grid, 1, Side::Low)),
+        "roller" => Box::new(Roller::face(grid, 1, Side::Low)),
+        "friction" => Box::new(Friction::face(grid, 1, Side::Low, 0.3)),
+        "velocity" => {
+            let still = Box::new(|_: &Vector<2>, _| Vector::zeros());
+            Box::new(Prescribed::face(grid, BasisName::Linear, 1, Side::Low, still))
+        }
+        other => unreachable!("no wall `{other}`"),
+    }
+}
+
+/// The row of the README for a member of a scene, but for the suites that verify it.
+fn row(name: &str, with: impl FnOnce(&mut Setup<2>)) -> String {
+    let (empty, with) = (taken(|_| ()), taken(with));
     let kept = |holder: Holder| {
         let held = |profile: &Profile| -> Vec<Column> {
             profile.columns.iter().filter(|column| column.holder == holder).copied().collect()
@@ -149,34 +165,69 @@ fn row(name: EffectName) -> String {
     let passes: Vec<String> = added(&with.passes, &empty.passes).iter().map(text).collect();
     let passes = if passes.is_empty() { "nothing".to_owned() } else { passes.join(", ") };
     let (particle, node) = (kept(Holder::Particle), kept(Holder::Node));
-    format!("| `{}` | {particle} | {node} | {passes} |", name.name())
+    format!("| `{name}` | {particle} | {node} | {passes} |")
+}
+
+fn load(suite: &str) -> Suite {
+    let source = embedded::source(suite).unwrap_or_else(|| panic!("there is no suite `{suite}`"));
+    Suite::load(&source.unwrap()).unwrap()
 }
 
 /// Whether some case of a suite has the effect: every case is gated.
 fn lists(suite: &str, effect: EffectName) -> bool {
-    let source = embedded::source(suite).unwrap_or_else(|| panic!("there is no suite `{suite}`"));
-    let suite = Suite::load(&source.unwrap()).unwrap();
+    let suite = load(suite);
     suite.case_names().iter().any(|case| {
         profiles::of_case(&suite, case, None)
             .is_some_and(|profile| profile.effects.contains(&effect.name()))
     })
 }
 
-#[test]
-fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
+/// Whether a suite has such a wall.
+fn has_wall(suite: &str, name: &str) -> bool {
+    let StudyPlan::Convergence(plan) = load(suite).study else { return false };
+    plan.scene.faces.iter().any(|face| match face.hold {
+        Hold::Free | Hold::Periodic => false,
+        Hold::Fixed => name == "fixed",
+        Hold::Roller => name == "roller",
+        Hold::Velocity(_) => name == "velocity",
+        Hold::Friction(_) => name == "friction",
+    })
+}
+
+/// The README's rows begin as `rows` say, and end with suites of which each `verifies`.
+fn are_in_the_readme(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> bool) {
     let readme = include_str!("../README.md");
-    let rows: Vec<String> = EffectName::ALL.iter().map(|name| row(*name)).collect();
-    for (name, row) in EffectName::ALL.iter().zip(&rows) {
+    for (name, row) in rows {
         let found = readme.lines().find_map(|line| line.strip_prefix(row.as_str()));
         let suites = found.unwrap_or_else(|| {
-            panic!("README: the table of effects must hold\n{}", rows.join(" `suite` |\n"))
+            let rows: Vec<&str> = rows.iter().map(|(_, row)| row.as_str()).collect();
+            panic!("README: this table must hold\n{} `suite` |", rows.join(" `suite` |\n"))
         });
         let suites: Vec<&str> = suites.split('`').skip(1).step_by(2).collect();
-        assert!(!suites.is_empty(), "README: no suite verifies `{}`", name.name());
+        assert!(!suites.is_empty(), "README: no suite verifies `{name}`");
         for suite in suites {
-            assert!(lists(suite, *name), "README: `{suite}` has no `{}`", name.name());
+            assert!(verifies(suite, name), "README: `{suite}` has no `{name}`");
         }
     }
+}
+
+#[test]
+fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
+    let row = |&name: &EffectName| {
+        (name.name(), row(name.name(), |setup| setup.effects = vec![effect(name, setup, 0.1)]))
+    };
+    let rows: Vec<(&str, String)> = EffectName::ALL.iter().map(row).collect();
+    let named = |name: &str| *EffectName::ALL.iter().find(|one| one.name() == name).unwrap();
+    are_in_the_readme(&rows, |suite, name| lists(suite, named(name)));
+}
+
+#[test]
+fn the_readme_says_what_each_wall_adds_and_which_suites_verify_it() {
+    let rows = WALLS.map(|name| {
+        let key = format!("{name} wall");
+        (name, row(&key, |setup| setup.boundary = vec![wall(name, &setup.grid)]))
+    });
+    are_in_the_readme(&rows, has_wall);
 }
 
 /// The passes that a counting kernel sees are those that the work counter of reports is made of.

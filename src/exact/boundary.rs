@@ -2,6 +2,7 @@
 
 use super::{
     formula::Formula,
+    friction,
     motion::{Derivatives, variables},
     pointwise::{AXES, Event, POINTS, largest, scale},
     problem::{Condition, Face, Problem},
@@ -44,6 +45,11 @@ fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Resu
     if let Condition::Periodic(period) = face.condition {
         return periodic(problem, face, event, period, &all, sizes);
     }
+    if let Condition::Friction(coefficient) = face.condition {
+        let Sizes { displacement, velocity, stress, .. } = *sizes;
+        let sizes = [displacement, velocity, stress];
+        return friction::at_wall(problem, face, event, (coefficient, &all), sizes);
+    }
     for i in 0..problem.dimension() {
         match &face.condition {
             Condition::Roller if i != face.axis => {
@@ -69,7 +75,7 @@ fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Resu
                 traction(problem, face, event, (i, "loaded", pulled), &all, sizes)?;
             }
             Condition::Free => traction(problem, face, event, (i, "free", 0.0), &all, sizes)?,
-            Condition::Periodic(_) => {}
+            Condition::Friction(_) | Condition::Periodic(_) => {}
         }
     }
     Ok(())

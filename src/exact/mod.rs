@@ -10,6 +10,7 @@ mod differences;
 mod equation;
 mod forcing;
 pub mod formula;
+mod friction;
 mod motion;
 mod pointwise;
 mod problem;

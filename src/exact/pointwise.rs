@@ -32,6 +32,20 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, unit))
     }
 
+    /// Whether `found` is at most `most`, but for what is allowed.
+    pub(super) fn judge_most(
+        &self,
+        allowed: f64,
+        condition: String,
+        (most, found): (f64, f64),
+        unit: &'static str,
+    ) -> Result<(), Violation> {
+        if found - most <= allowed {
+            return Ok(());
+        }
+        Err(self.violation(condition + " at most", Some(most), found, unit))
+    }
+
     fn violation(
         &self,
         condition: String,

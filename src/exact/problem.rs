@@ -17,6 +17,9 @@ pub enum Condition {
     Fixed,
     /// u . n = 0, and no traction along the face.
     Roller,
+    /// u . n = 0 and no pull; along the face a traction of mu times the pressure against the velocity,
+    /// and at most as much where the face rests.
+    Friction(f64),
     /// u_t = v(X, t), one formula of the coordinates and t for each component (m/s).
     Velocity(Vec<Formula>),
     /// x lies one period further along the axis than on the opposite face, and grad u is that of it.

@@ -40,7 +40,7 @@ mod whereabouts;
 
 pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
-pub use boundary::{Advance, Boundary, Fixed, Prescribed, Roller, Side, VelocityField};
+pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::combine;
 pub use counted::{Counted, Tally};
 pub use effect::{

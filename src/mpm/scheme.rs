@@ -24,7 +24,7 @@ named! {
 
 impl SchemeName {
     /// The stages of one step. MUSL needs the grid's velocity before the particles' only if the
-    /// transfer reads it.
+    /// transfer or a wall reads it.
     pub fn stages(self, reads_grid_velocity: bool) -> &'static [Stage] {
         match self {
             Self::Musl if reads_grid_velocity => &[

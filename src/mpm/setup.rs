@@ -2,10 +2,10 @@
 
 use super::{
     boundary::Boundary, effect::Effect, frame::FrameName, grid::Grid, kernel::Kernel,
-    mass::MassMatrix, material::Material, particles::Particles, scheme::SchemeName,
+    mass::MassMatrix, material::Material, particles::Particles, scheme::SchemeName, stage::Stage,
     transfer::Transfer,
 };
-use crate::subject::Start;
+use crate::subject::{Column, Profile, Start};
 
 /// Everything that a solver is made of.
 pub struct Setup<const D: usize> {
@@ -31,4 +31,38 @@ pub struct Setup<const D: usize> {
     pub scheme: SchemeName,
     /// Treatment of the initial velocity.
     pub start: Start,
+}
+
+impl<const D: usize> Setup<D> {
+    /// Whether an effect or a condition reads the velocities of the grid before they advance.
+    pub(super) fn reads_velocity(&self) -> bool {
+        self.effects.iter().any(|effect| effect.reads_grid_velocity())
+            || self.boundary.iter().any(|condition| condition.reads_velocity())
+    }
+
+    /// The stages of a step.
+    pub(super) fn stages(&self) -> &'static [Stage] {
+        self.scheme.stages(self.transfer.reads_grid_velocity() || self.reads_velocity())
+    }
+
+    /// The effects, and all that is kept for particles and nodes, with the column `cell` of the
+    /// solver. The factors of a consistent mass matrix, made anew in each step, are not among them.
+    pub(super) fn profile(&self, cell: Column) -> Profile {
+        let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
+        let mut columns = particles.columns();
+        columns.push(cell);
+        columns.extend(transfer.columns());
+        columns.extend(material.columns());
+        columns.extend(effects.iter().flat_map(|effect| effect.columns()));
+        columns.extend(grid.columns());
+        columns.extend(boundary.iter().flat_map(|condition| condition.columns()));
+        columns.retain(|column| column.entries > 0);
+        Profile {
+            effects: effects.iter().map(|effect| effect.name().name()).collect(),
+            particles: particles.len(),
+            nodes: grid.nodes(),
+            columns,
+            passes: Vec::new(),
+        }
+    }
 }

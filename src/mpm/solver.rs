@@ -55,21 +55,7 @@ impl<const D: usize> Solver<D> {
 
     /// The effects, and all that is kept for particles and nodes: what a step works with.
     pub fn profile(&self) -> Profile {
-        let Setup { grid, particles, transfer, material, effects, .. } = &self.setup;
-        let mut columns = particles.columns();
-        columns.push(self.whereabouts.columns());
-        columns.extend(transfer.columns());
-        columns.extend(material.columns());
-        columns.extend(effects.iter().flat_map(|effect| effect.columns()));
-        columns.extend(grid.columns());
-        columns.retain(|column| column.entries > 0);
-        Profile {
-            effects: effects.iter().map(|effect| effect.name().name()).collect(),
-            particles: particles.len(),
-            nodes: grid.nodes(),
-            columns,
-            passes: Vec::new(),
-        }
+        self.setup.profile(self.whereabouts.columns())
     }
 
     /// Runs one stage of a step of length `dt` (s).
@@ -139,8 +125,8 @@ impl<const D: usize> Solver<D> {
         field.copy_from_slice(&grid.force);
         mass.solve(grid, &mut field);
         let advance = Advance { from: self.stands, to: self.time + 0.5 * dt, dt };
-        for condition in boundary.iter() {
-            condition.hold_acceleration(&mut field, &advance);
+        for condition in boundary.iter_mut() {
+            condition.hold_advance(&mut grid.velocity, &mut field, &advance);
         }
         self.stands = advance.to;
         let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
@@ -200,18 +186,12 @@ impl<const D: usize> Solver<D> {
         self.transfers += passes * pairs;
     }
 
-    /// Whether anybody reads the velocities of the grid before those of the particles are new.
-    fn reads_grid_velocity(&self) -> bool {
-        let Setup { transfer, effects, .. } = &self.setup;
-        transfer.reads_grid_velocity() || effects.iter().any(|effect| effect.reads_grid_velocity())
-    }
-
     /// `v(-dt/2) = v(0) - dt/2 a(0)`.
     fn half_step_back(&mut self, dt: f64) -> Result<(), Failure> {
         // a(0) is that of the whole step around t = 0.
         self.stands = -0.5 * dt;
         self.run(Stage::Mass, dt)?;
-        if self.setup.effects.iter().any(|effect| effect.reads_grid_velocity()) {
+        if self.setup.reads_velocity() {
             self.run(Stage::Momentum, dt)?;
         }
         self.run(Stage::Force, dt)?;
@@ -234,7 +214,7 @@ impl<const D: usize> Subject for Solver<D> {
             }
         }
         self.started = true;
-        for &stage in self.setup.scheme.stages(self.reads_grid_velocity()) {
+        for &stage in self.setup.stages() {
             self.run(stage, dt)?;
         }
         self.time += dt;

@@ -16,7 +16,7 @@ pub(super) fn check(
     let path = Path::top("scene");
     let help = "remove the FEM, also as `reference`, or the condition";
     for face in &scene.faces {
-        if matches!(face.hold, Hold::Periodic | Hold::Velocity(_)) {
+        if matches!(face.hold, Hold::Periodic | Hold::Friction(_) | Hold::Velocity(_)) {
             let message = format!(
                 "the {} face {}, and the FEM knows fixed and free ends only",
                 face.name,

@@ -175,6 +175,13 @@ fn possible(
                            driven";
             Err(binder.complain(&path.then("mpm").then("mass"), message))
         }
+        MethodWords::Mpm { mass: Some(mass), .. }
+            if mass.as_slice().contains(&MassName::Consistent) && rubs(plan) =>
+        {
+            let message = "friction is measured by what a held node would do, of which a consistent \
+                           mass matrix has no row";
+            Err(binder.complain(&path.then("mpm").then("mass"), message))
+        }
         MethodWords::Mpm { frame: Some(frame), .. }
             if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
         {
@@ -194,6 +201,10 @@ fn possible(
 
 fn driven(plan: &ConvergencePlan) -> bool {
     plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Velocity(_)))
+}
+
+fn rubs(plan: &ConvergencePlan) -> bool {
+    plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Friction(_)))
 }
 
 /// Whether a period of the grid is not that of the body's reference place.

@@ -7,8 +7,8 @@ use super::{
 use crate::{
     exact::{Region, formula::Formula},
     mpm::{
-        BasisName, Boundary, Driven, Effect, Fixed, Grid, Particles, Prescribed, Roller, SetForce,
-        Side, Vector, VelocityField,
+        BasisName, Boundary, Driven, Effect, Fixed, Friction, Grid, Particles, Prescribed, Roller,
+        SetForce, Side, Vector, VelocityField,
     },
 };
 
@@ -22,8 +22,8 @@ pub(super) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| matches!(face.hold, Hold::Periodic))
 }
 
-/// What is held on the faces of the grid. Where faces meet, a fixed one wins over a roller, and
-/// both over a given velocity: a wall that drives a body does not tear it from one that holds it.
+/// What is held on the faces of the grid. Where faces meet, a fixed one wins over one with
+/// friction, which leaves to a roller what that holds, and all over a given velocity: a wall that drives a body does not tear it from one that holds it.
 pub(super) fn boundary<const D: usize>(
     scene: &Scene,
     grid: &Grid<D>,
@@ -39,7 +39,10 @@ pub(super) fn boundary<const D: usize>(
                 ranked.push((0, Box::new(driven)));
             }
             Hold::Roller => ranked.push((1, Box::new(Roller::face(grid, axis, side)))),
-            Hold::Fixed => ranked.push((2, Box::new(Fixed::face(grid, axis, side)))),
+            Hold::Friction(coefficient) => {
+                ranked.push((2, Box::new(Friction::face(grid, axis, side, *coefficient))));
+            }
+            Hold::Fixed => ranked.push((3, Box::new(Fixed::face(grid, axis, side)))),
         }
     }
     ranked.sort_by_key(|(rank, _)| *rank);

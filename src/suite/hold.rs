@@ -3,9 +3,9 @@
 use super::{
     binder::Binder,
     path::Path,
-    wording::suggestion,
+    wording::{shown, suggestion},
     words::{BoundaryWords, SceneWords},
-    yaml::Complaint,
+    yaml::{Complaint, NumberText},
 };
 use crate::exact::formula::Formula;
 
@@ -21,6 +21,8 @@ pub enum Hold {
     Fixed,
     /// It does not move along its normal, and slides freely along itself.
     Roller,
+    /// The wall presses on it, does not pull, and resists sliding by this coefficient of friction.
+    Friction(f64),
     /// It has a given velocity (m/s), formulas of the coordinates and t.
     Velocity(Vec<Formula>),
     /// It is one and the same with the opposite face.
@@ -44,6 +46,7 @@ impl Hold {
             Self::Free => "is free",
             Self::Fixed => "is fixed",
             Self::Roller => "is a roller",
+            Self::Friction(_) => "has friction",
             Self::Velocity(_) => "has a given velocity",
             Self::Periodic => "is periodic",
         }
@@ -66,6 +69,7 @@ pub(super) fn holds(
         holds[face] = match words {
             BoundaryWords::Fixed => Hold::Fixed,
             BoundaryWords::Roller => Hold::Roller,
+            BoundaryWords::Friction(text) => friction(binder, &at.then("friction"), text)?,
             BoundaryWords::Periodic => Hold::Periodic,
             BoundaryWords::Velocity(texts) => {
                 let at = at.then("velocity");
@@ -75,6 +79,15 @@ pub(super) fn holds(
     }
     both_ends(binder, &path, &holds)?;
     Ok(holds)
+}
+
+fn friction(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<Hold, Complaint> {
+    let coefficient = binder.number(path, text)?;
+    if coefficient >= 0.0 {
+        return Ok(Hold::Friction(coefficient));
+    }
+    let message = format!("the coefficient of friction is {}", shown(coefficient));
+    Err(binder.complain(path, &message).with_label("expected zero or a positive number"))
 }
 
 /// A face can only be periodic together with the opposite one.

@@ -146,6 +146,9 @@ fn scene(scene: &Scene, rows: &mut Rows) {
         let state = match (&face.traction, &face.hold) {
             (Some(value), _) => format!("traction {} Pa", sources(value)),
             (None, Hold::Velocity(value)) => format!("velocity {} m/s", sources(value)),
+            (None, Hold::Friction(coefficient)) => {
+                format!("wall that does not pull, coefficient of friction {coefficient}")
+            }
             (None, Hold::Free) => "free".to_owned(),
             (None, Hold::Fixed) => "fixed".to_owned(),
             (None, Hold::Roller) => "roller".to_owned(),

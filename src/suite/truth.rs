@@ -211,6 +211,7 @@ fn face(scene: &Scene, face: &SceneFace) -> Face {
     let condition = match (&face.hold, &face.traction) {
         (Hold::Fixed, _) => Condition::Fixed,
         (Hold::Roller, _) => Condition::Roller,
+        (Hold::Friction(coefficient), _) => Condition::Friction(*coefficient),
         (Hold::Velocity(value), _) => Condition::Velocity(value.clone()),
         (Hold::Periodic, _) => Condition::Periodic(scene.period(face.axis)),
         (Hold::Free, Some(value)) => Condition::Traction(value.clone()),

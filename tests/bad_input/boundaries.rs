@@ -34,6 +34,9 @@ expect:
     because: two levels support no claim
 "#;
 
+/// A block that slides down a slope.
+const SLOPE: &str = include_str!("../../verification/sliding-block.yaml");
+
 /// A square between rollers, with a driven set.
 const SQUARE: &str = r#"suite: square
 title: Square between rollers
@@ -91,6 +94,7 @@ fn edited(sound: &str, edits: Edits<'_>) -> String {
 
 #[rstest]
 #[case::a_ring(RING, &[])]
+#[case::a_block_on_a_slope(SLOPE, &[])]
 #[case::a_square_between_rollers(SQUARE, &[])]
 #[case::a_driven_bar(BAR, DRIVEN)]
 #[case::a_roller_in_one_dimension(BAR, &[("left: fixed", "left: roller")])]
@@ -103,6 +107,31 @@ fn sound(#[case] text: &str, #[case] edits: Edits<'_>) {
 }
 
 #[rstest]
+#[case::negative_friction(
+    SLOPE,
+    &[("bottom: {friction: mu}", "bottom: {friction: ▸-mu}")],
+    &["the coefficient of friction is -0.267949", "expected zero or a positive number"]
+)]
+#[case::a_kind_of_friction_that_nobody_knows(
+    SLOPE,
+    &[("bottom: {friction: mu}", "bottom: {▸rub: mu}")],
+    &["unknown", "`friction`"]
+)]
+#[case::friction_without_rows_for_held_nodes(
+    SLOPE,
+    &[("start: at_zero}", "start: at_zero, mass: ▸consistent}")],
+    &["friction is measured by what a held node would do"]
+)]
+#[case::a_bar_for_the_fem(
+    BAR,
+    &[("{left: fixed}", "{left: ▸{friction: 0.1}}")],
+    &["the left face has friction, and the FEM knows fixed and free ends only"]
+)]
+#[case::less_friction_than_the_motion_needs(
+    SLOPE,
+    &[("{friction: mu}", "{friction: 0.99*mu}"), ("- \"slide*t", "- ▸\"slide*t")],
+    &["bottom is a wall with friction, traction in X against the velocity"]
+)]
 #[case::one_periodic_face(
     RING,
     &[("left: periodic, right: periodic", "left: ▸periodic")],

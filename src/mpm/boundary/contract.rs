@@ -1,6 +1,6 @@
 //! What a boundary condition is to the rest of the solver.
 
-use crate::mpm::algebra::Vector;
+use crate::{mpm::algebra::Vector, subject::Column};
 
 /// An advance of the grid's velocities: `v += dt a`.
 ///
@@ -25,11 +25,31 @@ pub struct Advance {
 /// must agree: a held velocity that takes the held acceleration is the held velocity of the time
 /// after.
 pub trait Boundary<const D: usize>: Send {
+    /// What the condition keeps for its nodes.
+    fn columns(&self) -> Vec<Column>;
+
+    /// Whether [`Boundary::hold_advance`] reads velocities: they are then mapped before forces.
+    fn reads_velocity(&self) -> bool {
+        false
+    }
+
     /// Gives the nodal velocities (m/s), which stand for time `t` (s), what is held of them.
     fn hold_velocity(&self, velocity: &mut [Vector<D>], t: f64);
 
     /// Gives the nodal accelerations (m/s2) of `advance` what is held of them.
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance);
+
+    /// Gives an advance what is held of it, where that depends on both: the nodal velocities (m/s)
+    /// before it, which have been held, and the accelerations (m/s2). Velocities are those of the
+    /// grid only if some condition reads them.
+    fn hold_advance(
+        &mut self,
+        _velocity: &mut [Vector<D>],
+        acceleration: &mut [Vector<D>],
+        advance: &Advance,
+    ) {
+        self.hold_acceleration(acceleration, advance);
+    }
 
     /// Sets to zero what is held of a nodal field, whatever it is held at.
     fn clear(&self, field: &mut [Vector<D>]);

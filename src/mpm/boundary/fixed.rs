@@ -4,7 +4,10 @@ use super::{
     contract::{Advance, Boundary},
     face::{Side, nodes},
 };
-use crate::mpm::{algebra::Vector, grid::Grid};
+use crate::{
+    mpm::{algebra::Vector, grid::Grid},
+    subject::Column,
+};
 
 /// A face of the grid whose nodes do not move.
 #[derive(Debug, Clone)]
@@ -26,6 +29,10 @@ impl Fixed {
 }
 
 impl<const D: usize> Boundary<D> for Fixed {
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_nodes("fixed", &self.nodes)]
+    }
+
     fn hold_velocity(&self, velocity: &mut [Vector<D>], _: f64) {
         self.hold(velocity);
     }

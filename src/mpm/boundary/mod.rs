@@ -9,12 +9,14 @@
 mod contract;
 mod face;
 mod fixed;
+mod friction;
 mod prescribed;
 mod roller;
 
 pub use contract::{Advance, Boundary};
 pub use face::Side;
 pub use fixed::Fixed;
+pub use friction::Friction;
 pub(super) use prescribed::continued;
 pub use prescribed::{Prescribed, VelocityField};
 pub use roller::Roller;

@@ -8,7 +8,10 @@ use super::{
     contract::{Advance, Boundary},
     face::{Side, nodes},
 };
-use crate::mpm::{algebra::Vector, basis::BasisName, grid::Grid};
+use crate::{
+    mpm::{algebra::Vector, basis::BasisName, grid::Grid},
+    subject::Column,
+};
 
 /// A velocity (m/s) as a function of place and time.
 pub type VelocityField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;
@@ -46,6 +49,10 @@ pub(in crate::mpm) fn continued<const D: usize>(
 }
 
 impl<const D: usize> Boundary<D> for Prescribed<D> {
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_nodes("driven", &self.nodes)]
+    }
+
     fn hold_velocity(&self, velocity: &mut [Vector<D>], t: f64) {
         for (i, x) in &self.nodes {
             velocity[*i] = continued(&self.value, x, t);

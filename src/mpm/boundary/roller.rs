@@ -4,7 +4,10 @@ use super::{
     contract::{Advance, Boundary},
     face::{Side, nodes},
 };
-use crate::mpm::{algebra::Vector, grid::Grid};
+use crate::{
+    mpm::{algebra::Vector, grid::Grid},
+    subject::Column,
+};
 
 /// A face of the grid along which the body slides.
 #[derive(Debug, Clone)]
@@ -27,6 +30,10 @@ impl Roller {
 }
 
 impl<const D: usize> Boundary<D> for Roller {
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_nodes("roller", &self.nodes)]
+    }
+
     fn hold_velocity(&self, velocity: &mut [Vector<D>], _: f64) {
         self.hold(velocity);
     }

@@ -62,6 +62,8 @@ pub(in crate::suite) enum BoundaryWords {
     Fixed,
     /// No displacement along the normal, no traction along the face.
     Roller,
+    /// A wall that presses and does not pull, with a coefficient of friction.
+    Friction(NumberText),
     /// The same state as on the opposite face.
     Periodic,
     /// A given velocity (m/s), formulas of the coordinates and t.

@@ -1,0 +1,180 @@
+//! A wall that presses, cannot pull, and resists sliding: Coulomb's law, `|t| <= mu N`.
+//!
+//! At every node of the wall the step is tried without the wall first, `v* = v + dt a`. Where that
+//! would enter the wall (or, for a node that the wall holds already, press on it) the node keeps
+//! to the wall, `v . n = a . n = 0`, as with a roller, and the impulse that this takes,
+//! `I = m |v* . n|`, is what friction is measured by. If an impulse of at most `mu I` brings `v*` to
+//! rest along the wall the node sticks, `v = a = 0`, as on a fixed wall; otherwise it slides, and
+//! `mu I` against `v*` is taken from its acceleration. Where the wall would have to pull, the node is
+//! free. (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a wall that does not move
+//! as the other body.)
+//!
+//! Nodes keep what they were in the last step: velocities that are mapped between two advances are
+//! held as the last one left them.
+
+use super::{
+    contract::{Advance, Boundary},
+    face::{Side, nodes},
+};
+use crate::{
+    mpm::{algebra::Vector, grid::Grid},
+    subject::Column,
+};
+
+/// A face of the grid with friction.
+#[derive(Debug, Clone)]
+pub struct Friction {
+    nodes: Vec<(usize, Touch)>,
+    axis: usize,
+    /// 1 where the wall is at the low end of the axis, and pushes upwards; -1 at the other.
+    inwards: f64,
+    coefficient: f64,
+}
+
+/// How a node meets the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Touch {
+    /// Not at all.
+    Free,
+    /// It slides along the wall.
+    Slides,
+    /// It rests at the wall.
+    Sticks,
+}
+
+impl Friction {
+    /// The nodes of `grid` on one face, with the coefficient of friction mu. They are free until
+    /// the body presses on them.
+    pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side, coefficient: f64) -> Self {
+        let inwards = match side {
+            Side::Low => 1.0,
+            Side::High => -1.0,
+        };
+        let nodes = nodes(grid, axis, side).into_iter().map(|i| (i, Touch::Free)).collect();
+        Self { nodes, axis, inwards, coefficient }
+    }
+
+    fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
+        for &(i, touch) in &self.nodes {
+            match touch {
+                Touch::Free => {}
+                Touch::Slides => field[i][self.axis] = 0.0,
+                Touch::Sticks => field[i] = Vector::zeros(),
+            }
+        }
+    }
+}
+
+impl<const D: usize> Boundary<D> for Friction {
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_nodes("touch", &self.nodes)]
+    }
+
+    fn reads_velocity(&self) -> bool {
+        true
+    }
+
+    fn hold_velocity(&self, velocity: &mut [Vector<D>], _: f64) {
+        self.hold(velocity);
+    }
+
+    fn hold_acceleration(&self, acceleration: &mut [Vector<D>], _: &Advance) {
+        self.hold(acceleration);
+    }
+
+    fn hold_advance(
+        &mut self,
+        velocity: &mut [Vector<D>],
+        acceleration: &mut [Vector<D>],
+        advance: &Advance,
+    ) {
+        let (axis, dt) = (self.axis, advance.dt);
+        for (i, touch) in &mut self.nodes {
+            let (v, a) = (&mut velocity[*i], &mut acceleration[*i]);
+            let mut along = *v + *a * dt;
+            let pressed = -self.inwards * along[axis];
+            if !(pressed > 0.0) {
+                *touch = Touch::Free;
+                continue;
+            }
+            along[axis] = 0.0;
+            (v[axis], a[axis]) = (0.0, 0.0);
+            let (speed, most) = (along.norm(), self.coefficient * pressed);
+            if speed <= most {
+                *touch = Touch::Sticks;
+                (*v, *a) = (Vector::zeros(), Vector::zeros());
+            } else {
+                *touch = Touch::Slides;
+                *a -= along * (most / (speed * dt));
+            }
+        }
+    }
+
+    fn clear(&self, field: &mut [Vector<D>]) {
+        self.hold(field);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{BasisName, kernel};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    const ADVANCE: Advance = Advance { from: 0.0, to: 0.5, dt: 0.5 };
+
+    /// One node of the wall after an advance from v with a, and what became of both.
+    fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
+        let grid = kernel::<2>(BasisName::Linear).grid(Vector::zeros(), 1.0, [1; 2], [false; 2]);
+        let mut wall = Friction::face(&grid, 1, side, 0.25);
+        let node = wall.nodes[0].0;
+        let (mut velocity, mut acceleration) = ([Vector::zeros(); 4], [Vector::zeros(); 4]);
+        (velocity[node], acceleration[node]) = (v.into(), a.into());
+        wall.hold_advance(&mut velocity, &mut acceleration, &ADVANCE);
+        (velocity[node], acceleration[node], wall)
+    }
+
+    #[rstest]
+    #[case::slides([3.0, 0.0], [0.0, -4.0], [3.0, 0.0], [-1.0, 0.0])]
+    #[case::slides_back([-3.0, 0.0], [0.0, -4.0], [-3.0, 0.0], [1.0, 0.0])]
+    #[case::starts_to_slide([0.0, 0.0], [3.0, -4.0], [0.0, 0.0], [2.0, 0.0])]
+    #[case::sticks([0.0, 0.0], [0.9, -4.0], [0.0, 0.0], [0.0, 0.0])]
+    #[case::comes_to_rest([0.4, 0.0], [0.0, -4.0], [0.0, 0.0], [0.0, 0.0])]
+    #[case::falls_onto_the_wall([3.0, -2.0], [0.0, 0.0], [3.0, 0.0], [-1.0, 0.0])]
+    #[case::is_not_pulled([3.0, 0.0], [0.0, 4.0], [3.0, 0.0], [0.0, 4.0])]
+    #[case::leaves([3.0, 5.0], [0.0, -4.0], [3.0, 5.0], [0.0, -4.0])]
+    fn a_node_at_the_wall(
+        #[case] v: [f64; 2],
+        #[case] a: [f64; 2],
+        #[case] held_v: [f64; 2],
+        #[case] held_a: [f64; 2],
+    ) {
+        let (velocity, acceleration, _) = advanced(Side::Low, v, a);
+        assert_relative_eq!(velocity, held_v.into());
+        assert_relative_eq!(acceleration, held_a.into());
+        let mirrored = |[x, y]: [f64; 2]| [x, -y];
+        let (velocity, acceleration, _) = advanced(Side::High, mirrored(v), mirrored(a));
+        assert_relative_eq!(velocity, mirrored(held_v).into());
+        assert_relative_eq!(acceleration, mirrored(held_a).into());
+    }
+
+    /// What is mapped afterwards is held as the advance left it.
+    #[rstest]
+    #[case::free([3.0, 5.0], [0.7, 0.2])]
+    #[case::slides([3.0, -1.0], [0.7, 0.0])]
+    #[case::sticks([0.1, -1.0], [0.0, 0.0])]
+    fn a_node_stays_what_it_was(#[case] v: [f64; 2], #[case] held: [f64; 2]) {
+        let (_, _, wall) = advanced(Side::Low, v, [0.0; 2]);
+        let mut mapped = [Vector::<2>::new(0.7, 0.2); 4];
+        wall.hold_velocity(&mut mapped, 0.5);
+        assert_eq!(mapped[wall.nodes[0].0], Vector::<2>::from(held));
+        assert_eq!(mapped[3], Vector::<2>::new(0.7, 0.2), "no node of the wall");
+    }
+
+    #[test]
+    fn nothing_is_held_where_velocities_are_no_numbers() {
+        let (velocity, ..) = advanced(Side::Low, [f64::NAN, f64::NAN], [0.0; 2]);
+        assert!(velocity.iter().all(|v| v.is_nan()), "the solver names the particle");
+    }
+}
