@@ -12,8 +12,8 @@ use mpm_verify::{
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
         BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Friction, Gravity,
-        LocalDamping, MaterialPlan, Particles, Prescribed, Roller, SchemeName, SetForce, Side,
-        Solver, Traction, TransferName, Vector, VelocityField,
+        LocalDamping, MaterialPlan, Particles, Placement, Prescribed, Pressure, Roller, SchemeName,
+        SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
 };
@@ -69,6 +69,9 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         let gravity = Gravity(Box::new(|t| Vector::<D>::from_element(-9.81 * t)));
         let pull = Box::new(|t| Vector::<D>::from_element(0.1 * t));
         let traction = Traction::on(&setup.particles, 0, Side::High, pull);
+        let (body, surface) = (&setup.particles, Placement::Surface);
+        let shear = Traction::at(body, 0, Side::High, surface, Box::new(|x, t| x * (0.1 * t)));
+        let pressure = Pressure::at(body, 0, Side::Low, surface, Box::new(|x, t| 0.1 * t * x[0]));
         let pull = Box::new(|t| Vector::<D>::from_element(0.1 * t));
         let force = SetForce::on(&setup.particles, &[0, 1], pull);
         let drive = || -> VelocityField<D> { Box::new(|x, t| x * t) };
@@ -81,6 +84,8 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
             Box::new(gravity),
             Box::new(Damping(Box::new(|t| 0.1 * t))),
             Box::new(LocalDamping(0.5)),
+            Box::new(shear),
+            Box::new(pressure),
             Box::new(traction),
             Box::new(force),
             Box::new(driven),
@@ -171,8 +176,16 @@ fn what_is_said_to_be_kept_for_particles_is_what_the_heap_holds(
 
 #[test]
 fn no_effect_is_left_out_above() {
-    let tested =
-        ["gravity", "damping", "traction", "force", "velocity", "body_force", "local_damping"];
+    let tested = [
+        "gravity",
+        "damping",
+        "traction",
+        "pressure",
+        "force",
+        "velocity",
+        "body_force",
+        "local_damping",
+    ];
     for effect in EffectName::ALL {
         assert!(tested.contains(&effect.name()), "`{}` is not held to its memory", effect.name());
     }

@@ -7,8 +7,8 @@ use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
         BasisName, BodyForce, Boundary, Counted, Damping, Driven, Effect, EffectName, Fixed,
-        Friction, Gravity, Grid, LocalDamping, Particles, Prescribed, Roller, SchemeName, SetForce,
-        Setup, Side, Solver, Traction, TransferName, Vector,
+        Friction, Gravity, Grid, LocalDamping, Particles, Placement, Prescribed, Pressure, Roller,
+        SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName, Vector,
     },
     subject::{Column, Holder, Profile, Subject},
     suite::{Hold, StudyPlan, Suite, embedded, profiles},
@@ -26,6 +26,10 @@ fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxe
         EffectName::Gravity => Box::new(Gravity(Box::new(uniform))),
         EffectName::BodyForce => Box::new(BodyForce::pointwise(move |x, t| x * (size * t))),
         EffectName::Traction => Box::new(Traction::on(particles, 0, Side::High, Box::new(uniform))),
+        EffectName::Pressure => {
+            let (side, at) = (Side::High, Placement::Particles);
+            Box::new(Pressure::at(particles, 0, side, at, Box::new(move |_, t| size * (1.0 + t))))
+        }
         EffectName::SetForce => Box::new(SetForce::on(particles, &[0, 1], Box::new(uniform))),
         EffectName::Driven => {
             Box::new(Driven::on(particles, members, Box::new(move |_, t| uniform(t))))
@@ -53,16 +57,21 @@ fn stepped<const D: usize>(setup: Setup<D>) -> Vec<u64> {
 
 /// A body without the effect, with the effect of no strength, and with some strength.
 fn is_absent_or_null<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) {
-    let without = stepped(free_body::<D>(method, scheme));
+    let plain = stepped(free_body::<D>(method, scheme));
+    let mut setup = free_body::<D>(method, scheme);
+    setup.particles.track_deformation();
+    let with_deformation = stepped(setup);
     for &name in EffectName::ALL {
+        let one = effect(name, &free_body::<D>(method, scheme), 0.0);
+        let without = if one.reads_deformation() { &with_deformation } else { &plain };
         let with = |size: f64| {
             let mut setup = free_body::<D>(method, scheme);
             setup.effects = vec![effect(name, &setup, size)];
             stepped(setup)
         };
         let what = format!("{D}-D {method:?} {scheme:?}: `{}`", name.name());
-        assert!(with(0.0) == without, "{what} of no strength is not the same as none");
-        assert!(with(0.1) != without, "{what} does nothing");
+        assert!(&with(0.0) == without, "{what} of no strength is not the same as none");
+        assert!(&with(0.1) != without, "{what} does nothing");
     }
 }
 

@@ -71,8 +71,13 @@ fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Resu
                 event.judge(allowed, name, (given, all.velocity[i]), "m/s")?;
             }
             Condition::Traction(value) => {
-                let pulled = value[i].eval(&[event.t]);
+                let pulled = at(&value[i], event);
                 traction(problem, face, event, (i, "loaded", pulled), &all, sizes)?;
+            }
+            Condition::Pressure(value) => {
+                let area = problem.equation.present_area(&all.grad, face.axis, face.high);
+                let pressed = -at(value, event) * area[i];
+                traction(problem, face, event, (i, "under pressure", pressed), &all, sizes)?;
             }
             Condition::Free => traction(problem, face, event, (i, "free", 0.0), &all, sizes)?,
             Condition::Friction(_) | Condition::Periodic(_) => {}

@@ -92,6 +92,17 @@ impl Equation {
         tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
     }
 
+    /// What becomes of a unit of area on a face of the reference body, normal to `axis`, outwards on
+    /// its `high` or low side: `J F^-T N` (Nanson's formula). Where strains are small, N.
+    pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
+        let outwards = if high { 1.0 } else { -1.0 };
+        let f: Tensor<f64> = match self.law {
+            Law::SmallStrain => tensor(unit),
+            _ => tensor(|i, j| grad[i][j] + unit::<f64>(i, j)),
+        };
+        std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
+    }
+
     /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`,
     /// where nothing varies beyond the first `dimension` axes.
     pub fn divergence(

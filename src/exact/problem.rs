@@ -26,8 +26,11 @@ pub enum Condition {
     /// The period (m) is the length of the axis on which the body moves; that of the body itself,
     /// unless it starts deformed.
     Periodic(f64),
-    /// P n = p0(t), one formula of t for each component (Pa).
+    /// P n = p0(X, t), one formula of the coordinates and t for each component (Pa).
     Traction(Vec<Formula>),
+    /// P n = -p(X, t) J F^-T n, the pressure p a formula of the coordinates and t (Pa): it stays normal
+    /// to the face as that moves. Where strains are small, P n = -p n.
+    Pressure(Formula),
     /// P n = 0.
     Free,
 }

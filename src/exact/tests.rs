@@ -90,6 +90,63 @@ fn bar(displacement: &str, right: Condition) -> Problem {
     }
 }
 
+/// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by what acts on
+/// its top, where P N = mu (F - F^-T) N.
+fn sheared(top: Condition) -> Problem {
+    let names = ["X", "Y", "t"];
+    let face = |name, axis, high, condition| Face { name, axis, high, condition };
+    let driven = || Condition::Velocity(vec![bind("0.2*Y", &names), bind("0.3*Y", &names)]);
+    Problem {
+        equation: Equation::neo_hookean(10.0, 0.0),
+        gravity: Vec::new(),
+        faces: vec![face("bottom", 1, false, driven()), face("top", 1, true, top)],
+        motion: Motion::new(vec![bind("0.2*Y*t", &names), bind("0.3*Y*t", &names)]),
+        ..held(2)
+    }
+}
+
+#[test]
+fn a_traction_may_depend_on_the_place() {
+    let pull = |x: &str| {
+        let normal = "5*(1 + 0.3*t - 1/(1 + 0.3*t))";
+        let value = [format!("{x} - t*X"), format!("{normal} + 0*X")];
+        Condition::Traction(value.map(|v| bind(&v, &["X", "Y", "t"])).to_vec())
+    };
+    sheared(pull("t + t*X")).check().unwrap();
+    let found = sheared(pull("t + 1.01*t*X")).check().unwrap_err();
+    assert!(found.condition.contains("top is loaded, traction in X"), "{found}");
+}
+
+/// A cube under a uniform pressure shrinks alike on all sides, `P N = -p J F^-T N`: with a stretch of s
+/// its faces have s^2 of their area, which a dead load does not know.
+#[test]
+fn a_pressure_acts_on_the_present_area() {
+    let names = ["X", "Y", "Z", "t"];
+    let at = |scale: &str| {
+        let s = "(1 - 0.1*t)";
+        // tau = lambda ln J + mu (s^2 - 1), P = tau/s, p = -P/s^2.
+        let (lambda, mu) = (10.0 * 0.3 / (1.3 * 0.4), 10.0 / 2.6);
+        let p = format!("-({lambda}*3*ln({s}) + {mu}*({s}^2 - 1))/{s}^3*{scale}");
+        let face = |axis, high| Face {
+            name: "side",
+            axis,
+            high,
+            condition: Condition::Pressure(bind(&p, &names)),
+        };
+        Problem {
+            gravity: Vec::new(),
+            faces: (0..3).flat_map(|axis| [face(axis, false), face(axis, true)]).collect(),
+            motion: Motion::new(
+                ["X", "Y", "Z"].map(|x| bind(&format!("-0.1*t*{x}"), &names)).to_vec(),
+            ),
+            ..held(3)
+        }
+    };
+    at("1").check().unwrap();
+    let found = at("(1 - 0.1*t)^2").check().unwrap_err();
+    assert!(found.condition.contains("side is under pressure, traction in X"), "{found}");
+}
+
 /// `u_tt + 2 u_t = u_XX`.
 #[test]
 fn damping_is_a_force_in_the_equation_of_motion() {

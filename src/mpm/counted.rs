@@ -17,12 +17,13 @@ use std::sync::{
 #[derive(Debug, Default)]
 pub struct Tally([AtomicU64; NAMES.len()]);
 
-const NAMES: [&str; 11] = [
+const NAMES: [&str; 12] = [
     "p2g mass",
     "p2g momentum",
     "p2g internal force",
     "p2g affine force",
     "p2g point force",
+    "p2g point moment",
     "g2p",
     "g2p gradient",
     "g2p moment",
@@ -150,6 +151,17 @@ impl<const D: usize> Kernel<D> for Counted<D> {
     fn g2p_position(&self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>) {
         self.tally.add("g2p position", particles.len());
         self.kernel.g2p_position(grid, dt, particles);
+    }
+
+    fn p2g_point_moment(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        moment: &Matrix<D>,
+        grid: &mut Grid<D>,
+    ) {
+        self.tally.add("p2g point moment", 1);
+        self.kernel.p2g_point_moment(particles, p, moment, grid);
     }
 
     fn support(&self) -> u64 {

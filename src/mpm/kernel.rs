@@ -95,6 +95,16 @@ pub trait Kernel<const D: usize>: Send + Sync {
     /// `x_p += dt sum_i v_i N_i(x_p)`.
     fn g2p_position(&self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>);
 
+    /// Adds to the nodes that particle `p` sees the forces of a moment, `moment grad N_i(x_p)`, whose
+    /// sum is zero: `moment = f (x) d` (N m) takes the force f from the particle to the place d (m) away.
+    fn p2g_point_moment(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        moment: &Matrix<D>,
+        grid: &mut Grid<D>,
+    );
+
     /// Nodes that one particle sees, at most.
     fn support(&self) -> u64;
 

@@ -164,6 +164,18 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         }
     }
 
+    fn p2g_point_moment(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        moment: &Matrix<D>,
+        grid: &mut Grid<D>,
+    ) {
+        let mut column = std::mem::take(&mut grid.force);
+        B::visit(grid, particles, p, |i| column[i.node] += moment * i.gradient);
+        grid.force = column;
+    }
+
     fn support(&self) -> u64 {
         B::support(D)
     }

@@ -26,7 +26,10 @@ impl<const D: usize> Solver<D> {
     /// starts outside the grid; [`Failure::Inverted`] or [`Failure::NotOfDeformation`] if the body
     /// starts deformed in a way that has no meaning.
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
-        let Setup { particles, kernel, material, .. } = &mut setup;
+        let Setup { particles, kernel, material, effects, .. } = &mut setup;
+        if effects.iter().any(|effect| effect.reads_deformation()) {
+            particles.track_deformation();
+        }
         let min_j = initial::complete(particles, kernel.as_ref(), material.as_mut())?;
         if setup.frame == FrameName::Total {
             setup.particles.stay_in_reference();

@@ -33,7 +33,7 @@ pub(super) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         law: piola(law, &scene.material)?,
         fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
         body_force: body_force(scene, plan.manufactured().cloned()),
-        traction: [&scene.faces[0], &scene.faces[1]].map(end_traction),
+        traction: [(&scene.faces[0], from), (&scene.faces[1], to)].map(end_traction),
         initial_displacement: Box::new(move |x| deformed.at(&[x]).u[0]),
         initial_velocity: Box::new(move |x| moving.at(&[x]).velocity[0]),
         start,
@@ -69,10 +69,14 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
 }
 
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
-fn end_traction(face: &SceneFace) -> Option<fem::History> {
+fn end_traction((face, x): (&SceneFace, f64)) -> Option<fem::History> {
     let outwards = if face.high { 1.0 } else { -1.0 };
+    // In uniaxial strain a face keeps its area, so a pressure is a traction.
+    if let Some(pressure) = face.pressure.clone() {
+        return Some(Box::new(move |t| -pressure.eval(&[x, t])));
+    }
     let formula = face.traction.as_ref()?.first()?.clone();
-    Some(Box::new(move |t| outwards * formula.eval(&[t])))
+    Some(Box::new(move |t| outwards * formula.eval(&[x, t])))
 }
 
 /// P(F) (Pa) of a bar in uniaxial strain.

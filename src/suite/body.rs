@@ -118,9 +118,13 @@ pub(super) fn rims_are_free(
         binder.complain_key(&path.then("boundary").then(face.as_str()), &message)
     });
     let loaded = words.loads.iter().enumerate().find_map(|(i, load)| {
-        let LoadWords::Traction { on, .. } = load else { return None };
+        let (key, on) = match load {
+            LoadWords::Traction { on, .. } => ("traction", on),
+            LoadWords::Pressure { on, .. } => ("pressure", on),
+            _ => return None,
+        };
         let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
-        Some(binder.complain(&path.then("loads").then(i).then("traction").then("on"), &message))
+        Some(binder.complain(&path.then("loads").then(i).then(key).then("on"), &message))
     });
     match held.or(loaded) {
         Some(complaint) => {

@@ -89,9 +89,15 @@ pub(super) fn of_time<const D: usize>(
 pub(super) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> VelocityField<D> {
     let formulas = formulas.to_vec();
     Box::new(move |x: &Vector<D>, t| {
-        let mut variables = [0.0; 4];
-        variables[..D].copy_from_slice(x.as_slice());
-        variables[D] = t;
+        let variables = with_time(x, t);
         Vector::from_fn(|i, _| formulas[i].eval(&variables[..=D]))
     })
+}
+
+/// The coordinates followed by the time, as formulas want them: the first D + 1 numbers.
+pub(super) fn with_time<const D: usize>(x: &Vector<D>, t: f64) -> [f64; 4] {
+    let mut variables = [0.0; 4];
+    variables[..D].copy_from_slice(x.as_slice());
+    variables[D] = t;
+    variables
 }

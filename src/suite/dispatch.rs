@@ -3,19 +3,20 @@
 
 use super::{
     bar::bar,
-    conditions::{boundary, of_place_and_time, of_time, on_sets, periodic, side},
+    conditions::{boundary, of_place_and_time, of_time, on_sets, periodic},
     extent::{cell_size, grid_axis, per_axis},
     filling,
     method::Method,
     model::{ConvergencePlan, Scene},
     plan::LevelPlan,
     start::Initial,
+    surface,
 };
 use crate::{
     exact::{Forcing, Problem},
     mpm::{
         BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, LocalDamping, Particles, Setup,
-        Solver, Traction, Vector, kernel,
+        Solver, Vector, kernel,
     },
     subject::{Profile, Subject},
     verify::Quantity,
@@ -154,11 +155,6 @@ fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<d
     effects.extend(
         scene.local_damping.map(|share| -> Box<dyn Effect<D>> { Box::new(LocalDamping(share)) }),
     );
-    for face in &scene.faces {
-        if let Some(formulas) = &face.traction {
-            let pull = Traction::on(particles, face.axis, side(face), of_time(formulas));
-            effects.push(Box::new(pull));
-        }
-    }
+    effects.extend(surface::on_faces(scene, particles));
     effects
 }

@@ -48,6 +48,7 @@ mod size;
 mod start;
 pub mod statement;
 mod steps;
+mod surface;
 mod truth;
 mod wording;
 mod words;

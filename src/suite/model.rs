@@ -9,7 +9,7 @@ use super::{
 use crate::{
     exact::{Problem, Region, Round, formula::Formula},
     fem::{Element, Mass},
-    mpm::{BasisName, MaterialPlan},
+    mpm::{BasisName, MaterialPlan, Placement},
     verify::{Expectation, Quantity},
 };
 
@@ -142,8 +142,12 @@ pub struct SceneFace {
     pub high: bool,
     /// What holds it.
     pub hold: Hold,
-    /// Traction (Pa), formulas of t.
+    /// Traction (Pa, per reference area), formulas of the coordinates and t.
     pub traction: Option<Vec<Formula>>,
+    /// Pressure (Pa, per present area), a formula of the coordinates and t.
+    pub pressure: Option<Formula>,
+    /// Where such a load is put.
+    pub placement: Placement,
 }
 
 /// A fine FEM computation that serves as truth where no formula is known.

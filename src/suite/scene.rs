@@ -3,19 +3,19 @@
 use super::{
     binder::Binder,
     body, damping,
-    hold::{self, FACES, face},
+    hold::{self, FACES},
     law,
     material::material,
     model::{Scene, SceneFace},
     path::Path,
-    sets,
+    sets, surface,
     wording::shown,
     words::{LoadWords, SceneWords, SetWords},
     yaml::{Complaint, NumberText},
 };
 use crate::{
     exact::{Region, formula::Formula},
-    mpm::{EffectName, MaterialPlan},
+    mpm::{EffectName, MaterialPlan, Placement},
 };
 
 /// Names of the coordinates in formulas.
@@ -101,6 +101,8 @@ fn faces(
         high: i % 2 == 1,
         hold,
         traction: None,
+        pressure: None,
+        placement: Placement::default(),
     };
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
@@ -197,18 +199,8 @@ fn add_load(
             }
             scene.body_force = Some(binder.vector(&path, texts, d, &coordinates_and_time(d))?);
         }
-        LoadWords::Traction { on, value } => {
-            let path = path.then("traction");
-            sets::refuse_traction(binder, &path.then("on"), on, &scene.sets)?;
-            let face = face(binder, &path.then("on"), on, d, false)?;
-            let face = &mut scene.faces[face];
-            if !face.hold.is_free() || face.traction.is_some() {
-                let free = face.hold.is_free();
-                let has = if free { "has a traction already" } else { face.hold.verb() };
-                let message = format!("the face `{on}` {has}");
-                return Err(binder.complain(&path.then("on"), &message));
-            }
-            face.traction = Some(binder.vector(&path.then("value"), value, d, &["t"])?);
+        LoadWords::Traction { .. } | LoadWords::Pressure { .. } => {
+            surface::add(binder, path, load, &coordinates_and_time(d), scene)?;
         }
         LoadWords::Force { on, value } => {
             let path = path.then("force");

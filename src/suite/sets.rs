@@ -43,17 +43,18 @@ pub(super) fn refuse_outside(
     Ok(())
 }
 
-/// A traction is a force per area, which a set does not have.
-pub(super) fn refuse_traction(
+/// Tractions and pressures are forces per area, which a set does not have.
+pub(super) fn refuse_surface_load(
     binder: &Binder<'_>,
     path: &Path,
+    load: &str,
     name: &str,
     sets: &[Region],
 ) -> Result<(), Complaint> {
     if sets.iter().all(|set| set.name != name) {
         return Ok(());
     }
-    let message = format!("`{name}` is a set, and a traction acts on a face");
+    let message = format!("`{name}` is a set, and a {load} acts on a face");
     let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
     Err(binder.complain(path, &message).with_help(&help))
 }

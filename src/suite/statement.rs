@@ -4,6 +4,7 @@ use super::{
     hold::Hold,
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
     plan::{LevelPlan, RefinePlan},
+    surface,
     wording::shown,
 };
 use crate::{
@@ -143,8 +144,8 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     }
     push(rows, "material", &material(&scene.material));
     for face in &scene.faces {
-        let state = match (&face.traction, &face.hold) {
-            (Some(value), _) => format!("traction {} Pa", sources(value)),
+        let state = match (surface::described(face), &face.hold) {
+            (Some(load), _) => load,
             (None, Hold::Velocity(value)) => format!("velocity {} m/s", sources(value)),
             (None, Hold::Friction(coefficient)) => {
                 format!("wall that does not pull, coefficient of friction {coefficient}")

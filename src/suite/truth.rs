@@ -208,14 +208,15 @@ fn tolerance(
 }
 
 fn face(scene: &Scene, face: &SceneFace) -> Face {
-    let condition = match (&face.hold, &face.traction) {
-        (Hold::Fixed, _) => Condition::Fixed,
-        (Hold::Roller, _) => Condition::Roller,
-        (Hold::Friction(coefficient), _) => Condition::Friction(*coefficient),
-        (Hold::Velocity(value), _) => Condition::Velocity(value.clone()),
-        (Hold::Periodic, _) => Condition::Periodic(scene.period(face.axis)),
-        (Hold::Free, Some(value)) => Condition::Traction(value.clone()),
-        (Hold::Free, None) => Condition::Free,
+    let condition = match (&face.hold, &face.traction, &face.pressure) {
+        (Hold::Fixed, ..) => Condition::Fixed,
+        (Hold::Roller, ..) => Condition::Roller,
+        (Hold::Friction(coefficient), ..) => Condition::Friction(*coefficient),
+        (Hold::Velocity(value), ..) => Condition::Velocity(value.clone()),
+        (Hold::Periodic, ..) => Condition::Periodic(scene.period(face.axis)),
+        (Hold::Free, Some(value), _) => Condition::Traction(value.clone()),
+        (Hold::Free, None, Some(value)) => Condition::Pressure(value.clone()),
+        (Hold::Free, None, None) => Condition::Free,
     };
     Face { name: face.name, axis: face.axis, high: face.high, condition }
 }

@@ -164,6 +164,11 @@ fn sound(#[case] text: &str, #[case] edits: Edits<'_>) {
     &[("loads:\n", "loads:\n    - traction: {on: ▸top, value: [1, 0]}\n")],
     &["the face `top` is a roller"]
 )]
+#[case::a_pressure_on_a_set(
+    SQUARE,
+    &[("loads:\n", "loads:\n    - pressure: {on: ▸middle, value: 1}\n")],
+    &["`middle` is a set, and a pressure acts on a face"]
+)]
 #[case::a_traction_on_a_set(
     SQUARE,
     &[("loads:\n", "loads:\n    - traction: {on: ▸middle, value: [1, 0]}\n")],

@@ -105,3 +105,32 @@ fn two_tractions_on_one_face() {
     let twice = format!("{load}{}", load.replace("right", "▸right"));
     refused(PULLED, &[(load, &twice)], &["the face `right` has a traction already"]);
 }
+
+const BENT: &str = include_str!("../../verification/bending-bar.yaml");
+
+#[rstest]
+#[case::at_nowhere(
+    &[("at: surface}\n    - pressure", "at: ▸rim}\n    - pressure")],
+    &["unknown name `rim`", "`particles`", "`surface`"]
+)]
+#[case::beside_another_load(
+    &[("on: left", "on: ▸right")],
+    &["the face `right` has a pressure already"]
+)]
+#[case::on_the_base(&[("on: left", "on: ▸bottom")], &["the face `bottom` is fixed"])]
+#[case::with_a_direction(
+    &[("\"-across(stretch(-w, t))/stretch(-w, t)\"", "[▸0, 0]")],
+    &["expected a finite number or a formula, found a list"]
+)]
+#[case::of_something_else(&[("stretch(-w, t)\", at", "stretch(-w, ▸s)\", at")], &["`s`"])]
+#[case::of_another_size(
+    &[("stretch(-w, t)\", at", "stretch(w, t)\", at"), ("- \"X*(cos", "- ▸\"X*(cos")],
+    &["boundary condition: left is under pressure, traction in X", "this is not a solution"]
+)]
+#[case::of_another_place(
+    &[("along(stretch(X, t))*cos", "along(stretch(w, t))*cos"), ("- \"X*(cos", "- ▸\"X*(cos")],
+    &["boundary condition: top is loaded, traction in Y", "this is not a solution"]
+)]
+fn a_load_on_a_surface(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BENT, edits, words);
+}

@@ -113,6 +113,10 @@ fn the_published_force_is_refused() {
     &["the rims of a body of kind `annulus` are free, not `left`"]
 )]
 #[case::a_rim_that_is_loaded(
+    &[("  loads:", "  loads:\n    - pressure: {on: ▸inner, value: 1}")],
+    &["the rims of a body of kind `annulus` are free, `inner` has no load"]
+)]
+#[case::a_rim_that_is_pulled(
     &[("  loads:", "  loads:\n    - traction: {on: ▸inner, value: [1, 0]}")],
     &["the rims of a body of kind `annulus` are free, `inner` has no load"]
 )]

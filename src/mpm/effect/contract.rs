@@ -16,6 +16,11 @@ pub trait Effect<const D: usize>: Send {
         Vec::new()
     }
 
+    /// Whether it reads F: the column exists only then, or if a basis or a material asks for it.
+    fn reads_deformation(&self) -> bool {
+        false
+    }
+
     /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
     /// Returns the particle-node pairs visited.
     fn add_force(

@@ -9,7 +9,9 @@ mod driven;
 mod gravity;
 mod local_damping;
 mod name;
+mod pressure;
 mod set_force;
+mod surface;
 mod traction;
 
 pub use body_force::{BodyForce, Field};
@@ -19,5 +21,7 @@ pub use driven::Driven;
 pub use gravity::Gravity;
 pub use local_damping::LocalDamping;
 pub use name::EffectName;
+pub use pressure::{Pressure, PressureField};
 pub use set_force::SetForce;
-pub use traction::Traction;
+pub use surface::Placement;
+pub use traction::{Traction, TractionField};

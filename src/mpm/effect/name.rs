@@ -51,6 +51,8 @@ effects! {
     BodyForce = "body_force";
     /// A traction on a face of the body, carried by the layer of particles at that face.
     Traction = "traction";
+    /// A pressure on a face of the body, which follows the face.
+    Pressure = "pressure";
     /// A total force on a set of particles.
     SetForce = "force";
     /// A set of particles that move as they are told.

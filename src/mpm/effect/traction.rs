@@ -1,40 +1,50 @@
 //! A surface traction, carried by the layer of particles that lies at the surface.
 //!
 //! `f_ext_i += sum_p p0 A_p N_i(x_p)` over that layer, with A_p the particle's reference share of
-//! the surface. The body need not end on a node: the force follows the particles (Wobbes & Tielen
-//! 2015, Steffen's bar), so it acts half a particle spacing inside the surface.
+//! the surface: a dead load, `P N = p0(X, t)`. The body need not end on a node: the force follows the
+//! particles (Wobbes & Tielen 2015, Steffen's bar), and with them faces that turn and bend. It acts
+//! half a particle spacing inside the surface unless it is put there ([`Placement`]).
 
-use super::{contract::Effect, name::EffectName};
+use super::{
+    contract::Effect,
+    name::EffectName,
+    surface::{Placement, Surface},
+};
 use crate::{
     mpm::{algebra::Vector, boundary::Side, grid::Grid, kernel::Kernel, particles::Particles},
     subject::Column,
 };
 
-/// Traction p0(t) (Pa, per reference area) on one face of the body.
+/// A traction (Pa, per reference area) as a function of the place in the reference configuration and
+/// of time.
+pub type TractionField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;
+
+/// Traction p0(X, t) (Pa, per reference area) on one face of the body.
 pub struct Traction<const D: usize> {
-    value: Box<dyn Fn(f64) -> Vector<D> + Send>,
-    layer: Vec<usize>,
-    area: f64,
+    value: TractionField<D>,
+    surface: Surface,
 }
 
 impl<const D: usize> Traction<D> {
-    /// Marks the outermost layer of `particles` on `side` of `axis`.
+    /// A traction p0(t) at the outermost layer of `particles` on `side` of `axis`.
     pub fn on(
         particles: &Particles<D>,
         axis: usize,
         side: Side,
         value: Box<dyn Fn(f64) -> Vector<D> + Send>,
     ) -> Self {
-        let sign = match side {
-            Side::Low => -1.0,
-            Side::High => 1.0,
-        };
-        let height = |p: &Vector<D>| sign * p[axis];
-        let top = particles.x0.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
-        let reach = top - 0.5 * particles.spacing[axis];
-        let layer = (0..particles.len()).filter(|&p| height(&particles.x0[p]) > reach).collect();
-        let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
-        Self { value, layer, area }
+        Self::at(particles, axis, side, Placement::Particles, Box::new(move |_, t| value(t)))
+    }
+
+    /// A traction p0(X, t), X on the surface, at `placement`.
+    pub fn at(
+        particles: &Particles<D>,
+        axis: usize,
+        side: Side,
+        placement: Placement,
+        value: TractionField<D>,
+    ) -> Self {
+        Self { value, surface: Surface::new(particles, axis, side, placement) }
     }
 }
 
@@ -44,7 +54,11 @@ impl<const D: usize> Effect<D> for Traction<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_particles("layer", &self.layer)]
+        vec![Column::of_particles("layer", &self.surface.layer)]
+    }
+
+    fn reads_deformation(&self) -> bool {
+        self.surface.placement == Placement::Surface
     }
 
     fn add_force(
@@ -54,28 +68,26 @@ impl<const D: usize> Effect<D> for Traction<D> {
         kernel: &dyn Kernel<D>,
         grid: &mut Grid<D>,
     ) -> u64 {
-        let force = (self.value)(t) * self.area;
-        for &p in &self.layer {
-            kernel.p2g_point_force(particles, p, &force, grid);
-        }
-        self.layer.len() as u64 * kernel.support()
+        let Self { value, surface } = self;
+        surface.pull(particles, kernel, grid, |p| value(&surface.label(particles, p), t))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, kernel};
+    use crate::mpm::{BasisName, Block, Matrix, kernel};
     use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    fn plate() -> Particles<2> {
+        let (from, to) = (Vector::<2>::new(0.0, 0.0), Vector::<2>::new(1.0, 2.0));
+        Particles::fill(&Block { from, to, density: 1.0 }, 0.25, 2)
+    }
 
     #[test]
     fn the_whole_force_reaches_the_grid() {
-        let block = Block {
-            from: Vector::<2>::new(0.0, 0.0),
-            to: Vector::<2>::new(1.0, 2.0),
-            density: 1.0,
-        };
-        let particles = Particles::fill(&block, 0.25, 2);
+        let particles = plate();
         let kernel = kernel::<2>(BasisName::Linear);
         let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
         let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
@@ -83,5 +95,37 @@ mod tests {
         assert_eq!(pull.add_force(2.0, &particles, kernel.as_ref(), &mut grid), 16 * 4);
         let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
         assert_relative_eq!(total, Vector::<2>::new(12.0, 1.0), max_relative = 1e-14);
+    }
+
+    /// A shear traction `Y` along the right face of a plate, which has been stretched to twice its
+    /// length: force 2, moment about the origin `2 int Y dY = 4`, for the face is at x = 2.
+    #[rstest]
+    fn at_the_surface_the_moment_is_right_too(
+        #[values(
+            BasisName::Linear,
+            BasisName::ContiguousGimp,
+            BasisName::Cpdi,
+            BasisName::QuadraticBSpline
+        )]
+        basis: BasisName,
+        #[values(Placement::Particles, Placement::Surface)] placement: Placement,
+    ) {
+        let mut particles = plate();
+        let labels = particles.x0.clone();
+        let f = Matrix::<2>::new(2.0, 0.0, 0.0, 1.0);
+        let origin = Vector::<2>::new(0.1, 0.1);
+        particles.deform(|p| (origin + (f - Matrix::identity()) * labels[p], f));
+        particles.track_domains();
+        let kernel = kernel::<2>(basis);
+        let mut grid = kernel.grid(Vector::zeros(), 0.25, [12, 12], [false; 2]);
+        let shear = Box::new(|x: &Vector<2>, _| Vector::<2>::new(0.0, x[1]));
+        let mut pull = Traction::at(&particles, 0, Side::High, placement, shear);
+        pull.add_force(0.0, &particles, kernel.as_ref(), &mut grid);
+        let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
+        assert_relative_eq!(total, Vector::<2>::new(0.0, 2.0), epsilon = 1e-13);
+        let moment = |i: usize| grid.force[i][1] * (basis.place(&grid, i)[0] - origin[0]);
+        let moment: f64 = (0..grid.nodes()).map(moment).sum();
+        let arm = if placement == Placement::Surface { 2.0 } else { 2.0 - 2.0 * 0.0625 };
+        assert_relative_eq!(moment, 2.0 * arm, max_relative = 1e-13);
     }
 }

@@ -1,7 +1,7 @@
 //! The words of a scene.
 
 use crate::{
-    mpm::{EffectName, MaterialWords},
+    mpm::{EffectName, MaterialWords, Placement},
     suite::yaml::{NumberText, Ordered},
 };
 use serde::Deserialize;
@@ -89,8 +89,10 @@ pub(in crate::suite) enum LoadWords {
     LocalDamping(NumberText),
     /// Force per unit mass (m/s2), formulas of the coordinates and t.
     BodyForce(Vec<NumberText>),
-    /// Force per reference area on one face (Pa), formulas of t.
-    Traction { on: String, value: Vec<NumberText> },
+    /// Force per reference area on one face (Pa), formulas of the coordinates and t.
+    Traction { on: String, value: Vec<NumberText>, at: Option<Placement> },
+    /// Pressure that follows one face (Pa), a formula of the coordinates and t.
+    Pressure { on: String, value: NumberText, at: Option<Placement> },
     /// Total force on a set (N), formulas of t.
     Force { on: String, value: Vec<NumberText> },
     /// Velocity of a set (m/s), formulas of the coordinates and t.
@@ -106,6 +108,7 @@ impl LoadWords {
             Self::LocalDamping(_) => EffectName::LocalDamping,
             Self::BodyForce(_) => EffectName::BodyForce,
             Self::Traction { .. } => EffectName::Traction,
+            Self::Pressure { .. } => EffectName::Pressure,
             Self::Force { .. } => EffectName::SetForce,
             Self::Velocity { .. } => EffectName::Driven,
         }

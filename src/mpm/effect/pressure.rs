@@ -1,0 +1,72 @@
+//! A pressure on a face of the body, which follows the face: `t = -p n` per present area.
+//!
+//! Per reference area that is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so the force on the
+//! particles of the layer needs their F, and a face that is stretched or turned carries another force
+//! than before. Where the force is put at the surface ([`Placement`]), F is continued to there.
+
+use super::{
+    contract::Effect,
+    name::EffectName,
+    surface::{Placement, Surface},
+};
+use crate::{
+    mpm::{
+        algebra::{Vector, cofactor},
+        boundary::Side,
+        grid::Grid,
+        kernel::Kernel,
+        particles::Particles,
+    },
+    subject::Column,
+};
+
+/// A pressure (Pa) as a function of the place in the reference configuration and of time.
+pub type PressureField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
+
+/// Pressure p(X, t) on one face of the body; below zero it pulls.
+pub struct Pressure<const D: usize> {
+    value: PressureField<D>,
+    surface: Surface,
+}
+
+impl<const D: usize> Pressure<D> {
+    /// A pressure on the outermost layer of `particles` on `side` of `axis`.
+    pub fn at(
+        particles: &Particles<D>,
+        axis: usize,
+        side: Side,
+        placement: Placement,
+        value: PressureField<D>,
+    ) -> Self {
+        Self { value, surface: Surface::new(particles, axis, side, placement) }
+    }
+}
+
+impl<const D: usize> Effect<D> for Pressure<D> {
+    fn name(&self) -> EffectName {
+        EffectName::Pressure
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("layer", &self.surface.layer)]
+    }
+
+    fn reads_deformation(&self) -> bool {
+        true
+    }
+
+    fn add_force(
+        &mut self,
+        t: f64,
+        particles: &Particles<D>,
+        kernel: &dyn Kernel<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        let Self { value, surface } = self;
+        let normal = surface.normal();
+        surface.pull(particles, kernel, grid, |p| {
+            let pressure = value(&surface.label(particles, p), t);
+            cofactor(&surface.def_grad(particles, p)) * normal * -pressure
+        })
+    }
+}

@@ -1,0 +1,134 @@
+//! The surface of a body, as the layer of particles that lies at one of its faces.
+//!
+//! Each particle of the layer stands for a share A_p of the face, whose middle is
+//! `X_s = X_p + s/2 N` with the spacing s along the normal N. What acts there is put on the grid in one
+//! of two places ([`Placement`]):
+//!
+//! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum of the
+//!   forces is right, their moment is not: forces along the face lack the arm s/2, which bends the whole
+//!   body by an error of the order h;
+//! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of the
+//!   surface point as far as their slope at the particle tells, so that sum and moment are right,
+//!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, wherever linear fields are. Not the weights at the surface
+//!   point itself: just beyond a node they belong in part to a node that no particle gives any mass.
+
+use crate::mpm::{
+    algebra::{Matrix, Vector, dyad},
+    boundary::Side,
+    grid::Grid,
+    kernel::Kernel,
+    particles::Particles,
+};
+use crate::named::named;
+
+named! {
+    /// Where a force on a surface acts.
+    #[derive(Default)]
+    pub enum Placement {
+        /// At the outermost particles.
+        #[default]
+        Particles = "particles",
+        /// At the surface, half a particle spacing further out.
+        Surface = "surface",
+    }
+}
+
+/// The outermost layer of particles on one face.
+#[derive(Debug, Clone)]
+pub(super) struct Surface {
+    /// Particles, in their order.
+    pub(super) layer: Vec<usize>,
+    pub(super) placement: Placement,
+    axis: usize,
+    /// Sign of the outward normal along the axis.
+    outwards: f64,
+    /// Share of the face that each particle stands for (m^(D-1)).
+    area: f64,
+    /// Half a spacing along the axis (m).
+    depth: f64,
+    /// How far the numbers of particles go down from this layer to the one below it.
+    below: usize,
+}
+
+impl Surface {
+    /// The layer of a box of `particles` on `side` of `axis`.
+    pub(super) fn new<const D: usize>(
+        particles: &Particles<D>,
+        axis: usize,
+        side: Side,
+        placement: Placement,
+    ) -> Self {
+        let outwards = match side {
+            Side::Low => -1.0,
+            Side::High => 1.0,
+        };
+        let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
+        let height = |p: usize| outwards * x0[p][axis];
+        let top = (0..x0.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
+        let reach = top - 0.5 * spacing;
+        let layer: Vec<usize> = (0..x0.len()).filter(|&p| height(p) > reach).collect();
+        let second = (0..x0.len()).find(|&p| (reach - spacing..reach).contains(&height(p)));
+        let below = match (layer.first(), second) {
+            (Some(first), Some(second)) => first.abs_diff(second),
+            _ => 0,
+        };
+        let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
+        Self { layer, placement, axis, outwards, area, depth: 0.5 * spacing, below }
+    }
+
+    /// The outward normal, in the reference configuration.
+    pub(super) fn normal<const D: usize>(&self) -> Vector<D> {
+        Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
+    }
+
+    /// The middle of the share of the face that particle `p` stands for, X_s (m).
+    pub(super) fn label<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
+        particles.x0[p] + self.normal() * self.depth
+    }
+
+    /// F at the surface above particle `p`: continued from the particle and the one below it, along
+    /// the straight line. That of the particle alone is wrong by half a spacing.
+    pub(super) fn def_grad<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Matrix<D> {
+        let here = particles.def_grad[p];
+        if self.placement == Placement::Particles {
+            return here;
+        }
+        let below =
+            if self.outwards > 0.0 { p.checked_sub(self.below) } else { Some(p + self.below) };
+        let below = below.and_then(|q| particles.def_grad.get(q)).unwrap_or(&here);
+        here * 1.5 - below * 0.5
+    }
+
+    /// Puts a traction (Pa, per reference area) on every particle of the layer; returns the
+    /// particle-node pairs visited.
+    pub(super) fn pull<const D: usize>(
+        &self,
+        particles: &Particles<D>,
+        kernel: &dyn Kernel<D>,
+        grid: &mut Grid<D>,
+        traction: impl Fn(usize) -> Vector<D>,
+    ) -> u64 {
+        for &p in &self.layer {
+            let force = traction(p) * self.area;
+            kernel.p2g_point_force(particles, p, &force, grid);
+            if self.placement == Placement::Surface {
+                let arm = self.arm(particles, p);
+                kernel.p2g_point_moment(particles, p, &dyad(&force, &arm), grid);
+            }
+        }
+        let passes = match self.placement {
+            Placement::Particles => 1,
+            Placement::Surface => 2,
+        };
+        passes * self.layer.len() as u64 * kernel.support()
+    }
+
+    /// From particle `p` to the surface, in the configuration that the basis sees (m).
+    fn arm<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
+        let arm = self.normal() * self.depth;
+        match particles.def_grad.get(p) {
+            Some(f) if particles.moved.is_empty() => f * arm,
+            _ => arm,
+        }
+    }
+}
