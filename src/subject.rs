@@ -121,6 +121,22 @@ pub struct Totals {
     pub kinetic_energy: f64,
 }
 
+impl Totals {
+    /// The sums over two bodies.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
+        Self {
+            mass: self.mass + other.mass,
+            momentum: sum(self.momentum, other.momentum),
+            momentum_size: self.momentum_size + other.momentum_size,
+            angular_momentum: sum(self.angular_momentum, other.angular_momentum),
+            angular_momentum_size: self.angular_momentum_size + other.angular_momentum_size,
+            kinetic_energy: self.kinetic_energy + other.kinetic_energy,
+        }
+    }
+}
+
 /// What a column has an entry for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holder {

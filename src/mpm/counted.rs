@@ -17,7 +17,7 @@ use std::sync::{
 #[derive(Debug, Default)]
 pub struct Tally([AtomicU64; NAMES.len()]);
 
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 13] = [
     "p2g mass",
     "p2g momentum",
     "p2g internal force",
@@ -30,6 +30,7 @@ const NAMES: [&str; 12] = [
     "moments",
     "mass matrix",
     "g2p position",
+    "p2g mass gradient",
 ];
 
 impl Tally {
@@ -162,6 +163,16 @@ impl<const D: usize> Kernel<D> for Counted<D> {
     ) {
         self.tally.add("p2g point moment", 1);
         self.kernel.p2g_point_moment(particles, p, moment, grid);
+    }
+
+    fn p2g_mass_gradient(
+        &self,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        gradient: &mut [Vector<D>],
+    ) {
+        self.tally.add("p2g mass gradient", particles.len());
+        self.kernel.p2g_mass_gradient(particles, grid, gradient);
     }
 
     fn support(&self) -> u64 {

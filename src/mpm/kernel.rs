@@ -105,6 +105,14 @@ pub trait Kernel<const D: usize>: Send + Sync {
         grid: &mut Grid<D>,
     );
 
+    /// `sum_p m_p grad N_i(x_p)` (kg/m) into `gradient`: points out of the body where its mass ends.
+    fn p2g_mass_gradient(
+        &self,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        gradient: &mut [Vector<D>],
+    );
+
     /// Nodes that one particle sees, at most.
     fn support(&self) -> u64;
 

@@ -176,6 +176,18 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid.force = column;
     }
 
+    fn p2g_mass_gradient(
+        &self,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        gradient: &mut [Vector<D>],
+    ) {
+        gradient.fill(Vector::zeros());
+        for (p, m) in particles.mass.iter().enumerate() {
+            B::visit(grid, particles, p, |i| gradient[i.node] += i.gradient * *m);
+        }
+    }
+
     fn support(&self) -> u64 {
         B::support(D)
     }

@@ -15,6 +15,7 @@ pub mod adding_a_basis;
 
 mod algebra;
 mod basis;
+mod bodies;
 mod boundary;
 mod combination;
 mod counted;
@@ -34,12 +35,14 @@ mod scheme;
 mod setup;
 mod solver;
 mod stage;
+mod step;
 mod totals;
 mod transfer;
 mod whereabouts;
 
 pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
+pub use bodies::Bodies;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::combine;
 pub use counted::{Counted, Tally};

@@ -4,9 +4,8 @@ use super::particles::Particles;
 use crate::subject::Samples;
 
 impl<const D: usize> Particles<D> {
-    /// Writes the state at the reference positions; F only if its column exists.
+    /// Appends the state at the reference positions; F only if its column exists.
     pub(super) fn sample(&self, samples: &mut Samples) {
-        samples.clear();
         samples.dimension = D;
         for (p, x0) in self.x0.iter().enumerate() {
             samples.label.extend(x0.iter());
@@ -46,6 +45,7 @@ mod tests {
         assert!(samples.deformation_gradient.is_empty(), "nothing tracks F");
         particles.track_deformation();
         particles.def_grad[0][(0, 1)] = 0.5;
+        samples.clear();
         particles.sample(&mut samples);
         assert_eq!(samples.deformation_gradient, [1.0, 0.5, 0.0, 1.0]);
     }

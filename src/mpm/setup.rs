@@ -40,9 +40,10 @@ impl<const D: usize> Setup<D> {
             || self.boundary.iter().any(|condition| condition.reads_velocity())
     }
 
-    /// The stages of a step.
-    pub(super) fn stages(&self) -> &'static [Stage] {
-        self.scheme.stages(self.transfer.reads_grid_velocity() || self.reads_velocity())
+    /// The stages of a step; `coupled`: what couples bodies reads velocities too.
+    pub(super) fn stages(&self, coupled: bool) -> &'static [Stage] {
+        let reads_velocity = self.reads_velocity() || coupled;
+        self.scheme.stages(self.transfer.reads_grid_velocity() || reads_velocity)
     }
 
     /// The effects, and all that is kept for particles and nodes, with the column `cell` of the

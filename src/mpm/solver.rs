@@ -1,21 +1,23 @@
-//! The solver: runs the stages of a scheme and keeps the census.
+//! The solver: every stage of a step, one by one. [`step`](super::step) has their order.
 
 use super::{
     algebra::Matrix, basis::Domain, boundary::Advance, frame::FrameName, grid::Grid, initial,
     particles::Particles, setup::Setup, stage::Stage, transfer::Transfer, whereabouts::Whereabouts,
 };
-use crate::subject::{Census, Failure, Profile, Samples, Site, Start, Subject, Totals};
+use crate::subject::{Failure, Profile, Site};
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
-    setup: Setup<D>,
-    time: f64,
+    pub(super) setup: Setup<D>,
+    pub(super) time: f64,
     /// Time that the velocities stand for (s): once steps are made, half a step behind.
-    stands: f64,
-    started: bool,
-    transfers: u64,
-    min_j: f64,
-    whereabouts: Whereabouts<D>,
+    pub(super) stands: f64,
+    /// The last advance of velocities.
+    pub(super) advance: Advance,
+    pub(super) started: bool,
+    pub(super) transfers: u64,
+    pub(super) min_j: f64,
+    pub(super) whereabouts: Whereabouts<D>,
 }
 
 impl<const D: usize> Solver<D> {
@@ -38,7 +40,8 @@ impl<const D: usize> Solver<D> {
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
         let (time, stands, started, transfers) = (0.0, 0.0, false, 0);
-        Ok(Self { setup, time, stands, started, transfers, min_j, whereabouts })
+        let advance = Advance { from: 0.0, to: 0.0, dt: 0.0 };
+        Ok(Self { setup, time, stands, advance, started, transfers, min_j, whereabouts })
     }
 
     /// The particles as they are now.
@@ -131,7 +134,7 @@ impl<const D: usize> Solver<D> {
         for condition in boundary.iter_mut() {
             condition.hold_advance(&mut grid.velocity, &mut field, &advance);
         }
-        self.stands = advance.to;
+        (self.stands, self.advance) = (advance.to, advance);
         let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
         grid.acceleration = field;
         self.count(passes);
@@ -164,7 +167,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Lets effects have their say on velocities that have advanced by `dt` (s).
-    fn drive(&mut self, dt: f64) {
+    pub(super) fn drive(&mut self, dt: f64) {
         for effect in &self.setup.effects {
             effect.drive_velocity(self.stands, dt, &mut self.setup.particles);
         }
@@ -184,61 +187,8 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    fn count(&mut self, passes: u64) {
+    pub(super) fn count(&mut self, passes: u64) {
         let pairs = self.setup.particles.len() as u64 * self.setup.kernel.support();
         self.transfers += passes * pairs;
-    }
-
-    /// `v(-dt/2) = v(0) - dt/2 a(0)`.
-    fn half_step_back(&mut self, dt: f64) -> Result<(), Failure> {
-        // a(0) is that of the whole step around t = 0.
-        self.stands = -0.5 * dt;
-        self.run(Stage::Mass, dt)?;
-        if self.setup.reads_velocity() {
-            self.run(Stage::Momentum, dt)?;
-        }
-        self.run(Stage::Force, dt)?;
-        self.run(Stage::Acceleration, dt)?;
-        self.stands = -0.5 * dt;
-        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
-        let passes = transfer.kick(kernel.as_ref(), grid, -0.5 * dt, particles);
-        self.count(passes);
-        self.drive(0.0);
-        Ok(())
-    }
-}
-
-impl<const D: usize> Subject for Solver<D> {
-    fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        if !self.started {
-            self.drive(0.0);
-            if self.setup.start == Start::HalfStepBack {
-                self.half_step_back(dt)?;
-            }
-        }
-        self.started = true;
-        for &stage in self.setup.stages() {
-            self.run(stage, dt)?;
-        }
-        self.time += dt;
-        Ok(())
-    }
-
-    fn sample(&self, samples: &mut Samples) {
-        self.setup.particles.sample(samples);
-    }
-
-    fn totals(&self) -> Option<Totals> {
-        Some(self.setup.particles.totals(|p| self.setup.transfer.moment(p)))
-    }
-
-    fn census(&self) -> Census {
-        Census {
-            particles: Some(self.setup.particles.len() as u64),
-            transfers: self.transfers,
-            crossings: Some(self.whereabouts.crossings),
-            left_domain: Some(self.whereabouts.left_domain),
-            min_j: self.min_j,
-        }
     }
 }
