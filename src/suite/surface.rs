@@ -96,7 +96,7 @@ fn scalar<const D: usize>(formula: &Formula) -> PressureField<D> {
 pub(super) fn described(face: &SceneFace) -> Option<String> {
     let load = match (&face.traction, &face.pressure) {
         (Some(value), _) => {
-            let sources: Vec<&str> = value.iter().map(|formula| formula.source()).collect();
+            let sources: Vec<&str> = value.iter().map(Formula::source).collect();
             format!("traction {} Pa", sources.join(", "))
         }
         (None, Some(value)) => format!("pressure {} Pa, which follows the face", value.source()),

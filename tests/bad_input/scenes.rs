@@ -119,7 +119,7 @@ const BENT: &str = include_str!("../../verification/bending-bar.yaml");
 )]
 #[case::on_the_base(&[("on: left", "on: ▸bottom")], &["the face `bottom` is fixed"])]
 #[case::with_a_direction(
-    &[("\"-across(stretch(-w, t))/stretch(-w, t)\"", "[▸0, 0]")],
+    &[("\"-across(stretch(-w, t))/stretch(-w, t)\"", "▸[0, 0]")],
     &["expected a finite number or a formula, found a list"]
 )]
 #[case::of_something_else(&[("stretch(-w, t)\", at", "stretch(-w, ▸s)\", at")], &["`s`"])]
