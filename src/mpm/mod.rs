@@ -34,6 +34,7 @@ mod sampling;
 mod scheme;
 mod setup;
 mod solver;
+mod soundness;
 mod stage;
 mod step;
 mod totals;

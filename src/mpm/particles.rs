@@ -1,7 +1,7 @@
 //! Particles: one column per quantity.
 
 use super::algebra::{Matrix, Vector, det};
-use crate::subject::{Column, Failure, Site};
+use crate::subject::Column;
 
 /// The material points, structure of arrays. `n` particles; a column exists only if some member
 /// of the solver reads it.
@@ -195,27 +195,6 @@ impl<const D: usize> Particles<D> {
     /// Whether there is no particle.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
-    }
-
-    /// Names the first particle whose state is not finite: later, it would have spread to all that
-    /// see the same nodes, or be hidden by a node that is fixed or has no positive mass.
-    pub(super) fn all_finite(&self) -> Result<(), Failure> {
-        let vector = |v: &Vector<D>| v.iter().all(|c| c.is_finite());
-        let matrix = |m: &Matrix<D>| m.iter().all(|c| c.is_finite());
-        let scalar = |s: &f64| s.is_finite();
-        for (quantity, particle) in [
-            ("position", self.x.iter().position(|x| !vector(x))),
-            ("velocity", self.v.iter().position(|v| !vector(v))),
-            ("mass", self.mass.iter().position(|m| !scalar(m))),
-            ("volume", self.vol.iter().position(|vol| !scalar(vol))),
-            ("deformation gradient", self.def_grad.iter().position(|f| !matrix(f))),
-            ("stress", self.sigma.iter().position(|sigma| !matrix(sigma))),
-        ] {
-            if let Some(p) = particle {
-                return Err(Failure::NonFinite { quantity, site: Site::Particle(p) });
-            }
-        }
-        Ok(())
     }
 }
 

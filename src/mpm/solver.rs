@@ -163,7 +163,7 @@ impl<const D: usize> Solver<D> {
                 return Err(Failure::Inverted { site, j });
             }
         }
-        Ok(())
+        self.setup.particles.strained_finite()
     }
 
     /// Lets effects have their say on velocities that have advanced by `dt` (s).
@@ -183,6 +183,7 @@ impl<const D: usize> Solver<D> {
             particles.track_domains();
         }
         self.whereabouts.track(grid, particles)?;
+        particles.moving_finite()?;
         self.count(1);
         Ok(())
     }

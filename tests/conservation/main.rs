@@ -5,6 +5,7 @@ mod common;
 
 mod angular;
 mod failure;
+mod hostile;
 mod motion;
 mod single_particle;
 mod transfer;

@@ -1,0 +1,61 @@
+//! Whether the state of the particles is made of numbers.
+//!
+//! A NaN spreads through the grid to all that see the same nodes, or hides behind a node that is
+//! fixed or has no mass: what is not finite is looked for where it comes about, so that the particle
+//! that is named is the one to blame.
+
+use super::{
+    algebra::{Matrix, Vector},
+    particles::Particles,
+};
+use crate::subject::{Failure, Site};
+
+impl<const D: usize> Particles<D> {
+    /// Names the first particle of which any number is not finite: before the first step.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(super) fn all_finite(&self) -> Result<(), Failure> {
+        first("position", &self.x, vector)?;
+        first("reference position", &self.x0, vector)?;
+        first("velocity", &self.v, vector)?;
+        first("mass", &self.mass, |m| m.is_finite())?;
+        first("reference volume", &self.vol0, |vol| vol.is_finite())?;
+        first("volume", &self.vol, |vol| vol.is_finite())?;
+        first("velocity gradient", &self.grad_v, matrix)?;
+        self.strained_finite()
+    }
+
+    /// The same for what has just come of a velocity gradient: F and the stress. The volume is
+    /// looked at by who knows what it means.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(super) fn strained_finite(&self) -> Result<(), Failure> {
+        first("deformation gradient", &self.def_grad, matrix)?;
+        first("stress", &self.sigma, matrix)
+    }
+
+    /// The same for velocities, at the end of a step.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(super) fn moving_finite(&self) -> Result<(), Failure> {
+        first("velocity", &self.v, vector)
+    }
+}
+
+fn first<T>(quantity: &'static str, column: &[T], sound: fn(&T) -> bool) -> Result<(), Failure> {
+    match column.iter().position(|entry| !sound(entry)) {
+        Some(p) => Err(Failure::NonFinite { quantity, site: Site::Particle(p) }),
+        None => Ok(()),
+    }
+}
+
+fn vector<const D: usize>(v: &Vector<D>) -> bool {
+    v.iter().all(|c| c.is_finite())
+}
+
+fn matrix<const D: usize>(m: &Matrix<D>) -> bool {
+    m.iter().all(|c| c.is_finite())
+}
