@@ -94,6 +94,15 @@ fn cases(suite: &Suite) -> Vec<Expected> {
                 because: case.expectation.because.clone(),
             })
             .collect(),
+        StudyPlan::Stability(plan) => plan
+            .cases
+            .iter()
+            .map(|case| Expected {
+                name: case.name.clone(),
+                outcome: case.summary.clone(),
+                because: case.because.clone(),
+            })
+            .collect(),
         StudyPlan::InternalForce(plan) => plan
             .cases
             .iter()

@@ -30,6 +30,7 @@ pub use equation::Equation;
 pub use forcing::Forcing;
 pub use motion::{Derivatives, Motion, Places};
 pub use problem::{Condition, Face, Problem};
+pub use random::Random;
 pub use region::Region;
 pub use round::Round;
 pub use truth::Truth;

@@ -2,15 +2,16 @@
 
 /// `SplitMix64` (Steele, Lea & Flood 2014): enough randomness to scatter check points.
 #[derive(Debug, Clone)]
-pub(super) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
-    pub(super) fn new(seed: u64) -> Self {
+    /// The sequence that starts from `seed`.
+    pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
     /// Uniform in (0, 1), both ends excluded.
-    pub(super) fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -19,12 +20,12 @@ impl Random {
     }
 
     /// Uniform in (low, high).
-    pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     /// A point inside a box.
-    pub(super) fn point(&mut self, from: &[f64], to: &[f64]) -> Vec<f64> {
+    pub fn point(&mut self, from: &[f64], to: &[f64]) -> Vec<f64> {
         from.iter().zip(to).map(|(a, b)| self.between(*a, *b)).collect()
     }
 }

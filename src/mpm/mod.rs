@@ -36,6 +36,7 @@ mod setup;
 mod solver;
 mod soundness;
 mod stage;
+mod state;
 mod step;
 mod totals;
 mod transfer;

@@ -102,6 +102,23 @@ impl<const D: usize> Particles<D> {
         }
     }
 
+    /// Adds a particle at `x0` (m), at rest, with the mass and the volume of the first one. Nothing
+    /// has been prepared for a solver yet.
+    pub fn add(&mut self, x0: Vector<D>) {
+        let (Some(mass), Some(vol0)) = (self.mass.first().copied(), self.vol0.first().copied())
+        else {
+            return;
+        };
+        self.x0.push(x0);
+        self.x.push(x0);
+        self.v.push(Vector::zeros());
+        self.mass.push(mass);
+        self.vol0.push(vol0);
+        self.vol.push(vol0);
+        self.sigma.push(Matrix::zeros());
+        self.grad_v.push(Matrix::zeros());
+    }
+
     /// Adds the column of deformation gradients, F = I, if it is not there yet.
     pub fn track_deformation(&mut self) {
         self.def_grad.resize(self.len(), Matrix::identity());

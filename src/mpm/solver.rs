@@ -15,6 +15,8 @@ pub struct Solver<const D: usize> {
     /// The last advance of velocities.
     pub(super) advance: Advance,
     pub(super) started: bool,
+    /// Whether nothing moves.
+    pub(super) frozen: bool,
     pub(super) transfers: u64,
     pub(super) min_j: f64,
     pub(super) whereabouts: Whereabouts<D>,
@@ -39,9 +41,9 @@ impl<const D: usize> Solver<D> {
         let whereabouts = Whereabouts::new(&setup.grid, &setup.particles)?;
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
-        let (time, stands, started, transfers) = (0.0, 0.0, false, 0);
+        let (time, stands, started, frozen, transfers) = (0.0, 0.0, false, false, 0);
         let advance = Advance { from: 0.0, to: 0.0, dt: 0.0 };
-        Ok(Self { setup, time, stands, advance, started, transfers, min_j, whereabouts })
+        Ok(Self { setup, time, stands, advance, started, frozen, transfers, min_j, whereabouts })
     }
 
     /// The particles as they are now.
@@ -87,6 +89,7 @@ impl<const D: usize> Solver<D> {
                 self.drive(dt);
             }
             Stage::Stress => self.stress(dt)?,
+            Stage::Position if self.frozen => {}
             Stage::Position => self.position(dt)?,
         }
         Ok(())

@@ -19,12 +19,15 @@
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
 //!             "kinetic_energy": 1e-4},
 //!         "unrest": null, "order": null, "failure": null}],
-//!     "forces": null}]}]}
+//!     "forces": null, "stability": null}]}]}
 //! ```
 //!
 //! `null` stands where a thing does not exist; numbers that are not finite are the strings
 //! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
-//! `{"position", "n_left", "n_right", "force", "predicted"}`. `axis` is what was refined (`space`,
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Nor have stability studies; their `stability`
+//! is `{"swept", "sought", "rows"}`, each row with the `value` of what is swept, and the `run` with its
+//! verdict and figures, or the limit of what is sought: `predicted`, `observed` (each with `at`, or
+//! `above` or `below` the range) and the runs that `confirmed` it. `axis` is what was refined (`space`,
 //! `time`, `particles`) and `spacing` that of this axis; where particles are, there is no formal order.
 //! `profile` is what one step takes on the coarsest level, from a subject that says (MPM); `bytes`
 //! are those of one entry.
@@ -32,6 +35,7 @@
 //! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
 //! or removed without a new major version.
 
+use super::{json_number::number, json_stability as stability};
 use crate::subject::{Column, Holder, Profile};
 use crate::verify::{
     Axis, CaseOutcome, Conserved, Floor, FloorCause, ForceRow, Interval, LevelOutcome, Probe,
@@ -74,6 +78,10 @@ fn case(outcome: &CaseOutcome) -> Value {
         "levels": levels.iter().map(level).collect::<Vec<_>>(),
         "forces": match &outcome.study {
             Study::InternalForce(rows) => rows.iter().map(force).collect(),
+            _ => Value::Null,
+        },
+        "stability": match &outcome.study {
+            Study::Stability(study) => stability::study(study),
             _ => Value::Null,
         },
     })
@@ -157,27 +165,4 @@ fn force(row: &ForceRow) -> Value {
         "force": number(row.force),
         "predicted": number(row.predicted),
     })
-}
-
-fn number(value: f64) -> Value {
-    match value {
-        v if v.is_nan() => json!("nan"),
-        v if v.is_infinite() => json!(if v > 0.0 { "inf" } else { "-inf" }),
-        v => json!(v),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rstest::rstest;
-
-    #[rstest]
-    #[case(f64::NAN, "\"nan\"")]
-    #[case(f64::INFINITY, "\"inf\"")]
-    #[case(f64::NEG_INFINITY, "\"-inf\"")]
-    #[case(0.1, "0.1")]
-    fn numbers(#[case] value: f64, #[case] text: &str) {
-        assert_eq!(number(value).to_string(), text);
-    }
 }

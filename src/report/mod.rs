@@ -8,8 +8,11 @@
 pub mod drift;
 pub mod figure;
 mod json;
+mod json_number;
+mod json_stability;
 mod levels;
 mod profile;
+mod stability;
 mod svg;
 mod table;
 mod text;

@@ -6,6 +6,7 @@
 use super::{
     levels,
     profile::profile,
+    stability,
     table::{Table, optional, scientific},
 };
 use crate::verify::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
@@ -24,6 +25,7 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     for (key, value) in &outcome.statement {
         row(&mut lines, key, value);
     }
+    stability::overview(&mut lines, outcome);
     for case in &outcome.cases {
         lines.push(String::new());
         case_lines(&mut lines, case);
@@ -68,6 +70,7 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
     match &case.study {
         Study::Convergence(study) => convergence(lines, study),
         Study::InternalForce(rows) => internal_force(lines, rows),
+        Study::Stability(study) => stability::tables(lines, study),
         Study::Refused => {}
     }
     lines.push(String::new());

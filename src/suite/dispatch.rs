@@ -5,7 +5,7 @@ use super::{
     bar::bar,
     conditions::{boundary, of_place_and_time, of_time, on_sets, periodic},
     extent::{cell_size, grid_axis, per_axis},
-    filling,
+    filling::{self, Placed},
     method::Method,
     model::{ConvergencePlan, Scene},
     plan::LevelPlan,
@@ -18,7 +18,7 @@ use crate::{
         BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, LocalDamping, Particles, Setup,
         Solver, Vector, kernel,
     },
-    subject::{Profile, Subject},
+    subject::{Perturbable, Profile, Subject},
     verify::Quantity,
 };
 
@@ -34,9 +34,9 @@ pub(super) fn subject(
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
-        (Method::Mpm { .. }, 1) => Ok(Box::new(mpm::<1>(plan, method, level)?)),
-        (Method::Mpm { .. }, 2) => Ok(Box::new(mpm::<2>(plan, method, level)?)),
-        (Method::Mpm { .. }, 3) => Ok(Box::new(mpm::<3>(plan, method, level)?)),
+        (Method::Mpm { .. }, 1) => Ok(Box::new(solver::<1>(&Body::of(plan), method, level)?)),
+        (Method::Mpm { .. }, 2) => Ok(Box::new(solver::<2>(&Body::of(plan), method, level)?)),
+        (Method::Mpm { .. }, 3) => Ok(Box::new(solver::<3>(&Body::of(plan), method, level)?)),
         (Method::Mpm { .. }, d) => Err(format!("there is no MPM in {d} dimensions")),
     }
 }
@@ -49,7 +49,7 @@ pub(super) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         method: Method,
         level: LevelPlan,
     ) -> Option<Profile> {
-        let mut setup = setup::<D>(plan, method, level).ok()?;
+        let mut setup = setup::<D>(&Body::of(plan), method, level).ok()?;
         let (kernel, tally) = Counted::new(setup.kernel);
         setup.kernel = Box::new(kernel);
         let mut solver = Solver::new(setup).ok()?;
@@ -79,34 +79,75 @@ pub(super) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     }
 }
 
-fn mpm<const D: usize>(
-    plan: &ConvergencePlan,
+/// An MPM subject that can be perturbed: `body` on the cells of `level`.
+///
+/// # Errors
+/// One line that says why there is no such subject.
+pub(super) fn perturbable(
+    body: &Body<'_>,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Box<dyn Perturbable>, String> {
+    match body.scene.dimension() {
+        1 => Ok(Box::new(solver::<1>(body, method, level)?)),
+        2 => Ok(Box::new(solver::<2>(body, method, level)?)),
+        _ => Ok(Box::new(solver::<3>(body, method, level)?)),
+    }
+}
+
+/// What a body is at the start.
+pub(super) struct Body<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) initial: Initial,
+    /// The problem whose force is manufactured.
+    pub(super) manufactured: Option<&'a Problem>,
+    /// Whether F is kept whoever reads it.
+    pub(super) keeps_deformation: bool,
+    /// Particles that are not where the lattice has them.
+    pub(super) placed: Placed,
+}
+
+impl<'a> Body<'a> {
+    fn of(plan: &'a ConvergencePlan) -> Self {
+        Self {
+            scene: &plan.scene,
+            initial: Initial::of(plan),
+            manufactured: plan.manufactured(),
+            keeps_deformation: plan.of == Quantity::DeformationGradient,
+            placed: Placed::default(),
+        }
+    }
+}
+
+fn solver<const D: usize>(
+    body: &Body<'_>,
     method: Method,
     level: LevelPlan,
 ) -> Result<Solver<D>, String> {
-    Solver::new(setup(plan, method, level)?).map_err(|failure| failure.to_string())
+    Solver::new(setup(body, method, level)?).map_err(|failure| failure.to_string())
 }
 
 fn setup<const D: usize>(
-    plan: &ConvergencePlan,
+    body: &Body<'_>,
     method: Method,
     level: LevelPlan,
 ) -> Result<Setup<D>, String> {
     let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else {
         return Err("not an MPM method".to_owned());
     };
-    let scene = &plan.scene;
+    let scene = body.scene;
     let h = cell_size(scene, level.cells);
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
     let grid = grid(scene, h, kernel.as_ref());
     let mut particles = filling::particles(scene, &grid.origin, h, per_axis);
-    if plan.of == Quantity::DeformationGradient {
+    body.placed.put(&mut particles);
+    if body.keeps_deformation {
         particles.track_deformation();
     }
-    Initial::of(plan).put(&mut particles);
+    body.initial.put(&mut particles);
     let mut effects = effects(scene, &particles);
-    effects.extend(plan.manufactured().map(|made| manufactured_force(made, &particles)));
+    effects.extend(body.manufactured.map(|made| manufactured_force(made, &particles)));
     effects.extend(on_sets(scene, &particles)?);
     Ok(Setup {
         kernel,

@@ -11,7 +11,7 @@ use super::{
     plan::{Extent, LevelPlan},
     probe,
     reference::Reference,
-    statement,
+    stability, statement,
     words::CrossingLevels,
 };
 use crate::{
@@ -43,7 +43,7 @@ impl<'a> Runner<'a> {
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let mut ends: Vec<f64> = match &suite.study {
             StudyPlan::Convergence(plan) => plan.cases.iter().map(|case| case.until).collect(),
-            StudyPlan::InternalForce(_) => Vec::new(),
+            StudyPlan::InternalForce(_) | StudyPlan::Stability(_) => Vec::new(),
         };
         ends.sort_by(f64::total_cmp);
         ends.dedup();
@@ -58,6 +58,7 @@ impl<'a> Runner<'a> {
                 (plan.cases.len() * plan.refine.levels(self.extent).len()) as u64
             }
             StudyPlan::InternalForce(plan) => plan.cases.len() as u64,
+            StudyPlan::Stability(plan) => (plan.cases.len() * plan.values.len()) as u64,
         }
     }
 
@@ -88,6 +89,9 @@ impl<'a> Runner<'a> {
         match &self.suite.study {
             StudyPlan::Convergence(plan) => self.convergence(plan, &plan.cases[index], progress),
             StudyPlan::InternalForce(plan) => internal_force(plan, &plan.cases[index], progress),
+            StudyPlan::Stability(plan) => {
+                stability::case(plan, &plan.cases[index], self.extent, progress)
+            }
         }
     }
 

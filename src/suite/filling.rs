@@ -46,3 +46,26 @@ fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> 
         density: scene.density,
     }
 }
+
+/// Particles that are not where the lattice has them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Placed {
+    /// What every particle is moved by (m), one number for each axis; empty: nothing.
+    pub(super) shift: Vec<f64>,
+    /// Places of further particles (m), each like the first particle of the lattice.
+    pub(super) extra: Vec<Vec<f64>>,
+}
+
+impl Placed {
+    /// Moves and adds particles.
+    pub(super) fn put<const D: usize>(&self, particles: &mut Particles<D>) {
+        let vector =
+            |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));
+        let shift = vector(&self.shift);
+        particles.x0.iter_mut().for_each(|x| *x += shift);
+        for place in &self.extra {
+            particles.add(vector(place));
+        }
+        particles.x.clone_from(&particles.x0);
+    }
+}

@@ -6,9 +6,12 @@ use super::{
     cases, comparable, damping, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
-    refine, scene, size, steps, truth,
+    refine, scene, size, stability, steps, truth,
     wording::shown,
-    words::{ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StudyName},
+    words::{
+        ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StabilityWords,
+        StudyName,
+    },
     yaml::{Complaint, Ordered, Source, read},
 };
 
@@ -24,6 +27,7 @@ impl Suite {
         match study_of(source)? {
             StudyName::Convergence => convergence(source),
             StudyName::InternalForce => internal_force(source),
+            StudyName::Stability => stability(source),
         }
     }
 }
@@ -92,6 +96,16 @@ fn internal_force(source: &Source) -> Result<Suite, Complaint> {
     binder.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
     Ok(assemble(head, parameters, &words.functions, StudyPlan::InternalForce(Box::new(plan))))
+}
+
+fn stability(source: &Source) -> Result<Suite, Complaint> {
+    let words: StabilityWords = read(source)?;
+    let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
+    name(&binder, &words.suite)?;
+    let plan = stability::plan(&binder, source, &words)?;
+    binder.refuse_unused(&words.parameters, &words.functions)?;
+    let head = [words.suite, words.title, words.source, words.about];
+    Ok(assemble(head, parameters, &words.functions, StudyPlan::Stability(Box::new(plan))))
 }
 
 fn assemble(

@@ -45,6 +45,7 @@ mod refine;
 mod scene;
 mod sets;
 mod size;
+mod stability;
 mod start;
 pub mod statement;
 mod steps;
@@ -62,4 +63,5 @@ pub use model::{
     SceneFace, StudyPlan, Suite,
 };
 pub use plan::{Extent, LevelPlan, RefinePlan};
+pub use stability::{StabilityCase, StabilityPlan};
 pub use words::{CrossingLevels, EquationName, NormName};

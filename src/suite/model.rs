@@ -4,6 +4,7 @@ use super::{
     hold::Hold,
     method::Method,
     plan::RefinePlan,
+    stability::StabilityPlan,
     words::{CrossingLevels, EquationName, NormName},
 };
 use crate::{
@@ -39,6 +40,8 @@ pub enum StudyPlan {
     Convergence(Box<ConvergencePlan>),
     /// Internal force on a node while a particle moves through it.
     InternalForce(Box<ForcePlan>),
+    /// Whether runs stay bounded, and up to where.
+    Stability(Box<StabilityPlan>),
 }
 
 /// Everything about a convergence study but the methods.
@@ -224,6 +227,7 @@ impl Suite {
         match &self.study {
             StudyPlan::Convergence(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
             StudyPlan::InternalForce(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
+            StudyPlan::Stability(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
         }
     }
 }

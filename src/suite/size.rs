@@ -84,7 +84,7 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
 
 /// The nodes that are held lie on the last face of the grid, which must be that of the body; a
 /// periodic grid must end where it was told to.
-fn held_faces(
+pub(super) fn held_faces(
     binder: &Binder<'_>,
     path: &Path,
     scene: &Scene,

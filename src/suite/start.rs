@@ -21,11 +21,16 @@ pub(super) struct Initial {
 impl Initial {
     /// The initial state of every subject of `plan`.
     pub(super) fn of(plan: &ConvergencePlan) -> Self {
-        let Scene { initial_displacement, initial_velocity, .. } = &plan.scene;
         let exact = plan.exact.as_ref().filter(|problem| problem.follows_motion);
+        Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(&plan.scene) }
+    }
+
+    /// What the scene states, and nothing else.
+    pub(super) fn stated(scene: &Scene) -> Self {
+        let Scene { initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
         Self {
-            motion: exact.map(|problem| problem.motion.clone()),
+            motion: None,
             displacement: formulas(initial_displacement),
             velocity: formulas(initial_velocity),
         }

@@ -4,7 +4,7 @@ use super::{
     hold::Hold,
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
     plan::{LevelPlan, RefinePlan},
-    surface,
+    stability, surface,
     wording::shown,
 };
 use crate::{
@@ -33,6 +33,12 @@ pub fn rows(suite: &Suite) -> Vec<(String, String)> {
     match &suite.study {
         StudyPlan::Convergence(plan) => convergence(plan, &mut rows),
         StudyPlan::InternalForce(plan) => internal_force(plan, &mut rows),
+        StudyPlan::Stability(plan) => {
+            if let Some(first) = stability::first(plan) {
+                scene(&first.scene, &mut rows);
+                rows.extend(stability::rows(plan, &first));
+            }
+        }
     }
     rows
 }

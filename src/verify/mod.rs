@@ -13,6 +13,7 @@
 //! | [`judge`](judge()) | the questions, and the verdict |
 //! | [`floor`](Floor) | whose error a floor is |
 //! | [`richardson`](Richardson) | order and limit from three values |
+//! | [`stability`](StabilityStudy) | runs watched for growth, the step as a matrix, limits by bisection |
 //! | [`expectation`](Expectation), [`limits`](Limits) | what must come out |
 //!
 //! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
@@ -40,6 +41,7 @@ mod reason;
 mod richardson;
 mod run;
 mod shape;
+mod stability;
 mod student;
 #[cfg(test)]
 mod tests;
@@ -64,5 +66,10 @@ pub use pairwise::observed_order;
 pub use quantity::{Quantity, errors_of};
 pub use richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use run::{Comparison, Run, errors, run};
+pub use stability::{
+    Critical, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
+    StabilityLimit, StabilityRow, StabilityStudy, Trial, Wanted, amplification, spectral_radius,
+    stability_limit, trial,
+};
 pub use student::two_sided_95;
 pub use verdict::{UnknownVerdict, Verdict};

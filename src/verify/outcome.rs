@@ -2,7 +2,8 @@
 
 use super::{
     axis::Axis, conservation::Conserved, figures::figures, floor::Floor, judge::Judgement,
-    observer::History, quantity::Quantity, richardson::Richardson, run::Run, verdict::Verdict,
+    observer::History, quantity::Quantity, richardson::Richardson, run::Run,
+    stability::StabilityStudy, verdict::Verdict,
 };
 use crate::subject::Profile;
 
@@ -55,6 +56,8 @@ pub enum Study {
     Convergence(Box<Convergence>),
     /// Internal force on a node while a particle moves through it.
     InternalForce(Vec<ForceRow>),
+    /// Whether runs stay bounded.
+    Stability(Box<StabilityStudy>),
     /// The case could not be set up; the reason is in [`CaseOutcome::reason`].
     Refused,
 }

@@ -18,6 +18,7 @@ mod refinement;
 mod samples;
 mod scenes;
 mod sizes;
+mod stability;
 mod truths;
 mod vortex;
 
@@ -26,7 +27,7 @@ use mpm_verify::suite::{
     yaml::{Complaint, Source},
 };
 use rstest::rstest;
-use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED};
+use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED, SWEPT};
 
 /// Where a complaint must point.
 const HERE: char = '▸';
@@ -84,6 +85,7 @@ fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
 #[case::column(COLUMN)]
 #[case::pulled(PULLED)]
 #[case::force(FORCE)]
+#[case::swept(SWEPT)]
 fn without_a_mistake_the_samples_are_sound(#[case] text: &str) {
     if let Err(complaint) = load(text) {
         panic!("{complaint}");

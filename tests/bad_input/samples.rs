@@ -112,3 +112,6 @@ pub(super) const PULLED: &str = include_str!("../../verification/steffen-bar.yam
 
 /// A particle that moves through a node.
 pub(super) const FORCE: &str = include_str!("../../verification/grid-crossing.yaml");
+
+/// A bar whose Courant limit is sought.
+pub(super) const SWEPT: &str = include_str!("../../verification/tiny-nodal-mass.yaml");

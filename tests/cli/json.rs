@@ -3,7 +3,7 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
 use serde_json::Value;
 
-const CASE: [&str; 14] = [
+const CASE: [&str; 15] = [
     "case",
     "subject",
     "axis",
@@ -18,6 +18,7 @@ const CASE: [&str; 14] = [
     "floor",
     "levels",
     "forces",
+    "stability",
 ];
 
 const LEVEL: [&str; 17] = [

@@ -43,4 +43,14 @@ impl MaterialPlan {
         let value = |wanted| parameters.iter().find(|(known, _)| *known == wanted);
         Some((value(YOUNG)?.1, value(POISSON)?.1))
     }
+
+    /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave.
+    pub fn wave_modulus(&self) -> f64 {
+        if let Some((young, poisson)) = self.elasticity() {
+            let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+            return lambda + 2.0 * mu;
+        }
+        let parameters = self.parameters();
+        parameters.iter().find(|(known, _)| *known == BULK).map_or(f64::NAN, |(_, bulk)| *bulk)
+    }
 }

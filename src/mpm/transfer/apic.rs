@@ -105,6 +105,14 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         2
     }
 
+    fn carried(&self) -> &[Matrix<D>] {
+        &self.b
+    }
+
+    fn carried_mut(&mut self) -> &mut [Matrix<D>] {
+        &mut self.b
+    }
+
     fn moment(&self, p: usize) -> Option<Matrix<D>> {
         self.b.get(p).copied()
     }

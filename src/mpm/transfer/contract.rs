@@ -131,6 +131,23 @@ pub trait Transfer<const D: usize>: Send + Sync {
         1
     }
 
+    /// What particles carry for this transfer from one step to the next, besides their velocity; empty
+    /// if nothing.
+    fn carried(&self) -> &[Matrix<D>] {
+        &[]
+    }
+
+    /// The same, to be changed.
+    fn carried_mut(&mut self) -> &mut [Matrix<D>] {
+        &mut []
+    }
+
+    /// A natural size of what is carried, where velocities are of the size `speed` (m/s) and cells of
+    /// the size `h` (m).
+    fn carried_size(&self, speed: f64, h: f64) -> f64 {
+        speed * h
+    }
+
     /// First moment of the velocity field around particle `p`, `C_p D_p` (m^2/s): per unit mass,
     /// its antisymmetric part is the particle's own share of the angular momentum. None where the
     /// particle carries its velocity only.

@@ -107,6 +107,14 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         1
     }
 
+    fn carried(&self) -> &[Matrix<D>] {
+        self.apic.carried()
+    }
+
+    fn carried_mut(&mut self) -> &mut [Matrix<D>] {
+        self.apic.carried_mut()
+    }
+
     fn moment(&self, p: usize) -> Option<Matrix<D>> {
         self.apic.moment(p)
     }

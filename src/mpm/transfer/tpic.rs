@@ -100,6 +100,19 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         2
     }
 
+    fn carried(&self) -> &[Matrix<D>] {
+        &self.c
+    }
+
+    fn carried_mut(&mut self) -> &mut [Matrix<D>] {
+        &mut self.c
+    }
+
+    /// C is a gradient.
+    fn carried_size(&self, speed: f64, h: f64) -> f64 {
+        speed / h
+    }
+
     fn moment(&self, p: usize) -> Option<Matrix<D>> {
         Some(self.c.get(p)? * self.moments.second.get(p)?)
     }

@@ -4,14 +4,18 @@
 //! a method's entries may be lists, whose product gives the cases.
 
 mod force;
+mod head;
 mod refine;
 mod scene;
+mod stability;
 
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
+pub(in crate::suite) use head::{Head, StudyName};
 pub(in crate::suite) use refine::{RefineWords, RunWords};
 pub(in crate::suite) use scene::{
     AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, RoundWords, SceneWords, SetWords,
 };
+pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::{
@@ -22,29 +26,6 @@ use crate::{
     verify::{FloorCause, Quantity},
 };
 use serde::Deserialize;
-
-/// What every suite has, whatever it studies.
-#[derive(Debug, Clone, Deserialize)]
-pub(in crate::suite) struct Head {
-    #[serde(default = "StudyName::default_study")]
-    pub(in crate::suite) study: StudyName,
-}
-
-/// Kinds of study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(in crate::suite) enum StudyName {
-    /// Errors over a refinement plan.
-    Convergence,
-    /// Internal force on a node while a particle moves through it.
-    InternalForce,
-}
-
-impl StudyName {
-    fn default_study() -> Self {
-        Self::Convergence
-    }
-}
 
 /// A convergence study.
 #[derive(Debug, Clone, Deserialize)]

@@ -16,6 +16,15 @@ impl<T> Ordered<T> {
         &self.0
     }
 
+    /// The same, with another value for one of the names.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: T) -> Self {
+        if let Some((_, old)) = self.0.iter_mut().find(|(key, _)| key == name) {
+            *old = value;
+        }
+        self
+    }
+
     /// What a name stands for.
     pub fn get(&self, name: &str) -> Option<&T> {
         self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value)

@@ -5,6 +5,10 @@
 //! and flat (`f64` slices, no type of this crate's algebra), so that a solver in another language
 //! can stand behind it.
 
+mod profile;
+
+pub use profile::{Column, Holder, Profile};
+
 use crate::named::named;
 use thiserror::Error;
 
@@ -27,6 +31,25 @@ pub trait Subject {
     fn totals(&self) -> Option<Totals> {
         None
     }
+}
+
+/// A subject whose step can be looked at as a map from state to state, on a configuration that does
+/// not move: what a theory of small perturbations speaks of.
+pub trait Perturbable: Subject {
+    /// From now on steps move nothing: what the discretisation sees of the configuration (positions,
+    /// and the sizes of what moves with them) stays as it is; all else goes on as before.
+    fn freeze(&mut self);
+
+    /// Writes all that a step reads and changes, but for the configuration, into `state`: always as
+    /// many numbers in the same order.
+    fn state(&self, state: &mut Vec<f64>);
+
+    /// Takes over what [`Perturbable::state`] has written, possibly changed.
+    fn set_state(&mut self, state: &[f64]);
+
+    /// A natural size for each number of the state, where speeds are of the size `speed` (m/s) and
+    /// stresses of the size `modulus` (Pa).
+    fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>);
 }
 
 named! {
@@ -133,68 +156,6 @@ impl Totals {
             angular_momentum: sum(self.angular_momentum, other.angular_momentum),
             angular_momentum_size: self.angular_momentum_size + other.angular_momentum_size,
             kinetic_energy: self.kinetic_energy + other.kinetic_energy,
-        }
-    }
-}
-
-/// What a column has an entry for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Holder {
-    /// Particles.
-    Particle,
-    /// Nodes of the grid.
-    Node,
-}
-
-/// Memory that a subject keeps: one entry for each particle or node, or for some of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Column {
-    /// What it holds.
-    pub name: &'static str,
-    /// What it has entries for.
-    pub holder: Holder,
-    /// Entries.
-    pub entries: usize,
-    /// Bytes of one entry.
-    pub bytes: usize,
-}
-
-impl Column {
-    /// A column with entries for particles.
-    pub fn of_particles<T>(name: &'static str, entries: &[T]) -> Self {
-        let bytes = std::mem::size_of::<T>();
-        Self { name, holder: Holder::Particle, entries: entries.len(), bytes }
-    }
-
-    /// A column with entries for nodes.
-    pub fn of_nodes<T>(name: &'static str, entries: &[T]) -> Self {
-        Self { holder: Holder::Node, ..Self::of_particles(name, entries) }
-    }
-}
-
-/// What one step of a subject takes: what it computes and what it keeps, for readers who want to
-/// know what they pay for.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Profile {
-    /// The effects that are active, in their order.
-    pub effects: Vec<&'static str>,
-    /// Particles.
-    pub particles: usize,
-    /// Nodes of the grid.
-    pub nodes: usize,
-    /// What is kept; no column is empty.
-    pub columns: Vec<Column>,
-    /// Passes of one step: what a pass computes, and the particles that it visits. A pass that
-    /// runs twice counts twice.
-    pub passes: Vec<(&'static str, u64)>,
-}
-
-impl Profile {
-    /// How many there are of what columns have entries for.
-    pub fn holders(&self, holder: Holder) -> usize {
-        match holder {
-            Holder::Particle => self.particles,
-            Holder::Node => self.nodes,
         }
     }
 }

@@ -1,0 +1,63 @@
+//! What a step takes: columns of memory and passes of work.
+
+/// What a column has an entry for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holder {
+    /// Particles.
+    Particle,
+    /// Nodes of the grid.
+    Node,
+}
+
+/// Memory that a subject keeps: one entry for each particle or node, or for some of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// What it holds.
+    pub name: &'static str,
+    /// What it has entries for.
+    pub holder: Holder,
+    /// Entries.
+    pub entries: usize,
+    /// Bytes of one entry.
+    pub bytes: usize,
+}
+
+impl Column {
+    /// A column with entries for particles.
+    pub fn of_particles<T>(name: &'static str, entries: &[T]) -> Self {
+        let bytes = std::mem::size_of::<T>();
+        Self { name, holder: Holder::Particle, entries: entries.len(), bytes }
+    }
+
+    /// A column with entries for nodes.
+    pub fn of_nodes<T>(name: &'static str, entries: &[T]) -> Self {
+        Self { holder: Holder::Node, ..Self::of_particles(name, entries) }
+    }
+}
+
+/// What one step of a subject takes: what it computes and what it keeps, for readers who want to
+/// know what they pay for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Profile {
+    /// The effects that are active, in their order.
+    pub effects: Vec<&'static str>,
+    /// Particles.
+    pub particles: usize,
+    /// Nodes of the grid.
+    pub nodes: usize,
+    /// What is kept; no column is empty.
+    pub columns: Vec<Column>,
+    /// Passes of one step: what a pass computes, and the particles that it visits. A pass that
+    /// runs twice counts twice.
+    pub passes: Vec<(&'static str, u64)>,
+}
+
+impl Profile {
+    /// How many there are of what columns have entries for.
+    pub fn holders(&self, holder: Holder) -> usize {
+        match holder {
+            Holder::Particle => self.particles,
+            Holder::Node => self.nodes,
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! From values of the parameters to a set-up.
+//!
+//! Any parameter can be swept, because nothing is computed before its value is known: the words of the
+//! suite are read once more for every value.
+
+use super::model::Recipe;
+use crate::{
+    suite::{
+        binder::Binder,
+        extent::{cell_size, grid_axis, per_axis},
+        filling::Placed,
+        model::Scene,
+        path::Path,
+        plan::LevelPlan,
+        scene, size,
+        wording::shown,
+        words::StabilityWords,
+        yaml::{Complaint, NumberText},
+    },
+    verify::Scales,
+};
+
+/// Energy, over that at the start, up to which a run is stable: what the exchange between velocities
+/// and stresses makes of a random start just below the limit of a leapfrog, with room to spare.
+const STABLE_BELOW: f64 = 1e3;
+
+/// Energy beyond which a run is unstable.
+const UNSTABLE_ABOVE: f64 = 1e8;
+
+/// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
+const PERTURBATION: f64 = 1e-9;
+
+/// Values of parameters, by name.
+pub(super) type Values<'a> = [(&'a str, f64)];
+
+/// One run, ready to be made.
+#[derive(Debug, Clone)]
+pub(in crate::suite) struct Setting {
+    pub(in crate::suite) scene: Scene,
+    pub(super) placed: Placed,
+    pub(super) level: LevelPlan,
+    pub(super) steps: u64,
+    /// Steps of a full run.
+    pub(super) full_steps: u64,
+    pub(super) frozen: bool,
+    /// Size of the random perturbation at the start.
+    pub(super) perturb: f64,
+    pub(super) scales: Scales,
+}
+
+impl Recipe {
+    /// The names of the suite with `values` in the place of what it says.
+    pub(super) fn binder(&self, values: &Values<'_>) -> Result<Binder<'_>, Complaint> {
+        let replace = |parameters: crate::suite::yaml::Ordered<NumberText>,
+                       (name, value): &(&str, f64)| {
+            parameters.with(name, NumberText::Number(*value))
+        };
+        let parameters = values.iter().fold(self.words.parameters.clone(), replace);
+        Ok(Binder::new(&self.source, &parameters, &self.words.functions)?.0)
+    }
+
+    /// The run with these values.
+    pub(super) fn setting(&self, values: &Values<'_>) -> Result<Setting, Complaint> {
+        setting(&self.binder(values)?, &self.words)
+    }
+}
+
+/// The run that `words` describe.
+pub(super) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Setting, Complaint> {
+    let scene = scene::scene(binder, &words.scene)?;
+    let d = scene.dimension();
+    let particles = Path::top("particles");
+    let at = particles.then("cells");
+    let cells = binder.count(&at, &words.particles.cells, "the number of cells")?;
+    let ppc_at = particles.then("ppc");
+    let ppc = binder.count(&ppc_at, &words.particles.ppc, "the number of particles per cell")?;
+    if per_axis(ppc, d).is_none() {
+        let message = format!("{ppc} particles per cell are not equally spaced in {d}-D");
+        return Err(binder.complain(&ppc_at, &message).with_label("expected a whole power"));
+    }
+    let h = cell_size(&scene, cells);
+    let run = Path::top("run");
+    let dt_at = run.then("dt");
+    let dt = binder.formula(&dt_at, &words.run.dt, &["h"])?.eval(&[h]);
+    if !(dt > 0.0 && dt.is_finite()) {
+        let message = format!("the time step is {}", shown(dt));
+        return Err(binder.complain(&dt_at, &message).with_label("expected a positive number"));
+    }
+    let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
+    if let Some((what, amount)) = size::too_large(&scene, level) {
+        let message = format!("{cells} cells along the first axis make {amount:.1e} {what}");
+        return Err(binder.complain(&at, &message).with_label("expected fewer"));
+    }
+    size::held_faces(binder, &at, &scene, cells)?;
+    let steps = binder.count(&run.then("steps"), &words.run.steps, "the number of steps")?;
+    let full_steps = words.run.full_steps.as_ref().map_or(Ok(steps), |text| {
+        binder.count(&run.then("full_steps"), text, "the number of steps")
+    });
+    let setting = Setting {
+        placed: placed(binder, words, &scene, h)?,
+        level,
+        steps,
+        full_steps: full_steps?,
+        frozen: words.run.frozen,
+        perturb: perturbation(binder, words)?,
+        scales: scales(binder, words, &scene)?,
+        scene,
+    };
+    if setting.frozen {
+        at_rest(binder, &setting.scene)?;
+    }
+    Ok(setting)
+}
+
+fn placed(
+    binder: &Binder<'_>,
+    words: &StabilityWords,
+    scene: &Scene,
+    h: f64,
+) -> Result<Placed, Complaint> {
+    let (path, d) = (Path::top("particles"), scene.dimension());
+    let shift = words.particles.shift.as_ref();
+    let shift = shift.map(|texts| binder.point(&path.then("shift"), texts, d)).transpose()?;
+    let mut extra = Vec::new();
+    for (i, texts) in words.particles.extra.iter().enumerate() {
+        let at = path.then("extra").then(i);
+        let place = binder.point(&at, texts, d)?;
+        for (axis, x) in place.iter().enumerate() {
+            let (origin, cells) = grid_axis(scene, axis, h);
+            if !(origin..=origin + cells * h).contains(x) {
+                let message = format!("a particle at {} is outside the grid", shown(*x));
+                let (low, high) = (shown(origin), shown(origin + cells * h));
+                let label = format!("expected a place from {low} to {high}");
+                return Err(binder.complain(&at, &message).with_label(&label));
+            }
+        }
+        extra.push(place);
+    }
+    Ok(Placed { shift: shift.unwrap_or_default(), extra })
+}
+
+fn perturbation(binder: &Binder<'_>, words: &StabilityWords) -> Result<f64, Complaint> {
+    let default = if words.run.frozen { PERTURBATION } else { 0.0 };
+    let path = Path::top("run").then("perturb");
+    words
+        .run
+        .perturb
+        .as_ref()
+        .map_or(Ok(default), |text| binder.positive(&path, text, "the size of the perturbation"))
+}
+
+fn scales(binder: &Binder<'_>, words: &StabilityWords, scene: &Scene) -> Result<Scales, Complaint> {
+    let modulus = scene.material.wave_modulus();
+    let path = Path::top("run");
+    let bound = |key: &str, text: &Option<NumberText>, default: f64| {
+        let at = path.then(key);
+        text.as_ref().map_or(Ok(default), |text| binder.positive(&at, text, "the bound"))
+    };
+    let stable_below = bound("stable_below", &words.run.stable_below, STABLE_BELOW)?;
+    let unstable_above = bound("unstable_above", &words.run.unstable_above, UNSTABLE_ABOVE)?;
+    if !(stable_below <= unstable_above) {
+        let message = format!(
+            "a run is stable below {} and unstable above {}",
+            shown(stable_below),
+            shown(unstable_above)
+        );
+        return Err(binder.complain_key(&path, &message));
+    }
+    let speed = (modulus / scene.density).sqrt();
+    Ok(Scales { speed, modulus, stable_below, unstable_above })
+}
+
+/// A frozen body is one that rests: nothing acts on it.
+fn at_rest(binder: &Binder<'_>, scene: &Scene) -> Result<(), Complaint> {
+    let loaded = scene.gravity.is_some()
+        || scene.body_force.is_some()
+        || scene.damping.is_some()
+        || scene.faces.iter().any(|face| face.traction.is_some())
+        || !scene.sets.is_empty();
+    let driven =
+        scene.faces.iter().any(|f| matches!(f.hold, crate::suite::hold::Hold::Velocity(_)));
+    let moves = !scene.initial_displacement.is_empty() || !scene.initial_velocity.is_empty();
+    if !(loaded || driven || moves) {
+        return Ok(());
+    }
+    let message =
+        "a frozen body rests without stress, and this one is loaded, driven or starts otherwise";
+    let complaint = binder.complain_key(&Path::top("run").then("frozen"), message);
+    Err(complaint.with_help("remove what the scene states of it; `perturb` starts the run"))
+}

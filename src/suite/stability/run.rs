@@ -1,0 +1,203 @@
+//! Running a stability study: every row of every case.
+
+use super::{
+    model::{StabilityCase, StabilityPlan},
+    recipe::{Setting, Values},
+};
+use crate::{
+    exact::Random,
+    subject::Perturbable,
+    suite::{
+        dispatch::{Body, perturbable},
+        method::Method,
+        plan::Extent,
+        start::Initial,
+    },
+    verify::{
+        CaseOutcome, Critical, Prediction, Stability, StabilityLimit, StabilityRow, StabilityStudy,
+        Study, Trial, amplification, spectral_radius, stability_limit, trial,
+    },
+};
+use rayon::prelude::*;
+
+/// Values at which a limit is looked for before the first unstable interval is halved.
+const SCAN: u32 = 48;
+
+/// The same where each value is a whole run.
+const SCAN_OF_RUNS: u32 = 16;
+
+/// The share to which limits are found: of a prediction, and of runs.
+const SHARP: f64 = 1e-5;
+const SHARP_OF_RUNS: f64 = 5e-3;
+
+/// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %.
+const SHARES: [f64; 3] = [0.98, 1.02, 1.05];
+
+/// What rounding makes of an eigenvalue of one with too few eigenvectors (rigid motion has one).
+const DEFECT: f64 = 1e-5;
+
+/// Seed of the perturbations at the start.
+const SEED: u64 = 8;
+
+/// Runs a case.
+pub(in crate::suite) fn case(
+    plan: &StabilityPlan,
+    case: &StabilityCase,
+    extent: Extent,
+    progress: &(dyn Fn() + Sync),
+) -> CaseOutcome {
+    let job = Job { plan, method: case.method, extent };
+    let rows: Vec<StabilityRow> = plan
+        .values
+        .par_iter()
+        .map(|value| {
+            let row = job.row(*value);
+            progress();
+            row
+        })
+        .collect();
+    // Where no face is held, nothing is to be said of walls.
+    let mut settings = case.method.settings();
+    let walls = job.setting(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
+    settings.retain(|(key, _)| walls || key != "walls");
+    let unmet: Vec<String> = case
+        .expected
+        .iter()
+        .zip(&rows)
+        .flat_map(|(expected, row)| {
+            let place = format!("{} = {}", plan.swept, row.value);
+            expected.unmet(row).into_iter().map(move |unmet| format!("{place}: {unmet}"))
+        })
+        .collect();
+    let study = StabilityStudy {
+        swept: plan.swept.clone(),
+        sought: plan.sought.as_ref().map(|(name, ..)| name.clone()),
+        figures: plan.figures.clone(),
+        rows,
+    };
+    CaseOutcome {
+        case: case.name.clone(),
+        subject: "mpm",
+        settings,
+        profile: None,
+        expected: case.summary.clone(),
+        because: case.because.clone(),
+        verdict: study.verdict(),
+        reason: study.reason(),
+        unmet,
+        study: Study::Stability(Box::new(study)),
+    }
+}
+
+/// One method in a study.
+struct Job<'a> {
+    plan: &'a StabilityPlan,
+    method: Method,
+    extent: Extent,
+}
+
+impl Job<'_> {
+    fn row(&self, value: f64) -> StabilityRow {
+        let empty = StabilityRow { value, trial: None, critical: None, refused: None };
+        let found = match &self.plan.sought {
+            None => self
+                .run(&[(&self.plan.swept, value)])
+                .map(|trial| StabilityRow { trial: Some(trial), ..empty.clone() }),
+            Some(sought) => self
+                .critical(value, sought)
+                .map(|critical| StabilityRow { critical: Some(critical), ..empty.clone() }),
+        };
+        found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
+    }
+
+    /// The set-up with these values of the parameters.
+    fn setting(&self, values: &Values<'_>) -> Result<Setting, String> {
+        let mut setting =
+            self.plan.recipe.setting(values).map_err(|complaint| complaint.one_line())?;
+        if self.extent == Extent::Full {
+            setting.steps = setting.full_steps;
+        }
+        Ok(setting)
+    }
+
+    fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
+        let body = Body {
+            scene: &setting.scene,
+            initial: Initial::stated(&setting.scene),
+            manufactured: None,
+            keeps_deformation: false,
+            placed: setting.placed.clone(),
+        };
+        let mut subject = perturbable(&body, self.method, setting.level)?;
+        if setting.frozen {
+            subject.freeze();
+        }
+        Ok(subject)
+    }
+
+    /// The run with these values of the parameters.
+    fn run(&self, values: &Values<'_>) -> Result<Trial, String> {
+        let setting = self.setting(values)?;
+        let mut subject = self.subject(&setting)?;
+        if setting.perturb > 0.0 {
+            perturb(subject.as_mut(), &setting);
+        }
+        Ok(trial(subject.as_mut(), setting.level.dt, setting.steps, &setting.scales))
+    }
+
+    /// The limit of what is sought: predicted and confirmed where the body is frozen, else observed.
+    fn critical(
+        &self,
+        value: f64,
+        (name, low, high): &(String, f64, f64),
+    ) -> Result<Critical, String> {
+        let with = |sought: f64| [(self.plan.swept.as_str(), value), (name.as_str(), sought)];
+        if self.plan.frozen {
+            return self.predicted((*low, *high), with);
+        }
+        let stable = |sought: f64| -> Result<bool, String> {
+            Ok(self.run(&with(sought))?.verdict == Stability::Stable)
+        };
+        let observed = stability_limit((*low, *high), SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
+        Ok(Critical { predicted: None, confirmed: Vec::new(), observed: Some(observed) })
+    }
+
+    fn predicted<'v>(
+        &self,
+        range: (f64, f64),
+        with: impl Fn(f64) -> [(&'v str, f64); 2],
+    ) -> Result<Critical, String> {
+        let mut leaves = None;
+        let stable = |sought: f64| -> Result<bool, String> {
+            let setting = self.setting(&with(sought))?;
+            let mut subject = self.subject(&setting)?;
+            let (dt, scales) = (setting.level.dt, setting.scales);
+            let matrix = amplification(subject.as_mut(), dt, scales.speed, scales.modulus)?;
+            let found = spectral_radius(&matrix);
+            let grows = !(found.radius <= 1.0 + DEFECT);
+            if grows {
+                leaves = found.eigenvalue;
+            }
+            Ok(!grows)
+        };
+        let limit = stability_limit(range, SCAN, SHARP, stable)?;
+        let shares: Vec<(f64, f64)> = match limit {
+            StabilityLimit::At(limit) => SHARES.iter().map(|s| (*s, s * limit)).collect(),
+            StabilityLimit::Above(end) | StabilityLimit::Below(end) => vec![(1.0, end)],
+        };
+        let confirm = |(share, sought)| Ok((share, self.run(&with(sought))?));
+        let confirmed = shares.into_iter().map(confirm).collect::<Result<_, String>>()?;
+        Ok(Critical { predicted: Some(Prediction { limit, leaves }), confirmed, observed: None })
+    }
+}
+
+/// Adds a random number to each number of the state, so that no mode is left out.
+fn perturb(subject: &mut dyn Perturbable, setting: &Setting) {
+    let (mut state, mut sizes, mut random) = (Vec::new(), Vec::new(), Random::new(SEED));
+    subject.state(&mut state);
+    subject.sizes(setting.scales.speed, setting.scales.modulus, &mut sizes);
+    for (number, size) in state.iter_mut().zip(&sizes) {
+        *number += setting.perturb * size * random.between(-1.0, 1.0);
+    }
+    subject.set_state(&state);
+}

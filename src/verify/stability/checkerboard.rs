@@ -1,0 +1,70 @@
+//! How far neighbouring particles disagree about the pressure.
+
+use crate::subject::Samples;
+
+/// Particles beyond which no neighbours are looked for: every pair is asked for its distance.
+const MOST: usize = 4096;
+
+/// Labels no further apart than this, in shortest distances, are neighbours along an axis.
+const NEAR: f64 = 1.2;
+
+/// The RMS of what the mean normal stress of a particle differs by from that of its neighbours, over
+/// the RMS of the mean normal stress itself. NaN without stresses or neighbours, or from too many
+/// particles.
+pub(super) fn checkerboard(samples: &Samples) -> f64 {
+    let (n, d) = (samples.len(), samples.dimension.max(1));
+    if samples.stress.len() != n * d * d || !(2..=MOST).contains(&n) {
+        return f64::NAN;
+    }
+    let mean =
+        |p: usize| (0..d).map(|i| samples.stress[(p * d + i) * d + i]).sum::<f64>() / d as f64;
+    let pressure: Vec<f64> = (0..n).map(mean).collect();
+    let label = |p: usize| &samples.label[p * d..(p + 1) * d];
+    let square = |p: usize, q: usize| {
+        label(p).iter().zip(label(q)).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
+    };
+    let others = |p: usize| (0..n).filter(move |q| *q != p);
+    let shortest = (1..n).map(|q| square(0, q)).fold(f64::INFINITY, f64::min) * NEAR * NEAR;
+    let (mut apart, mut size, mut count) = (0.0, 0.0, 0_u32);
+    for p in 0..n {
+        let near: Vec<usize> = others(p).filter(|q| square(p, *q) <= shortest).collect();
+        if near.is_empty() {
+            continue;
+        }
+        let around = near.iter().map(|q| pressure[*q]).sum::<f64>() / near.len() as f64;
+        apart += (pressure[p] - around) * (pressure[p] - around);
+        size += pressure[p] * pressure[p];
+        count += 1;
+    }
+    if count == 0 { f64::NAN } else { (apart / size).sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// A row of particles under the given stresses.
+    fn row(stress: &[f64]) -> Samples {
+        let n = stress.len();
+        Samples {
+            dimension: 1,
+            label: (0..n).map(|p| p as f64).collect(),
+            weight: vec![1.0; n],
+            stress: stress.to_vec(),
+            ..Samples::default()
+        }
+    }
+
+    #[test]
+    fn a_sign_that_changes_from_particle_to_particle_counts_twice() {
+        assert_relative_eq!(checkerboard(&row(&[1.0, -1.0, 1.0, -1.0, 1.0])), 2.0);
+    }
+
+    #[test]
+    fn a_uniform_stress_has_none_and_no_stress_has_no_figure() {
+        assert_relative_eq!(checkerboard(&row(&[3.0; 4])), 0.0);
+        assert!(checkerboard(&row(&[0.0; 4])).is_nan());
+        assert!(checkerboard(&row(&[])).is_nan());
+    }
+}

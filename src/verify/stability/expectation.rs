@@ -1,0 +1,141 @@
+//! What must come out of a stability study, row by row.
+
+use super::{
+    figure::RunFigure,
+    limit::StabilityLimit,
+    outcome::{Critical, StabilityRow},
+    trial::Trial,
+    verdict::Stability,
+};
+use crate::verify::figures::figures;
+
+/// What is expected of one row.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StabilityExpectation {
+    /// How the run ends.
+    pub verdict: Option<Stability>,
+    /// The limit that is sought.
+    pub critical: Option<Wanted>,
+    /// Figures of the run.
+    pub figures: Vec<(RunFigure, Wanted)>,
+}
+
+/// What a figure must be; whatever is given must hold.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Wanted {
+    /// A value, and how far from it the figure may be: a share of the value, or of one if that is
+    /// larger.
+    pub is: Option<(f64, f64)>,
+    /// The least.
+    pub above: Option<f64>,
+    /// The most.
+    pub below: Option<f64>,
+}
+
+impl Wanted {
+    /// What does not hold, in words. Written so that NaN never holds.
+    fn unmet(&self, name: &str, got: f64) -> Vec<String> {
+        let mut unmet = Vec::new();
+        if let Some((value, within)) = self.is {
+            let error = (got - value).abs() / value.abs().max(1.0);
+            if !(error <= within) {
+                unmet.push(format!(
+                    "expected {name} {} within {within:e}, got {} (off by {error:.1e})",
+                    figures(value),
+                    figures(got)
+                ));
+            }
+        }
+        if let Some(least) = self.above.filter(|least| !(got >= *least)) {
+            unmet.push(format!("expected {name} at least {least:e}, got {}", figures(got)));
+        }
+        if let Some(most) = self.below.filter(|most| !(got <= *most)) {
+            unmet.push(format!("expected {name} at most {most:e}, got {}", figures(got)));
+        }
+        unmet
+    }
+
+    /// The same for a limit, which may lie beyond the range in which it was sought.
+    fn unmet_by_limit(&self, limit: StabilityLimit) -> Vec<String> {
+        let beyond = |known: f64, holds: bool, side: &str| {
+            if holds { Vec::new() } else { vec![format!("the limit is {side} {}", figures(known))] }
+        };
+        match limit {
+            StabilityLimit::At(value) => self.closed(value),
+            StabilityLimit::Above(high) => {
+                let holds = self.is.is_none() && self.below.is_none();
+                beyond(high, holds && self.above.is_some_and(|least| high >= least), "above")
+            }
+            StabilityLimit::Below(low) => {
+                let holds = self.is.is_none() && self.above.is_none();
+                beyond(low, holds && self.below.is_some_and(|most| low <= most), "below")
+            }
+        }
+    }
+
+    /// A limit in the range: deviations are a share of the closed form itself, however small.
+    fn closed(&self, got: f64) -> Vec<String> {
+        let mut unmet = Self { is: None, ..*self }.unmet("the limit", got);
+        if let Some((value, within)) = self.is {
+            let error = (got / value - 1.0).abs();
+            if !(error <= within) {
+                unmet.push(format!(
+                    "expected the limit {} within {within:e}, got {} (off by {error:.1e})",
+                    figures(value),
+                    figures(got)
+                ));
+            }
+        }
+        unmet
+    }
+}
+
+impl StabilityExpectation {
+    /// What did not come as expected.
+    pub fn unmet(&self, row: &StabilityRow) -> Vec<String> {
+        if let Some(reason) = &row.refused {
+            return vec![format!("the run could not be set up: {reason}")];
+        }
+        let mut unmet = Vec::new();
+        if let Some(trial) = &row.trial {
+            unmet.extend(self.verdict.and_then(|wanted| other_verdict(wanted, trial)));
+            for (figure, wanted) in &self.figures {
+                unmet.extend(wanted.unmet(figure.head(), figure.of(trial)));
+            }
+        }
+        if let Some(critical) = &row.critical {
+            unmet.extend(unconfirmed(critical));
+            if let Some(wanted) = self.critical {
+                match critical.limit() {
+                    Some(limit) => unmet.extend(wanted.unmet_by_limit(limit)),
+                    None => unmet.push("no limit was found".to_owned()),
+                }
+            }
+        }
+        unmet
+    }
+}
+
+fn other_verdict(wanted: Stability, trial: &Trial) -> Option<String> {
+    let why = trial.why.as_ref().map(|why| format!(": {why}")).unwrap_or_default();
+    let (wanted, got) = (wanted.words(), trial.verdict.words());
+    (wanted != got).then(|| format!("expected {wanted}, got {got}{why}"))
+}
+
+/// Runs that do not agree with the prediction.
+fn unconfirmed(critical: &Critical) -> Vec<String> {
+    let Some(prediction) = &critical.predicted else { return Vec::new() };
+    let disagrees = |(share, trial): &(f64, Trial)| {
+        let should_hold = *share <= 1.0 && !matches!(prediction.limit, StabilityLimit::Below(_));
+        let agrees = match trial.verdict {
+            Stability::Stable => should_hold,
+            Stability::BoundedGrowth => false,
+            Stability::Unstable | Stability::Failed => !should_hold,
+        };
+        (!agrees).then(|| {
+            let word = trial.verdict.words();
+            format!("a run at {share} of the predicted limit is {word} after {} steps", trial.steps)
+        })
+    };
+    critical.confirmed.iter().filter_map(disagrees).collect()
+}

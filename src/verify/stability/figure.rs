@@ -1,0 +1,69 @@
+//! Figures of a run that expectations may speak of.
+
+use super::trial::Trial;
+use crate::named::named;
+
+named! {
+    /// A figure of a run.
+    pub enum RunFigure {
+        /// The largest energy over the energy at the start.
+        Energy = "energy",
+        /// The energy at the end over that at the start.
+        EnergyKept = "energy_kept",
+        /// Kinetic energy at the end over that at the start.
+        KineticKept = "kinetic_kept",
+        /// The largest relative change of the momentum.
+        Momentum = "momentum",
+        /// The largest relative change of the angular momentum.
+        AngularMomentum = "angular_momentum",
+        /// The smallest J met.
+        LeastJ = "least_j",
+        /// The largest speed met, over the wave speed.
+        Speed = "speed",
+        /// At the end, the part of the stress that changes from particle to particle and no further,
+        /// over its mean size.
+        Checkerboard = "checkerboard",
+        /// At the end, the largest stress over the modulus.
+        Stress = "stress",
+        /// At the end, the largest displacement (m).
+        Displacement = "displacement",
+        /// Steps taken.
+        Steps = "steps",
+    }
+}
+
+impl RunFigure {
+    /// What tables call it.
+    pub fn head(self) -> &'static str {
+        match self {
+            Self::Energy => "largest energy",
+            Self::EnergyKept => "energy kept",
+            Self::KineticKept => "kinetic kept",
+            Self::Momentum => "momentum",
+            Self::AngularMomentum => "angular mom.",
+            Self::LeastJ => "least J",
+            Self::Speed => "largest speed/c",
+            Self::Checkerboard => "checkerboard",
+            Self::Stress => "stress/M",
+            Self::Displacement => "displacement",
+            Self::Steps => "steps",
+        }
+    }
+
+    /// Its value in a run.
+    pub fn of(self, trial: &Trial) -> f64 {
+        match self {
+            Self::Energy => trial.energy,
+            Self::EnergyKept => trial.energy_kept,
+            Self::KineticKept => trial.kinetic_kept,
+            Self::Momentum => trial.momentum,
+            Self::AngularMomentum => trial.angular_momentum,
+            Self::LeastJ => trial.least_j,
+            Self::Speed => trial.speed,
+            Self::Checkerboard => trial.checkerboard,
+            Self::Stress => trial.stress,
+            Self::Displacement => trial.displacement,
+            Self::Steps => trial.steps as f64,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! The smallest value of a parameter that is not stable.
+//!
+//! The range is scanned from below, for stability need not be lost once and for all, and the first
+//! interval that ends unstable is halved until it is short enough.
+
+/// Where stability ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StabilityLimit {
+    /// The lowest value of the range is not stable.
+    Below(f64),
+    /// Stable up to here.
+    At(f64),
+    /// Every value that was tried is stable, up to the end of the range.
+    Above(f64),
+}
+
+impl StabilityLimit {
+    /// The value, if it lies in the range.
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::At(value) => Some(value),
+            Self::Below(_) | Self::Above(_) => None,
+        }
+    }
+}
+
+/// Looks for the limit between `low` and `high` (both above zero), on `points` values in geometric
+/// progression and then by bisection to the share `tolerance`.
+///
+/// # Errors
+/// The first that `stable` returns.
+pub fn stability_limit<E>(
+    (low, high): (f64, f64),
+    points: u32,
+    tolerance: f64,
+    mut stable: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<StabilityLimit, E> {
+    if !stable(low)? {
+        return Ok(StabilityLimit::Below(low));
+    }
+    let ratio = libm::pow(high / low, 1.0 / f64::from(points.max(1)));
+    let (mut below, mut above) = (low, None);
+    for k in 1..=points.max(1) {
+        let value = if k >= points { high } else { low * libm::pow(ratio, f64::from(k)) };
+        if !stable(value)? {
+            above = Some(value);
+            break;
+        }
+        below = value;
+    }
+    let Some(mut above) = above else { return Ok(StabilityLimit::Above(high)) };
+    while above / below > 1.0 + tolerance {
+        let middle = (below * above).sqrt();
+        if stable(middle)? {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+    Ok(StabilityLimit::At((below * above).sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    fn find(stable: impl Fn(f64) -> bool) -> StabilityLimit {
+        stability_limit::<()>((0.1, 10.0), 20, 1e-4, |x| Ok(stable(x))).unwrap()
+    }
+
+    #[rstest]
+    #[case(0.37)]
+    #[case(9.99)]
+    fn the_end_of_stability_is_found(#[case] end: f64) {
+        let found = find(|x| x <= end).value().unwrap();
+        assert!((found / end - 1.0).abs() <= 1e-4, "{found}");
+    }
+
+    #[test]
+    fn ranges_without_an_end_say_so() {
+        assert_eq!(find(|_| true), StabilityLimit::Above(10.0));
+        assert_eq!(find(|_| false), StabilityLimit::Below(0.1));
+    }
+
+    /// Stable again from 5 on: the first loss is what counts.
+    #[test]
+    fn the_first_of_several_ends_counts() {
+        let found = find(|x| x <= 1.0 || x >= 5.0).value().unwrap();
+        assert!((found - 1.0).abs() <= 1e-3, "{found}");
+    }
+}

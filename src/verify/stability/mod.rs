@@ -1,0 +1,30 @@
+//! Stability: does a run stay what it started as, and up to which value of a parameter?
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`verdict`](Stability) | the words |
+//! | [`trial`](trial()) | one run, watched: energy against its start, J, the largest speed |
+//! | [`amplification`](amplification()) | one step as a matrix, by running the subject itself |
+//! | [`radius`](spectral_radius) | the largest eigenvalue of that matrix |
+//! | [`limit`](stability_limit()) | the smallest value of a parameter that is not stable, by bisection |
+//! | [`expectation`](StabilityExpectation) | what must come out |
+//! | [`outcome`](StabilityStudy) | the rows of a report |
+
+mod amplification;
+mod checkerboard;
+mod expectation;
+mod figure;
+mod limit;
+mod outcome;
+mod radius;
+mod trial;
+mod verdict;
+
+pub use amplification::amplification;
+pub use expectation::{StabilityExpectation, Wanted};
+pub use figure::RunFigure;
+pub use limit::{StabilityLimit, stability_limit};
+pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
+pub use radius::{Radius, spectral_radius};
+pub use trial::{Scales, Trial, trial};
+pub use verdict::Stability;

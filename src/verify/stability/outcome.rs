@@ -1,0 +1,100 @@
+//! The results of a stability study.
+
+use super::{figure::RunFigure, limit::StabilityLimit, trial::Trial, verdict::Stability};
+use crate::verify::figures::figures;
+
+/// Results of a stability study: one row for each value of the parameter that is swept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StabilityStudy {
+    /// The parameter that is swept.
+    pub swept: String,
+    /// The parameter whose limit is sought, if one is.
+    pub sought: Option<String>,
+    /// Figures that tables show.
+    pub figures: Vec<RunFigure>,
+    /// The rows.
+    pub rows: Vec<StabilityRow>,
+}
+
+/// One value of the parameter that is swept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StabilityRow {
+    /// The value.
+    pub value: f64,
+    /// The run, where no limit is sought.
+    pub trial: Option<Trial>,
+    /// The limit of the other parameter, where one is sought.
+    pub critical: Option<Critical>,
+    /// Why there is neither.
+    pub refused: Option<String>,
+}
+
+/// Where stability ends, as predicted and as observed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Critical {
+    /// From the amplification matrix of a frozen configuration.
+    pub predicted: Option<Prediction>,
+    /// Runs a share below and above the prediction, each with that share.
+    pub confirmed: Vec<(f64, Trial)>,
+    /// By bisection of runs, where there is no prediction.
+    pub observed: Option<StabilityLimit>,
+}
+
+/// What an amplification matrix says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// Where the spectral radius leaves one.
+    pub limit: StabilityLimit,
+    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves.
+    pub leaves: Option<(f64, f64)>,
+}
+
+impl Critical {
+    /// The limit: predicted, or else observed.
+    pub fn limit(&self) -> Option<StabilityLimit> {
+        self.predicted.map(|prediction| prediction.limit).or(self.observed)
+    }
+}
+
+impl StabilityStudy {
+    /// The verdicts that occur, or what was sought.
+    pub fn verdict(&self) -> String {
+        if let Some(sought) = &self.sought {
+            return format!("limit of {sought}");
+        }
+        let mut words: Vec<&str> = Vec::new();
+        for row in &self.rows {
+            let word = row.trial.as_ref().map_or("failed", |trial| trial.verdict.words());
+            if words.last() != Some(&word) {
+                words.push(word);
+            }
+        }
+        words.join(", ")
+    }
+
+    /// The figures that led to the verdict.
+    pub fn reason(&self) -> String {
+        let count = self.rows.len();
+        let rows = if count == 1 { "row" } else { "rows" };
+        if self.sought.is_none() {
+            let stable = |row: &&StabilityRow| {
+                row.trial.as_ref().is_some_and(|trial| trial.verdict == Stability::Stable)
+            };
+            let stable = self.rows.iter().filter(stable).count();
+            return format!("{stable} of {count} {rows} stable");
+        }
+        let critical = || self.rows.iter().filter_map(|row| row.critical.as_ref());
+        let values: Vec<f64> =
+            critical().filter_map(|critical| critical.limit()?.value()).collect();
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = values.iter().copied().fold(0.0, f64::max);
+        let runs: usize = critical().map(|critical| critical.confirmed.len()).sum();
+        let found = if values.is_empty() {
+            format!("none in the range, over {count} {rows}")
+        } else {
+            let (least, most) = (figures(least), figures(most));
+            format!("from {least} to {most} over {count} {rows}")
+        };
+        if runs == 0 { found } else { format!("{found}; {runs} runs beside the predictions") }
+    }
+}

@@ -1,0 +1,115 @@
+//! The spectral radius of a matrix, and the eigenvalue that has it.
+
+use nalgebra::{DMatrix, linalg::Schur};
+
+/// Iterations of the QR algorithm after which powers of the matrix answer instead.
+const PATIENCE: usize = 1_000;
+
+/// An entry below the diagonal counts as zero if it is this share of its neighbours on it. With less
+/// than some tens of roundings the algorithm waits for what rounding does not let happen.
+const SMALL: f64 = 1e-13;
+
+/// Squarings of the matrix: powers up to 2^30.
+const SQUARINGS: i32 = 30;
+
+/// The largest modulus of an eigenvalue.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Radius {
+    /// The modulus; infinite if an entry of the matrix is not finite.
+    pub radius: f64,
+    /// Real part and magnitude of the imaginary part of the eigenvalue that has it, if it was computed:
+    /// -1 is a mode that changes its sign in every step, a complex one a slower oscillation.
+    pub eigenvalue: Option<(f64, f64)>,
+}
+
+/// The spectral radius, from the real Schur form of `A + s I` with s = |A|. Without the shift the QR
+/// algorithm goes round for ever on many a matrix of a step: `nalgebra` calls an entry small beside
+/// its neighbours on the diagonal, and a filter (PIC, MUSL) has defective eigenvalues zero, where the
+/// neighbours are rounding themselves. Should it not converge all the same, by Gelfand's formula,
+/// `|A^k|^(1/k)` with k = 2^30.
+pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
+    if !matrix.iter().all(|entry| entry.is_finite()) {
+        return Radius { radius: f64::INFINITY, eigenvalue: None };
+    }
+    if matrix.is_empty() {
+        return Radius { radius: 0.0, eigenvalue: None };
+    }
+    let shift = matrix.norm();
+    let mut shifted = matrix.clone();
+    (0..matrix.nrows()).for_each(|i| shifted[(i, i)] += shift);
+    let Some(schur) = Schur::try_new(shifted, SMALL, PATIENCE) else {
+        return Radius { radius: by_powers(matrix), eigenvalue: None };
+    };
+    let mut largest = Radius { radius: 0.0, eigenvalue: None };
+    for eigenvalue in schur.complex_eigenvalues().iter() {
+        let (re, im) = (eigenvalue.re - shift, eigenvalue.im.abs());
+        let radius = libm::hypot(re, im);
+        if !(radius <= largest.radius) {
+            largest = Radius { radius, eigenvalue: Some((re, im)) };
+        }
+    }
+    largest
+}
+
+/// The radius from repeated squaring. What powers lose by rounding is relative to the largest
+/// eigenvalue, and a defective one of multiplicity m costs (m - 1) ln(k)/k.
+fn by_powers(matrix: &DMatrix<f64>) -> f64 {
+    let (mut power, mut logarithm) = (matrix.clone(), 0.0);
+    for k in 0..=SQUARINGS {
+        let norm = power.norm();
+        if !(norm > 0.0) {
+            return norm;
+        }
+        logarithm += libm::log(norm) / libm::pow(2.0, f64::from(k));
+        power /= norm;
+        power = &power * &power;
+    }
+    libm::exp(logarithm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+    use rstest::rstest;
+
+    fn two(entries: [f64; 4]) -> DMatrix<f64> {
+        DMatrix::from_row_slice(2, 2, &entries)
+    }
+
+    #[rstest]
+    #[case::growing([2.0, 1.0, 0.0, 0.5], 2.0)]
+    #[case::turning([0.6, -0.8, 0.8, 0.6], 1.0)]
+    #[case::alternating([0.5, 0.0, 0.0, -3.0], 3.0)]
+    #[case::defective([1.0, 1.0, 0.0, 1.0], 1.0)]
+    #[case::nilpotent([0.0, 1.0, 0.0, 0.0], 0.0)]
+    fn radii(#[case] entries: [f64; 4], #[case] radius: f64) {
+        let matrix = two(entries);
+        assert_relative_eq!(spectral_radius(&matrix).radius, radius, epsilon = 1e-7);
+        assert_relative_eq!(by_powers(&matrix), radius, epsilon = 1e-7);
+    }
+
+    #[test]
+    fn no_number_is_no_radius() {
+        assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
+    }
+
+    /// A cyclic shift, on which QR without exceptional shifts goes round for ever.
+    #[test]
+    fn a_shift_has_radius_one() {
+        let shift = DMatrix::from_fn(7, 7, |i, j| f64::from(u8::from(i == (j + 1) % 7)));
+        assert_relative_eq!(spectral_radius(&shift).radius, 1.0, max_relative = 1e-7);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn both_ways_agree(entries in prop::collection::vec(-2.0..2.0_f64, 25)) {
+            let matrix = DMatrix::from_row_slice(5, 5, &entries);
+            let (schur, powers) = (spectral_radius(&matrix).radius, by_powers(&matrix));
+            prop_assert!((schur - powers).abs() <= 1e-6 * powers, "{schur} against {powers}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Stability studies: what is swept, what is sought, what is expected of it.
+
+use super::{Edits, SWEPT, refused};
+use rstest::rstest;
+
+#[rstest]
+#[case::of_nothing_declared(
+    &[("sweep: {d: [", "sweep: {e: ▸[")], &["`e` is not a parameter", "did you mean"]
+)]
+#[case::of_two_parameters(
+    &[("sweep: {d: [0.5", "sweep: ▸{C: [1], d: [0.5")], &["one parameter is swept at a time"]
+)]
+#[case::of_nothing(&[("sweep: {d: [0.5, 0.1, 0.02, 0.01, 0.002, 0.001]}", "sweep: ▸{}")], &["one parameter"])]
+#[case::whose_limit_is_sought(
+    &[("{parameter: C", "{parameter: ▸d")], &["`d` is swept, and its limit sought"]
+)]
+#[case::with_an_empty_range(
+    &[("from: 0.01, to: 4", "from: 4, to: ▸4")], &["the range ends at 4 and starts at 4"]
+)]
+#[case::with_a_step_that_vanishes(&[("dt: \"C*h/c\"", "dt: ▸\"C*(h - h)\"")], &["the time step is 0"])]
+#[case::whose_step_vanishes_at_one_end(
+    &[("dt: \"C*h/c\"", "dt: ▸\"(C - 0.01)*h/c\"")], &["the time step is 0"]
+)]
+#[case::beside_the_grid(
+    &[("{d: [0.5, 0.1,", "{d: [0.5, 7,"), ("extra: [[\"4 + d\"]]", "extra: [▸[\"4 + d\"]]")],
+    &["at 11", "outside the grid"]
+)]
+#[case::of_a_loaded_body(
+    &[("\nparticles:", "  loads:\n    - gravity: [-1]\n\nparticles:"), ("frozen: true", "▸frozen: true")],
+    &["a frozen body rests"]
+)]
+#[case::of_a_body_that_starts_otherwise(
+    &[("\nparticles:", "  initial_velocity: [1]\n\nparticles:"), ("frozen: true", "▸frozen: true")],
+    &["a frozen body rests"]
+)]
+#[case::without_a_limit(
+    &[("critical: {parameter: C, from: 0.01, to: 4}\n", ""), ("    critical: {is", "    ▸critical: {is")],
+    &["no limit is sought"]
+)]
+#[case::with_a_single_run(
+    &[("    critical: {is: \"sqrt(2*d*(1 - d))\", within: \"0.6*d\"}", "    ▸verdict: stable")],
+    &["no row has a single run"]
+)]
+#[case::with_half_a_closed_form(
+    &[("critical: {is: \"sqrt(2*d*(1 - d))\", within: \"0.6*d\"}", "critical: ▸{within: 0.1}")],
+    &["expected both"]
+)]
+#[case::with_nothing_said(
+    &[("critical: {above: 1.7, below: 1.8}", "critical: ▸{}")], &["nothing is said of this figure"]
+)]
+#[case::with_a_figure_unknown(
+    &[
+        ("critical: {parameter: C, from: 0.01, to: 4}\n", ""),
+        ("    critical: {is: \"sqrt(2*d*(1 - d))\", within: \"0.6*d\"}", "    figures: {▸energie: {above: 1}}"),
+    ],
+    &["unknown figure `energie`", "did you mean `energy`?"]
+)]
+#[case::of_an_fem(
+    &[("- mpm: {basis: linear, transfer: [flip, pic, apic], scheme: [usl, usf, musl]}", "- ▸fem: {element: linear, mass: lumped}")],
+    &["stability is studied of MPM only"]
+)]
+#[case::with_uneven_particles(
+    &[("dimension: 1", "dimension: 2"), ("from: [0], to: [4]", "from: [0, 0], to: [4, 4]"),
+      ("from: [-2], to: [8]", "from: [-2, -2], to: [8, 8]"), ("ppc: 2", "ppc: ▸2")],
+    &["not equally spaced"]
+)]
+#[case::with_an_unknown_word(&[("frozen: true", "▸frosen: true")], &["unknown key `frosen`", "did you mean `frozen`?"])]
+fn a_stability_study(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(SWEPT, edits, words);
+}
