@@ -90,7 +90,7 @@ impl<const D: usize> Bodies<D> {
                 Stage::Acceleration => coupling.acceleration(&mut self.solvers, dt),
                 // Strains were updated first.
                 Stage::Stress if rest.contains(&Stage::Force) => {
-                    coupling.strained(&mut self.solvers)
+                    coupling.strained(&mut self.solvers);
                 }
                 _ => {}
             }
