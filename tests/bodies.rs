@@ -240,7 +240,7 @@ fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
 }
 
 /// Contact ends when the wave has been to the free ends and back, after 2L/c. In any scheme of second
-/// order the front of that wave is as wide as h^(2/3) once it has gone a long way (Brenner & Thomee 1970), and
+/// order the front of that wave is as wide as h^(2/3) once it has gone a long way (Brenner & Thomee 1971), and
 /// so is the error of the contact time: within h/c on grids like these, and beyond it in the end.
 #[rstest]
 fn two_bars_part_when_the_wave_is_back(

@@ -80,7 +80,7 @@ fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Resu
                 traction(problem, face, event, (i, "under pressure", pressed), &all, sizes)?;
             }
             Condition::Free => traction(problem, face, event, (i, "free", 0.0), &all, sizes)?,
-            Condition::Friction(_) | Condition::Periodic(_) => {}
+            Condition::Friction(_) | Condition::Periodic(_) | Condition::Met => {}
         }
     }
     Ok(())

@@ -40,20 +40,48 @@ pub(super) fn at_wall(
         "Pa",
     )?;
 
-    let most = coefficient * pressure;
+    let rub = Rub { traction, velocity: now.velocity, pressure, coefficient };
+    coulomb(event, (axis, d), &rub, [allowed, tolerance * velocity], condition)
+}
+
+/// What passes between two surfaces at a point.
+pub(super) struct Rub {
+    /// On the surface in question (Pa).
+    pub(super) traction: [f64; 3],
+    /// Of that surface, relative to the other (m/s).
+    pub(super) velocity: [f64; 3],
+    /// Between them (Pa).
+    pub(super) pressure: f64,
+    /// Of friction.
+    pub(super) coefficient: f64,
+}
+
+/// Coulomb's law on a surface with its normal along `axis`, up to the residuals that are allowed of
+/// stress (Pa) and velocity (m/s).
+///
+/// # Errors
+/// Where the traction along the surface is not that of friction.
+pub(super) fn coulomb(
+    event: &Event,
+    (axis, d): (usize, usize),
+    rub: &Rub,
+    [stress, velocity]: [f64; 2],
+    condition: impl Fn(&str) -> String,
+) -> Result<(), Violation> {
+    let most = rub.coefficient * rub.pressure;
     let along = |vector: &[f64; 3]| {
         let squares = (0..d).filter(|i| *i != axis).map(|i| vector[i] * vector[i]);
         squares.sum::<f64>().sqrt()
     };
-    let speed = along(&now.velocity);
-    if speed <= tolerance * velocity {
+    let speed = along(&rub.velocity);
+    if speed <= velocity {
         let name = condition("which holds a face that rests by at most mu times the pressure,");
-        return event.judge_most(allowed, name, (most, along(&traction)), "Pa");
+        return event.judge_most(stress, name, (most, along(&rub.traction)), "Pa");
     }
     for i in (0..d).filter(|i| *i != axis) {
         let name = condition(&format!("traction in {} against the velocity", AXES[i]));
-        let expected = -most * now.velocity[i] / speed;
-        event.judge(allowed, name, (expected, traction[i]), "Pa")?;
+        let expected = -most * rub.velocity[i] / speed;
+        event.judge(stress, name, (expected, rub.traction[i]), "Pa")?;
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ mod equation;
 mod forcing;
 pub mod formula;
 mod friction;
+mod meeting;
 mod motion;
 mod pointwise;
 mod problem;
@@ -28,6 +29,7 @@ mod tests;
 
 pub use equation::Equation;
 pub use forcing::Forcing;
+pub use meeting::meets;
 pub use motion::{Derivatives, Motion, Places};
 pub use problem::{Condition, Face, Problem};
 pub use random::Random;

@@ -31,6 +31,8 @@ pub enum Condition {
     /// P n = -p(X, t) J F^-T n, the pressure p a formula of the coordinates and t (Pa): it stays normal
     /// to the face as that moves. Where strains are small, P n = -p n.
     Pressure(Formula),
+    /// Another body is there; [`meets`](super::meets) holds the two against each other.
+    Met,
     /// P n = 0.
     Free,
 }

@@ -6,6 +6,7 @@ use super::{
     mass::MassName,
     transfer::{Kind, TransferName},
 };
+use crate::subject::Start;
 
 /// Refuses a combination that means nothing.
 ///
@@ -62,6 +63,39 @@ pub fn combine(
         ));
     }
     Ok(())
+}
+
+/// Refuses what means nothing where several bodies meet on one grid; `contact`: they push each other
+/// rather than share one velocity field.
+///
+/// # Errors
+/// One line that names the part and says why it does not go with several bodies.
+pub fn combine_bodies(
+    transfer: TransferName,
+    mass: MassName,
+    frame: FrameName,
+    start: Start,
+    contact: bool,
+) -> Result<(), String> {
+    let (t, m, f, s) = (transfer.name(), mass.name(), frame.name(), start.name());
+    match (transfer.kind(), mass, frame, start) {
+        (Kind::Series, ..) => Err(format!(
+            "the transfer `{t}` improves the field of one body, and several meet at nodes"
+        )),
+        (Kind::Cells, ..) => Err(format!(
+            "the transfer `{t}` fits the field of one body in cells, and several meet there"
+        )),
+        (_, MassName::Consistent, ..) => Err(format!(
+            "the mass matrix `{m}` is that of one body, and several have mass at the same nodes"
+        )),
+        (_, _, FrameName::Total, _) => Err(format!(
+            "in the frame `{f}` bodies stay in their reference places, and do not meet elsewhere"
+        )),
+        (_, _, _, Start::HalfStepBack) if contact => {
+            Err(format!("the start `{s}` takes half a step back, and contact cannot be taken back"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn domain(basis: BasisName) -> Domain {

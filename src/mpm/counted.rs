@@ -59,6 +59,11 @@ impl<const D: usize> Counted<D> {
         let tally = Arc::new(Tally::default());
         (Self { kernel, tally: Arc::clone(&tally) }, tally)
     }
+
+    /// Wraps a kernel that adds to a tally which others add to.
+    pub fn sharing(kernel: Box<dyn Kernel<D>>, tally: &Arc<Tally>) -> Self {
+        Self { kernel, tally: Arc::clone(tally) }
+    }
 }
 
 impl<const D: usize> Kernel<D> for Counted<D> {

@@ -46,7 +46,7 @@ pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
 pub use bodies::Bodies;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
-pub use combination::combine;
+pub use combination::{combine, combine_bodies};
 pub use counted::{Counted, Tally};
 pub use effect::{
     BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, LocalDamping, Placement,

@@ -60,6 +60,7 @@ fn suite(outcome: &SuiteOutcome) -> Value {
 fn case(outcome: &CaseOutcome) -> Value {
     let study = outcome.convergence();
     let levels = study.map_or(&[][..], |study| &study.levels);
+    let compared = study.is_some_and(|study| study.compared);
     json!({
         "case": outcome.case,
         "subject": outcome.subject,
@@ -75,7 +76,7 @@ fn case(outcome: &CaseOutcome) -> Value {
         "unmet": outcome.unmet,
         "profile": outcome.profile.as_ref().map(profile),
         "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
-        "levels": levels.iter().map(level).collect::<Vec<_>>(),
+        "levels": levels.iter().map(|one| level(one, compared)).collect::<Vec<_>>(),
         "forces": match &outcome.study {
             Study::InternalForce(rows) => rows.iter().map(force).collect(),
             _ => Value::Null,
@@ -125,8 +126,10 @@ fn floor(floor: &Floor) -> Value {
     })
 }
 
-fn level(level: &LevelOutcome) -> Value {
+/// One level; errors only where something was `compared`.
+fn level(level: &LevelOutcome, compared: bool) -> Value {
     let (run, census) = (&level.run, &level.run.census);
+    let error = |value: f64| compared.then(|| number(value));
     json!({
         "cells": level.cells,
         "h": number(level.h),
@@ -140,13 +143,13 @@ fn level(level: &LevelOutcome) -> Value {
         "left_domain": census.left_domain,
         "min_j": number(census.min_j),
         "errors": {
-            "rms": number(run.errors.rms),
-            "l1": number(run.errors.l1),
-            "l2": number(run.errors.l2),
-            "linf": number(run.errors.linf),
-            "max_rms": number(run.max_rms),
+            "rms": error(run.errors.rms),
+            "l1": error(run.errors.l1),
+            "l2": error(run.errors.l2),
+            "linf": error(run.errors.linf),
+            "max_rms": error(run.max_rms),
         },
-        "judged": number(level.error),
+        "judged": error(level.error),
         "drift": run.drift.map(|drift| -> Value {
             let sum = |sum: &Conserved| (sum.name().to_owned(), number(drift.of(*sum)));
             Conserved::ALL.iter().map(sum).collect::<Map<_, _>>().into()

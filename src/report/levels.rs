@@ -58,7 +58,11 @@ fn level_parts(axis: Axis, level: &LevelOutcome) -> [String; 3] {
 /// Errors of the displacement (m), and of the observed velocity relative to its largest value.
 fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<String> {
     let run = &level.run;
-    let error = |value| if run.failure.is_some() { "failed".to_owned() } else { scientific(value) };
+    let error = |value| match (&run.failure, study.compared) {
+        (Some(_), _) => "failed".to_owned(),
+        (None, true) => scientific(value),
+        (None, false) => "-".to_owned(),
+    };
     let window = study.judgement.window.as_deref().unwrap_or_default();
     let counts = match (level.usable, window.contains(&index)) {
         (false, _) => "no: crossings",

@@ -26,7 +26,8 @@ pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
 
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
     let cases = outcome.cases.iter();
-    cases.filter_map(|case| Some((case.case.as_str(), case.convergence()?))).collect()
+    let studies = cases.filter_map(|case| Some((case.case.as_str(), case.convergence()?)));
+    studies.filter(|(_, study)| study.compared).collect()
 }
 
 fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {

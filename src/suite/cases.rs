@@ -9,12 +9,13 @@ use super::{
     methods::methods,
     model::{Against, Case, ConvergencePlan, SceneFace},
     path::Path,
+    truthless,
     wording::shown,
     words::{ConvergenceWords, EquationName, MethodWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };
 use crate::{
-    mpm::{FrameName, MassName, combine},
+    mpm::{FrameName, MassName, combine, combine_bodies},
     verify::Axis,
 };
 
@@ -54,8 +55,13 @@ pub(super) fn cases(
         possible(binder, &path, method, plan)?;
         few(binder, &path, drafts.len(), method, until.len())?;
         for (name, method) in methods(method, own_law(plan)) {
-            if let Method::Mpm { basis, transfer, mass, frame, .. } = method {
-                let known = combine(basis, transfer, mass, frame);
+            if let Method::Mpm { basis, transfer, mass, frame, start, .. } = method {
+                let contact = plan.scene.contact.is_some();
+                let mut known = combine(basis, transfer, mass, frame);
+                if plan.scene.bodies.len() > 1 {
+                    let meeting = || combine_bodies(transfer, mass, frame, start, contact);
+                    known = known.and_then(|()| meeting());
+                }
                 known.map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
                     binder.complain(&path, &reason).with_help(help)
@@ -104,7 +110,10 @@ fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f6
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
         plan.same_method_dt.map(|_| (Against::SameMethod, "-vs-shorter-steps")),
     ];
-    let truths: Vec<_> = truths.into_iter().flatten().collect();
+    let mut truths: Vec<_> = truths.into_iter().flatten().collect();
+    if truthless::is_truthless(plan) {
+        truths.push((Against::Nothing, ""));
+    }
     let mut drafts = Vec::new();
     for (text, until_value) in until {
         for (against, suffix) in &truths {
@@ -167,6 +176,9 @@ fn possible(
         MethodWords::Fem { .. } if plan.scene.dimension() != 1 => {
             let d = plan.scene.dimension();
             Err(binder.complain(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
+        }
+        MethodWords::Fem { .. } if !plan.scene.bodies.is_empty() => {
+            Err(binder.complain(path, "the reference FEM is one bar, and the scene lists bodies"))
         }
         MethodWords::Mpm { mass: Some(mass), .. }
             if mass.as_slice().contains(&MassName::Consistent) && driven(plan) =>

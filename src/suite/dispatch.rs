@@ -15,12 +15,13 @@ use super::{
 use crate::{
     exact::{Forcing, Problem},
     mpm::{
-        BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, LocalDamping, Particles, Setup,
-        Solver, Vector, kernel,
+        Bodies, BodyForce, Counted, Damping, Effect, Gravity, Grid, Kernel, LocalDamping,
+        Particles, Setup, Solver, Tally, Vector, kernel,
     },
-    subject::{Perturbable, Profile, Subject},
+    subject::{Failure, Perturbable, Profile, Subject},
     verify::Quantity,
 };
+use std::sync::Arc;
 
 /// Builds the subject of `method` for one level.
 ///
@@ -34,9 +35,9 @@ pub(super) fn subject(
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
-        (Method::Mpm { .. }, 1) => Ok(Box::new(solver::<1>(&Body::of(plan), method, level)?)),
-        (Method::Mpm { .. }, 2) => Ok(Box::new(solver::<2>(&Body::of(plan), method, level)?)),
-        (Method::Mpm { .. }, 3) => Ok(Box::new(solver::<3>(&Body::of(plan), method, level)?)),
+        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, level),
+        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, level),
+        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, level),
         (Method::Mpm { .. }, d) => Err(format!("there is no MPM in {d} dimensions")),
     }
 }
@@ -49,14 +50,17 @@ pub(super) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         method: Method,
         level: LevelPlan,
     ) -> Option<Profile> {
-        let mut setup = setup::<D>(&Body::of(plan), method, level).ok()?;
-        let (kernel, tally) = Counted::new(setup.kernel);
-        setup.kernel = Box::new(kernel);
-        let mut solver = Solver::new(setup).ok()?;
-        solver.step(level.dt).ok()?;
+        let tally = Arc::<Tally>::default();
+        let counted = |setup: Setup<D>| {
+            let kernel = Box::new(Counted::sharing(setup.kernel, &tally));
+            Setup { kernel, ..setup }
+        };
+        let setups = setups::<D>(plan, method, level).ok()?.into_iter().map(counted).collect();
+        let mut bodies = Bodies::new(setups, plan.scene.contact).ok()?;
+        bodies.step(level.dt).ok()?;
         tally.take();
-        solver.step(level.dt).ok()?;
-        Some(Profile { passes: tally.take(), ..solver.profile() })
+        bodies.step(level.dt).ok()?;
+        Some(Profile { passes: tally.take(), ..bodies.profile() })
     }
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, _) => None,
@@ -66,11 +70,12 @@ pub(super) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
     }
 }
 
-/// Whether a level with cells of size `h` has no particle.
+/// Whether a level with cells of size `h` has no particle of some round body.
 pub(super) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     fn vacant<const D: usize>(scene: &Scene, h: f64, per_axis: usize) -> bool {
         let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
-        filling::is_empty(scene, &origin, h, per_axis)
+        let mut round = scene.each().iter().filter(|body| body.round.is_some());
+        round.any(|body| filling::is_empty(body, &origin, h, per_axis))
     }
     match scene.dimension() {
         1 => vacant::<1>(scene, h, per_axis),
@@ -97,7 +102,10 @@ pub(super) fn perturbable(
 
 /// What a body is at the start.
 pub(super) struct Body<'a> {
+    /// What all bodies have in common: the grid and its walls, and sets.
     pub(super) scene: &'a Scene,
+    /// What is its own: place, material and loads.
+    pub(super) own: &'a Scene,
     pub(super) initial: Initial,
     /// The problem whose force is manufactured.
     pub(super) manufactured: Option<&'a Problem>,
@@ -108,10 +116,11 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    fn of(plan: &'a ConvergencePlan) -> Self {
+    fn of(plan: &'a ConvergencePlan, own: &'a Scene) -> Self {
         Self {
             scene: &plan.scene,
-            initial: Initial::of(plan),
+            own,
+            initial: Initial::of_body(plan, own),
             manufactured: plan.manufactured(),
             keeps_deformation: plan.of == Quantity::DeformationGradient,
             placed: Placed::default(),
@@ -127,6 +136,31 @@ fn solver<const D: usize>(
     Solver::new(setup(body, method, level)?).map_err(|failure| failure.to_string())
 }
 
+fn mpm<const D: usize>(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Box<dyn Subject>, String> {
+    let mut setups = setups::<D>(plan, method, level)?;
+    let said = |failure: Failure| failure.to_string();
+    Ok(match (setups.pop(), setups.is_empty(), plan.scene.contact) {
+        (Some(one), true, None) => Box::new(Solver::new(one).map_err(said)?),
+        (last, _, contact) => {
+            setups.extend(last);
+            Box::new(Bodies::new(setups, contact).map_err(said)?)
+        }
+    })
+}
+
+/// What the solver of each body is made of.
+fn setups<const D: usize>(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Vec<Setup<D>>, String> {
+    plan.scene.each().iter().map(|own| setup(&Body::of(plan, own), method, level)).collect()
+}
+
 fn setup<const D: usize>(
     body: &Body<'_>,
     method: Method,
@@ -140,13 +174,13 @@ fn setup<const D: usize>(
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
     let grid = grid(scene, h, kernel.as_ref());
-    let mut particles = filling::particles(scene, &grid.origin, h, per_axis);
+    let mut particles = filling::particles(body.own, &grid.origin, h, per_axis);
     body.placed.put(&mut particles);
     if body.keeps_deformation {
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
-    let mut effects = effects(scene, &particles);
+    let mut effects = effects(body.own, &particles);
     effects.extend(body.manufactured.map(|made| manufactured_force(made, &particles)));
     effects.extend(on_sets(scene, &particles)?);
     Ok(Setup {
@@ -154,7 +188,7 @@ fn setup<const D: usize>(
         transfer: crate::mpm::transfer(transfer),
         mass: crate::mpm::mass_matrix(mass),
         frame,
-        material: scene.material.build(),
+        material: body.own.material.build(),
         effects,
         boundary: boundary(scene, &grid, basis),
         grid,

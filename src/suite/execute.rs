@@ -12,6 +12,7 @@ use super::{
     probe,
     reference::Reference,
     stability, statement,
+    truthless::Unknown,
     words::CrossingLevels,
 };
 use crate::{
@@ -137,6 +138,9 @@ impl<'a> Runner<'a> {
     }
 
     fn truth(&self, plan: &'a ConvergencePlan, case: &Case) -> Result<&dyn Truth, String> {
+        if case.against == Against::Nothing {
+            return Ok(&Unknown);
+        }
         if case.against == Against::Exact {
             let exact = plan.exact.as_ref().ok_or("the suite declares no exact solution")?;
             return Ok(exact);

@@ -2,8 +2,8 @@
 
 use super::{
     formal::formal_order,
-    model::{Case, ConvergencePlan},
-    profiles, statement,
+    model::{Against, Case, ConvergencePlan},
+    profiles, statement, truthless,
     words::NormName,
 };
 use crate::verify::{
@@ -64,6 +64,7 @@ pub(super) fn judged(
             norm: plan.norm.name(),
             of: plan.of,
             scale: plan.scale,
+            compared: case.against != Against::Nothing,
             bounded: expectation.verdict.is_none(),
             drifts: expectation.limits.drifts(),
             judgement,
@@ -80,6 +81,10 @@ pub(super) fn judge_levels(
     expectation: &Expectation,
     levels: &[LevelOutcome],
 ) -> Judgement {
+    let truthless = case.against == Against::Nothing;
+    if let Some(judgement) = truthless.then(|| truthless::judgement(levels)).flatten() {
+        return judgement;
+    }
     let judged: Vec<verify::Level> = levels
         .iter()
         .map(|level| {

@@ -60,6 +60,7 @@ fn drifts(
             Conserved::Momentum => &words.momentum,
             Conserved::AngularMomentum => &words.angular_momentum,
             Conserved::KineticEnergy => &words.kinetic_energy,
+            Conserved::KineticEnergyGain => &words.kinetic_energy_gain,
         };
         let Some(text) = text else { continue };
         let path = path.then(sum.name());

@@ -6,7 +6,7 @@ use super::{
     cases, comparable, damping, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
-    refine, scene, size, stability, steps, truth,
+    refine, scene, size, stability, steps, truth, truthless,
     wording::shown,
     words::{
         ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StabilityWords,
@@ -57,9 +57,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     law::check(&binder, &words, &scene)?;
     damping::check(&binder, &words, &scene, latest)?;
     if exact.is_none() && reference.is_none() {
-        let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
-                       `reference`";
-        return Err(binder.complain_key(&Path::top("suite"), message));
+        truthless::check(&binder, &words)?;
     }
     let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));
     let scale = words.judge.scale.as_ref().map(|text| {

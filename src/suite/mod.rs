@@ -9,9 +9,11 @@
 //! execute   every level of every case, judged -> SuiteOutcome
 //! ```
 
+mod amplitude;
 mod bar;
 mod bar_limits;
 mod binder;
+mod bodies;
 mod body;
 mod cases;
 mod comparable;
@@ -33,6 +35,7 @@ mod law;
 mod limits;
 mod load;
 mod material;
+mod meetings;
 mod method;
 mod methods;
 mod model;
@@ -51,6 +54,7 @@ pub mod statement;
 mod steps;
 mod surface;
 mod truth;
+mod truthless;
 mod wording;
 mod words;
 pub mod yaml;

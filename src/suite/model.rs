@@ -99,6 +99,8 @@ pub enum Against {
     Reference,
     /// The same method with shorter steps.
     SameMethod,
+    /// None: only what a run keeps is bound.
+    Nothing,
 }
 
 /// The body and what acts on it.
@@ -128,6 +130,13 @@ pub struct Scene {
     pub damping: Option<Formula>,
     /// Share of the force out of balance that opposes the motion.
     pub local_damping: Option<f64>,
+    /// Several bodies, each a scene of its own with the grid, the faces and the loads of this one;
+    /// empty where there is one. Then this is the box around all of them, with the first one's
+    /// material.
+    pub bodies: Vec<Self>,
+    /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
+    /// field.
+    pub contact: Option<f64>,
     /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
     pub initial_displacement: Vec<Formula>,
     /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.

@@ -35,6 +35,7 @@ fn lacking(plan: &ConvergencePlan, effect: EffectName) -> ConvergencePlan {
 impl Scene {
     /// Takes an effect out of the scene, if it is there.
     fn remove(&mut self, effect: EffectName) {
+        self.bodies.iter_mut().for_each(|body| body.remove(effect));
         match effect {
             EffectName::Gravity => self.gravity = None,
             EffectName::BodyForce => self.body_force = None,

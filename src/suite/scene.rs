@@ -2,6 +2,7 @@
 
 use super::{
     binder::Binder,
+    bodies::{self, Listed},
     body, damping,
     hold::{self, FACES},
     law,
@@ -29,11 +30,29 @@ pub(super) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
 /// Checks the scene of a suite.
 pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Complaint> {
     let path = Path::top("scene");
+    let listed = bodies::listed(binder, &path, words)?;
+    let contact = bodies::contact(binder, &path, words)?;
+    let each = listed.iter().map(|listed| body(binder, listed, words));
+    let each = each.collect::<Result<Vec<Scene>, _>>()?;
+    let scene = bodies::together(binder, &path, each, words.bodies.is_some(), contact)?;
+    sets::refuse_idle(binder, &path, &scene.sets)?;
+    body::on_grid(binder, &path, &scene)?;
+    for round in scene.each().iter().filter_map(|body| body.round.as_ref()) {
+        body::fits(binder, &path, round, scene.grid.as_ref())?;
+    }
+    Ok(scene)
+}
+
+/// One body, and what acts on it.
+fn body(binder: &Binder<'_>, own: &Listed<'_>, words: &SceneWords) -> Result<Scene, Complaint> {
+    let path = Path::top("scene");
     let dimension = dimension(binder, &path, &words.dimension)?;
-    let at = path.then("body");
-    let (from, to, round) = match body::round(binder, &at, &words.body, dimension)? {
+    let at = own.at.then("body");
+    let (from, to, round) = match body::round(binder, &at, own.body, dimension)? {
         Ok(round) => {
-            body::rims_are_free(binder, &path, words, &round)?;
+            if words.bodies.is_none() {
+                body::rims_are_free(binder, &path, words, &round)?;
+            }
             let (from, to) = round.corners();
             (from, to, Some(round))
         }
@@ -48,7 +67,7 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         .map(|grid| body::corners(binder, &path.then("grid"), grid, dimension))
         .transpose()?;
     let sets = declared_sets(binder, &path, words, (&from, &to))?;
-    let (material, density) = material(binder, &path.then("material"), &words.material)?;
+    let (material, density) = material(binder, &own.at.then("material"), own.material)?;
     let mut scene = Scene {
         from,
         to,
@@ -56,23 +75,24 @@ pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Co
         initial_displacement: initial_displacement(binder, &path, words, dimension, &material)?,
         material,
         density,
-        faces: if round.is_some() { Vec::new() } else { faces(binder, &path, words, dimension)? },
+        faces: if round.is_some() && words.bodies.is_none() {
+            Vec::new()
+        } else {
+            faces(binder, &path, words, dimension)?
+        },
         round,
         sets,
         gravity: None,
         body_force: None,
         damping: None,
         local_damping: None,
-        initial_velocity: initial_velocity(binder, &path, words, dimension)?,
+        initial_velocity: initial_velocity(binder, own, dimension)?,
+        bodies: Vec::new(),
+        contact: None,
     };
     combined(binder, &path.then("loads"), &words.loads)?;
     for (i, load) in words.loads.iter().enumerate() {
         add_load(binder, &path.then("loads").then(i), load, &mut scene)?;
-    }
-    sets::refuse_idle(binder, &path, &scene.sets)?;
-    body::on_grid(binder, &path, &scene)?;
-    if let Some(round) = &scene.round {
-        body::fits(binder, &path, round, scene.grid.as_ref())?;
     }
     Ok(scene)
 }
@@ -146,15 +166,12 @@ fn initial_displacement(
 
 fn initial_velocity(
     binder: &Binder<'_>,
-    path: &Path,
-    words: &SceneWords,
+    own: &Listed<'_>,
     dimension: usize,
 ) -> Result<Vec<Formula>, Complaint> {
-    let path = path.then("initial_velocity");
+    let path = own.at.then("initial_velocity");
     let variables = coordinates_and_time(dimension);
-    words
-        .initial_velocity
-        .as_ref()
+    own.initial_velocity
         .map_or(Ok(Vec::new()), |texts| binder.vector(&path, texts, dimension, &variables))
 }
 

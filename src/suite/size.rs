@@ -53,7 +53,7 @@ fn vacant(
     level: LevelPlan,
 ) -> Result<(), Complaint> {
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
-    if !(scene.round.is_some() && per_axis.is_some_and(|n| is_vacant(scene, level.h, n))) {
+    if !per_axis.is_some_and(|n| is_vacant(scene, level.h, n)) {
         return Ok(());
     }
     let cells = level.cells;

@@ -19,10 +19,15 @@ pub(super) struct Initial {
 }
 
 impl Initial {
-    /// The initial state of every subject of `plan`.
+    /// The initial state of a subject of `plan` that is one body.
     pub(super) fn of(plan: &ConvergencePlan) -> Self {
+        Self::of_body(plan, &plan.scene)
+    }
+
+    /// The initial state of one of the bodies of `plan`.
+    pub(super) fn of_body(plan: &ConvergencePlan, body: &Scene) -> Self {
         let exact = plan.exact.as_ref().filter(|problem| problem.follows_motion);
-        Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(&plan.scene) }
+        Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
     /// What the scene states, and nothing else.

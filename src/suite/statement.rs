@@ -1,14 +1,15 @@
 //! What a suite computes, in rows of name and value, for reports and `explain`.
 
 use super::{
+    amplitude::amplitude,
     hold::Hold,
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
     plan::{LevelPlan, RefinePlan},
-    stability, surface,
+    stability, surface, truthless,
     wording::shown,
 };
 use crate::{
-    exact::{Derivatives, Problem, formula::Formula},
+    exact::formula::Formula,
     mpm::{MaterialPlan, Parameter},
     verify::Axis,
 };
@@ -52,6 +53,7 @@ pub fn settings(plan: &ConvergencePlan, case: &Case) -> Vec<(String, String)> {
         Against::Exact => "the exact solution",
         Against::Reference => "the reference",
         Against::SameMethod => "the same method with shorter steps",
+        Against::Nothing => "nothing",
     };
     push(&mut rows, "until", &format!("t = {} s", case.until));
     push(&mut rows, "against", truth);
@@ -92,7 +94,9 @@ fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
         push(rows, "reference", &text);
     }
     refinement(&plan.refine, plan.instants, rows);
-    push(rows, "judged", &judged(plan));
+    if !truthless::is_truthless(plan) {
+        push(rows, "judged", &judged(plan));
+    }
     push(rows, "crossing levels", plan.crossing_levels.name());
 }
 
@@ -132,8 +136,11 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
     push(rows, "in full also", &full);
 }
 
-fn scene(scene: &Scene, rows: &mut Rows) {
-    let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+fn corner(c: &[f64]) -> String {
+    c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn body(scene: &Scene) -> String {
     let (from, to) = (corner(&scene.from), corner(&scene.to));
     let body = match &scene.round {
         None => format!("({from}) to ({to}) m"),
@@ -144,11 +151,35 @@ fn scene(scene: &Scene, rows: &mut Rows) {
             format!("{kind} about ({centre}), radius {inner}{outer} m, free rims")
         }
     };
-    push(rows, "body", &format!("{body}, density {}", scene.density));
+    format!("{body}, density {}", scene.density)
+}
+
+/// Several bodies, and what couples them.
+fn bodies(scene: &Scene, rows: &mut Rows) {
+    for (i, one) in scene.bodies.iter().enumerate() {
+        push(rows, &format!("body {}", i + 1), &body(one));
+        push(rows, "  material", &material(&one.material));
+        push(rows, "  velocity", &sources(&one.initial_velocity));
+    }
+    match (scene.contact, scene.bodies.len()) {
+        (Some(mu), _) => push(rows, "contact", &format!("coefficient of friction {mu}")),
+        (None, 0 | 1) => {}
+        (None, _) => push(rows, "contact", "none: the bodies share one velocity field"),
+    }
+}
+
+fn scene(scene: &Scene, rows: &mut Rows) {
+    let one = scene.bodies.is_empty();
+    if one {
+        push(rows, "body", &body(scene));
+    }
+    bodies(scene, rows);
     if let Some((from, to)) = &scene.grid {
         push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
     }
-    push(rows, "material", &material(&scene.material));
+    if one {
+        push(rows, "material", &material(&scene.material));
+    }
     for face in &scene.faces {
         let state = match (surface::described(face), &face.hold) {
             (Some(load), _) => load,
@@ -184,7 +215,9 @@ fn scene(scene: &Scene, rows: &mut Rows) {
         push(rows, "local damping", &format!("{} of the force out of balance", shown(share)));
     }
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
-    push(rows, "initial velocity", &sources(&scene.initial_velocity));
+    if one {
+        push(rows, "initial velocity", &sources(&scene.initial_velocity));
+    }
 }
 
 /// The material's name and parameters: `linear elastic, E = 100 Pa, nu = 0`.
@@ -207,37 +240,6 @@ fn equation(material: &MaterialPlan) -> &'static str {
         MaterialPlan::Hencky { .. } => HENCKY,
         _ => SMALL_STRAIN,
     }
-}
-
-/// Largest displacement and displacement gradient of the exact solution, on a raster of the body
-/// and the run.
-fn amplitude(problem: &Problem) -> String {
-    const PER_AXIS: usize = 20;
-    let places: Vec<Vec<f64>> = (0..(PER_AXIS + 1).pow(problem.dimension() as u32))
-        .map(|k| {
-            let mut rest = k;
-            let corners = problem.from.iter().zip(&problem.to);
-            let coordinate = |(a, b): (&f64, &f64)| {
-                let share = (rest % (PER_AXIS + 1)) as f64 / PER_AXIS as f64;
-                rest /= PER_AXIS + 1;
-                a + (b - a) * share
-            };
-            corners.map(coordinate).collect::<Vec<f64>>()
-        })
-        .filter(|place| problem.holds(place))
-        .collect();
-    let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
-    let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
-    let mut now = Derivatives::default();
-    for step in 0..=PER_AXIS {
-        motion.set_time(problem.until * (step as f64 / PER_AXIS as f64));
-        for place in 0..places.len() {
-            motion.derivatives(place, &mut now);
-            displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));
-            gradient = now.grad.iter().flatten().fold(gradient, |a, b| a.max(b.abs()));
-        }
-    }
-    format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
 fn internal_force(plan: &ForcePlan, rows: &mut Rows) {

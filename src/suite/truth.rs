@@ -4,14 +4,14 @@ use super::{
     binder::Binder,
     equilibrium,
     hold::Hold,
-    law,
+    law, meetings,
     model::{Scene, SceneFace},
     path::Path,
     scene::coordinates_and_time,
     words::{ConvergenceWords, EquationName, ExactWords},
     yaml::{Complaint, NumberText},
 };
-use crate::exact::{Condition, Equation, Face, Motion, Problem};
+use crate::exact::{Condition, Equation, Face, Motion, Problem, Violation};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 const TOLERANCE: f64 = 1e-8;
@@ -48,7 +48,19 @@ pub(super) fn exact(
         return Err(binder.complain_key(&Path::top("manufactured"), message));
     }
     let problem = solution(binder, &path, exact, scene, until)?;
-    check(binder, &path, &problem)?;
+    if scene.bodies.is_empty() {
+        check(binder, &path, &problem)?;
+        return Ok(Some(problem));
+    }
+    let each = scene.bodies.iter().map(|body| solution(binder, &path, exact, body, until));
+    let each = each.collect::<Result<Vec<Problem>, _>>()?;
+    meetings::check(
+        binder,
+        scene,
+        each,
+        |problem| check(binder, &path, problem),
+        |violation| no_solution(binder, &path, &violation),
+    )?;
     Ok(Some(problem))
 }
 
@@ -164,12 +176,14 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
 }
 
 fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Complaint> {
-    problem.check().map_err(|violation| {
-        let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
-        complaint
-            .with_label("this is not a solution of the problem that the scene states")
-            .with_help("correct the formula, or the scene: loads, boundary, initial state")
-    })
+    problem.check().map_err(|violation| no_solution(binder, path, &violation))
+}
+
+fn no_solution(binder: &Binder<'_>, path: &Path, violation: &Violation) -> Complaint {
+    let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
+    complaint
+        .with_label("this is not a solution of the problem that the scene states")
+        .with_help("correct the formula, or the scene: loads, boundary, initial state")
 }
 
 fn motion(

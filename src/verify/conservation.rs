@@ -18,6 +18,9 @@ named! {
         AngularMomentum = "angular_momentum",
         /// Kinetic energy, which only a motion without stress keeps.
         KineticEnergy = "kinetic_energy",
+        /// The kinetic energy, of which only a gain over the start counts: what a body that stores
+        /// energy in stress and gives it back must not have.
+        KineticEnergyGain = "kinetic_energy_gain",
     }
 }
 
@@ -33,7 +36,9 @@ impl Conserved {
             Self::Mass => ([totals.mass, 0.0, 0.0], totals.mass.abs()),
             Self::Momentum => (totals.momentum, totals.momentum_size),
             Self::AngularMomentum => (totals.angular_momentum, totals.angular_momentum_size),
-            Self::KineticEnergy => ([totals.kinetic_energy, 0.0, 0.0], totals.kinetic_energy),
+            Self::KineticEnergy | Self::KineticEnergyGain => {
+                ([totals.kinetic_energy, 0.0, 0.0], totals.kinetic_energy)
+            }
         }
     }
 }
@@ -79,7 +84,10 @@ impl Balance {
         for (i, sum) in Conserved::ALL.iter().enumerate() {
             let (before, _) = sum.of(&self.start);
             let (after, size) = now.map_or(([f64::NAN; 3], f64::NAN), |now| sum.of(now));
-            let change = (0..3).fold(0.0, |all, k| libm::hypot(all, after[k] - before[k]));
+            let change = match sum {
+                Conserved::KineticEnergyGain => larger(0.0, after[0] - before[0]),
+                _ => (0..3).fold(0.0, |all, k| libm::hypot(all, after[k] - before[k])),
+            };
             self.change[i] = larger(self.change[i], change);
             self.size[i] = larger(self.size[i], size);
         }
@@ -142,6 +150,17 @@ mod tests {
     }
 
     #[rstest]
+    #[case::lost(6.0, 0.25, 0.0)]
+    #[case::gained(10.0, 0.2, 0.2)]
+    fn only_a_gain_of_energy_is_a_gain(#[case] later: f64, #[case] change: f64, #[case] gain: f64) {
+        let found = drift(&[Some(Totals { kinetic_energy: later, ..START }), Some(START)]);
+        assert_relative_eq!(found.of(Conserved::KineticEnergy), change, max_relative = 1e-15);
+        assert_eq!(found.of(Conserved::KineticEnergyGain), gain);
+        let torn = drift(&[Some(Totals { kinetic_energy: f64::NAN, ..START }), Some(START)]);
+        assert!(torn.of(Conserved::KineticEnergyGain).is_nan());
+    }
+
+    #[rstest]
     #[case::then_a_number(&[Some(Totals { momentum: [f64::NAN, 0.0, 0.0], ..START }), Some(START)])]
     #[case::a_size(&[Some(Totals { momentum: [0.0; 3], momentum_size: f64::NAN, ..START })])]
     #[case::of_a_subject_that_falls_silent(&[None, Some(START)])]
@@ -154,7 +173,7 @@ mod tests {
         let rest = Totals::default();
         let mut balance = Balance::start(rest);
         balance.look(Some(&rest));
-        assert_eq!(balance.drift(), Drift([0.0; 4]));
+        assert_eq!(balance.drift(), Drift([0.0; Conserved::ALL.len()]));
         balance.look(Some(&Totals { momentum: [1.0, 0.0, 0.0], ..rest }));
         assert_eq!(balance.drift().of(Conserved::Momentum), f64::INFINITY);
     }

@@ -76,6 +76,8 @@ pub struct Convergence {
     pub of: Quantity,
     /// What it was divided by, if anything.
     pub scale: Option<f64>,
+    /// Whether there is a truth that errors are taken against.
+    pub compared: bool,
     /// Whether bounds on figures are all that binds the case: then no order is asked for, and
     /// every usable level counts.
     pub bounded: bool,

@@ -27,6 +27,10 @@ pub(super) struct Contact<const D: usize> {
     meeting: Meeting,
     /// For each body: `sum_p m_p grad N_i` (kg/m), up to date where bodies meet.
     outwards: Vec<Vec<Vector<D>>>,
+    /// Every two bodies.
+    pairs: Vec<[usize; 2]>,
+    /// For each node and every two bodies: how the last push left them.
+    touches: Vec<Touch>,
     /// For each body: velocities as they were mapped (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
 }
@@ -36,75 +40,106 @@ impl<const D: usize> Contact<D> {
     pub(super) fn of(bodies: &[Solver<D>], friction: f64) -> Self {
         let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
         let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
+        let pairs: Vec<[usize; 2]> =
+            (1..bodies.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
+        let nodes = bodies.first().map_or(0, |body| body.grid().nodes());
         Self {
             friction,
+            touches: vec![Touch::Free; nodes * pairs.len()],
+            pairs,
             meeting: Meeting::of(bodies),
             outwards: bodies.iter().map(column).collect(),
             mapped: bodies.iter().filter(strained_first).map(column).collect(),
         }
     }
 
-    /// Pushes apart what approaches at each node: by the accelerations over `dt` (s), or by the
-    /// velocities themselves.
-    fn push(&self, bodies: &mut [Solver<D>], dt: Option<f64>) {
-        for &i in self.meeting.nodes() {
-            for b in 1..bodies.len() {
-                for a in 0..b {
-                    let [one, other] = [a, b].map(|k| (&bodies[k].setup.grid, &self.outwards[k]));
-                    let Some(impulse) = self.impulse([one, other], i, dt) else {
-                        continue;
-                    };
-                    give(&mut bodies[a].setup.grid, i, &impulse, dt);
-                    give(&mut bodies[b].setup.grid, i, &-impulse, dt);
+    /// Pushes apart what would approach at each node after `dt` (s), by accelerations.
+    fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
+        self.touches.fill(Touch::Free);
+        for k in 0..self.meeting.nodes().len() {
+            let i = self.meeting.nodes()[k];
+            for pair in 0..self.pairs.len() {
+                let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
+                let [a, b] = self.pairs[pair].map(|k| &bodies[k].setup.grid);
+                let advanced = |grid: &Grid<D>| grid.velocity[i] + grid.acceleration[i] * dt;
+                let (touch, change) = self.law(&(advanced(a) - advanced(b)), &meet.normal);
+                self.touches[i * self.pairs.len() + pair] = touch;
+                let impulse = change * meet.mass;
+                for (k, impulse) in self.pairs[pair].into_iter().zip([impulse, -impulse]) {
+                    let grid = &mut bodies[k].setup.grid;
+                    grid.acceleration[i] += impulse / (grid.mass[i] * dt);
                 }
             }
         }
     }
 
-    /// The momentum (kg m/s) that the first of two bodies is given at node i, if both are there and
-    /// approach.
-    fn impulse(
-        &self,
-        [(one, out_of_one), (other, out_of_other)]: [(&Grid<D>, &Vec<Vector<D>>); 2],
-        i: usize,
-        dt: Option<f64>,
-    ) -> Option<Vector<D>> {
-        let (m, k) = (one.mass[i], other.mass[i]);
-        if !(m > 0.0 && k > 0.0) {
-            return None;
-        }
-        let normal = out_of_one[i] / m - out_of_other[i] / k;
-        let size = normal.norm();
-        if !(size > 0.0 && size.is_finite()) {
-            return None;
-        }
-        let normal = normal / size;
-        let relative = advanced(one, i, dt) - advanced(other, i, dt);
-        let approach = relative.dot(&normal);
+    /// What contact does to a velocity relative to the other body: how they touch, and the change.
+    fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (Touch, Vector<D>) {
+        let approach = relative.dot(normal);
         if !(approach > 0.0) {
-            return None;
+            return (Touch::Free, Vector::zeros());
         }
         let along = relative - normal * approach;
         let (speed, most) = (along.norm(), self.friction * approach);
-        let share = if speed <= most { 1.0 } else { most / speed };
-        Some((normal * approach + along * share) * -(m * k / (m + k)))
+        if speed <= most {
+            return (Touch::Sticks, -relative);
+        }
+        (Touch::Slides, -(normal * approach + along * (most / speed)))
+    }
+
+    /// Gives velocities that strain the bodies what the last push left of them: along the normal they are
+    /// one where bodies touch, and along the surface too where they stick.
+    fn hold(&self, bodies: &mut [Solver<D>]) {
+        for &i in self.meeting.nodes() {
+            for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
+                let touch = self.touches[i * self.pairs.len() + pair];
+                let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
+                let relative = bodies[a].setup.grid.velocity[i] - bodies[b].setup.grid.velocity[i];
+                let change = match touch {
+                    Touch::Free => continue,
+                    Touch::Slides => meet.normal * -relative.dot(&meet.normal),
+                    Touch::Sticks => -relative,
+                };
+                let impulse = change * meet.mass;
+                for (k, impulse) in [(a, impulse), (b, -impulse)] {
+                    let grid = &mut bodies[k].setup.grid;
+                    grid.velocity[i] += impulse / grid.mass[i];
+                }
+            }
+        }
+    }
+
+    /// How a pair of bodies meets at node i, if both are there.
+    fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<Meet<D>> {
+        let [(m, out_of_one), (k, out_of_other)] =
+            self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));
+        if !(m > 0.0 && k > 0.0) {
+            return None;
+        }
+        let normal = out_of_one / m - out_of_other / k;
+        let size = normal.norm();
+        let sound = size > 0.0 && size.is_finite();
+        sound.then(|| Meet { normal: normal / size, mass: m * k / (m + k) })
     }
 }
 
-/// The velocity of node i, after `dt` if that is given.
-fn advanced<const D: usize>(grid: &Grid<D>, i: usize, dt: Option<f64>) -> Vector<D> {
-    match dt {
-        Some(dt) => grid.velocity[i] + grid.acceleration[i] * dt,
-        None => grid.velocity[i],
-    }
+/// Two bodies at a node.
+struct Meet<const D: usize> {
+    /// From the first into the other.
+    normal: Vector<D>,
+    /// Reduced mass (kg): what an impulse is that changes the relative velocity.
+    mass: f64,
 }
 
-fn give<const D: usize>(grid: &mut Grid<D>, i: usize, impulse: &Vector<D>, dt: Option<f64>) {
-    let change = impulse / grid.mass[i];
-    match dt {
-        Some(dt) => grid.acceleration[i] += change / dt,
-        None => grid.velocity[i] += change,
-    }
+/// How two bodies touch at a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Touch {
+    /// Not at all.
+    Free,
+    /// They slide along each other.
+    Slides,
+    /// They move as one.
+    Sticks,
 }
 
 impl<const D: usize> Coupling<D> for Contact<D> {
@@ -119,6 +154,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         };
         vec![
             Column::of_nodes("meeting", self.meeting.nodes()),
+            Column::of_nodes("touch", &self.touches),
             all("normal", &self.outwards),
             all("mapped velocity", &self.mapped),
         ]
@@ -153,7 +189,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         if self.meeting.nodes().is_empty() {
             return;
         }
-        self.push(bodies, None);
+        self.hold(bodies);
         bodies.iter_mut().for_each(Solver::hold_velocity);
     }
 
@@ -167,7 +203,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         if self.meeting.nodes().is_empty() {
             return;
         }
-        self.push(bodies, Some(dt));
+        self.push(bodies, dt);
         bodies.iter_mut().for_each(Solver::hold_acceleration);
     }
 }

@@ -123,6 +123,7 @@ impl Job<'_> {
     fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
         let body = Body {
             scene: &setting.scene,
+            own: &setting.scene,
             initial: Initial::stated(&setting.scene),
             manufactured: None,
             keeps_deformation: false,

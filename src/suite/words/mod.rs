@@ -3,17 +3,20 @@
 //! Every map refuses keys that it does not know. A number may be a formula of declared parameters;
 //! a method's entries may be lists, whose product gives the cases.
 
+mod drift;
 mod force;
 mod head;
 mod refine;
 mod scene;
 mod stability;
 
+pub(in crate::suite) use drift::DriftWords;
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
 pub(in crate::suite) use head::{Head, StudyName};
 pub(in crate::suite) use refine::{RefineWords, RunWords};
 pub(in crate::suite) use scene::{
-    AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, RoundWords, SceneWords, SetWords,
+    AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, OneBodyWords, RoundWords,
+    SceneWords, SetWords,
 };
 pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
 
@@ -216,16 +219,6 @@ pub(in crate::suite) struct ExpectWords {
     pub(in crate::suite) because: String,
     /// What is expected of a full run, where that differs.
     pub(in crate::suite) full: Option<Box<ExpectWords>>,
-}
-
-/// Bounds on the relative drift of sums over the body.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::suite) struct DriftWords {
-    pub(in crate::suite) mass: Option<NumberText>,
-    pub(in crate::suite) momentum: Option<NumberText>,
-    pub(in crate::suite) angular_momentum: Option<NumberText>,
-    pub(in crate::suite) kinetic_energy: Option<NumberText>,
 }
 
 /// Whether particles change their cell on the finest level.

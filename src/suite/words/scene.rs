@@ -10,9 +10,12 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct SceneWords {
     pub(in crate::suite) dimension: NumberText,
-    pub(in crate::suite) body: BodyWords,
+    pub(in crate::suite) body: Option<BodyWords>,
+    /// Several bodies, in place of `body` and `material`.
+    pub(in crate::suite) bodies: Option<Vec<OneBodyWords>>,
+    pub(in crate::suite) contact: Option<ContactWords>,
     pub(in crate::suite) grid: Option<BoxWords>,
-    pub(in crate::suite) material: MaterialWords<NumberText>,
+    pub(in crate::suite) material: Option<MaterialWords<NumberText>>,
     #[serde(default)]
     pub(in crate::suite) boundary: Ordered<BoundaryWords>,
     pub(in crate::suite) initial_displacement: Option<Vec<NumberText>>,
@@ -21,6 +24,23 @@ pub(in crate::suite) struct SceneWords {
     pub(in crate::suite) sets: Ordered<SetWords>,
     #[serde(default)]
     pub(in crate::suite) loads: Vec<LoadWords>,
+}
+
+/// One of several bodies.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct OneBodyWords {
+    pub(in crate::suite) body: BodyWords,
+    pub(in crate::suite) material: MaterialWords<NumberText>,
+    pub(in crate::suite) initial_velocity: Option<Vec<NumberText>>,
+}
+
+/// How bodies push each other where they meet.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ContactWords {
+    /// Coefficient of friction.
+    pub(in crate::suite) friction: NumberText,
 }
 
 #[derive(Debug, Clone, Deserialize)]
