@@ -11,9 +11,9 @@ use mpm_verify::{
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, Block, BodyForce, Damping, Driven, EffectName, Fixed, Friction, Gravity,
-        LocalDamping, MaterialPlan, Particles, Placement, Prescribed, Pressure, Roller, SchemeName,
-        SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
+        BasisName, Block, Bodies, BodyForce, Damping, Driven, EffectName, Fixed, Friction, Gravity,
+        LocalDamping, MaterialPlan, Matrix, Particles, Placement, Prescribed, Pressure, Roller,
+        SchemeName, SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
 };
@@ -111,6 +111,34 @@ fn an_mpm_step_after_the_first_allocates_nothing(
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
 ) {
     in_dimension!(dimension, mpm_holds_its_memory(scheme, start));
+}
+
+/// Three bodies that touch, in contact or with one velocity field.
+fn bodies_hold_their_memory<const D: usize>(scheme: SchemeName) {
+    for friction in [None, Some(0.0), Some(0.4)] {
+        let body = |k: usize| {
+            let method = (BasisName::QuadraticBSpline, TransferName::Apic);
+            let mut setup = free_body::<D>(method, scheme);
+            for (x, x0) in setup.particles.x.iter_mut().zip(&mut setup.particles.x0) {
+                x[0] = 0.3 + (x[0] - 0.3) / 3.0 + 0.3 * k as f64;
+                x0[0] = x[0];
+            }
+            setup.particles.sigma.fill(Matrix::zeros());
+            setup.particles.v.fill(Vector::from_element(0.1 - 0.1 * k as f64));
+            setup
+        };
+        let mut bodies = Bodies::new((0..3).map(body).collect(), friction).unwrap();
+        holds_its_memory(&format!("{D}-D {scheme:?} {friction:?}"), &mut bodies, DT);
+        assert!(bodies.meeting() > 0, "the bodies do not meet");
+    }
+}
+
+#[rstest]
+fn a_step_of_bodies_after_the_first_allocates_nothing(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    in_dimension!(dimension, bodies_hold_their_memory(scheme));
 }
 
 /// One material that keeps its own state, one that reads F and one that reads neither.

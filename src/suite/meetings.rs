@@ -3,8 +3,24 @@
 //! Boxes meet face to face: the high face of one and the low face of the next along an axis, of the same
 //! extent, touching or with a gap between them. No condition is known for other faces and for rims.
 
-use super::{binder::Binder, model::Scene, path::Path, yaml::Complaint};
+use super::{binder::Binder, model::Scene, path::Path, words::ConvergenceWords, yaml::Complaint};
 use crate::exact::{Condition, Problem, Violation, meets};
+
+/// Refuses truths that are those of one body.
+///
+/// # Errors
+/// A complaint about the first such truth.
+pub(super) fn refuse(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+    let of_one = [
+        ("manufactured", words.manufactured.is_some()),
+        ("equilibrium", words.equilibrium.is_some()),
+        ("reference", words.has_fem_reference()),
+    ];
+    let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
+    let message = format!("`{key}` speaks of one body, and the scene has several");
+    let complaint = binder.complain_key(&Path::top(key), &message);
+    Err(complaint.with_help("state a solution under `exact`, or bound what the run keeps"))
+}
 
 /// Checks the `problems` of all bodies of a scene, each by `check`, and the faces where they meet.
 ///

@@ -30,6 +30,9 @@ pub(super) fn exact(
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Complaint> {
+    if !scene.bodies.is_empty() {
+        meetings::refuse(binder, words)?;
+    }
     if let Some(state) = &words.equilibrium {
         equilibrium::refuse(binder, words, state, scene)?;
         let path = Path::top("equilibrium");

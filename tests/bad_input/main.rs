@@ -3,6 +3,7 @@
 //! A mistake is written as edits of a sound suite. The sign `▸` in an edit is not part of the
 //! suite: it marks the place, line and column, at which the complaint must point.
 
+mod bodies;
 mod boundaries;
 mod combinations;
 mod equilibria;

@@ -1,0 +1,124 @@
+//! Several bodies: what a scene cannot say of them, methods that know one, and motions that do not
+//! obey contact.
+
+use super::{Edits, load, refused};
+use rstest::rstest;
+
+const IMPACT: &str = include_str!("../../verification/two-bar-impact.yaml");
+const DISKS: &str = include_str!("../../verification/two-disks.yaml");
+const HALVES: &str = include_str!("../../verification/vibrating-bar-of-two.yaml");
+
+#[test]
+fn sound() {
+    for text in [IMPACT, DISKS, HALVES] {
+        if let Err(complaint) = load(text) {
+            panic!("{complaint}");
+        }
+    }
+}
+
+const METHOD: &str = "- mpm: {basis: linear, transfer: flip, scheme: [usl, musl]}";
+
+#[rstest]
+#[case::neither_a_body_nor_a_list("body: {box: {from: [0], to: [L]}}\n", "scene without `body`")]
+#[case::no_material(
+    "material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n",
+    "scene without `material`"
+)]
+fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
+    let edits: Edits<'_> = &[("scene:", "▸scene:"), (missing, "\n")];
+    refused(super::samples::BAR, edits, &[words, "or a list of `bodies` with one of each"]);
+}
+
+#[rstest]
+#[case::a_body_besides(
+    IMPACT,
+    &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  ▸body: {box: {from: [0], to: [1]}}")],
+    &["`body` speaks of one body, and the scene has several"]
+)]
+#[case::a_velocity_besides(
+    IMPACT,
+    &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  ▸initial_velocity: [v0]")],
+    &["`initial_velocity` speaks of one body"]
+)]
+#[case::a_traction(
+    IMPACT,
+    &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  loads:\n    - ▸traction: {on: right, value: [1]}")],
+    &["`traction` acts on a face of one body, and the scene has several"]
+)]
+#[case::negative_friction(
+    IMPACT,
+    &[("  contact: {friction: 0}", "  contact: {friction: ▸-0.5}")],
+    &["the coefficient of friction is -0.5", "expected zero or a positive number"]
+)]
+#[case::bars_in_one_place(
+    IMPACT,
+    &[("- body: {box: {from: [L]", "- ▸body: {box: {from: [\"0.9*L\"]")],
+    &["body 1 and body 2 have places in common"]
+)]
+#[case::disks_in_one_place(
+    DISKS,
+    &[("- body: {disk: {centre: [0.8, 0.8]", "- ▸body: {disk: {centre: [0.45, 0.45]")],
+    &["body 1 and body 2 have places in common"]
+)]
+#[case::a_transfer_that_improves_one_field(
+    IMPACT,
+    &[(METHOD, "- ▸mpm: {basis: linear, transfer: xpic_2, scheme: usl}")],
+    &["the transfer `xpic_2` improves the field of one body"]
+)]
+#[case::a_mass_matrix_of_one_body(
+    IMPACT,
+    &[(METHOD, "- ▸mpm: {basis: linear, transfer: flip, scheme: usl, mass: consistent}")],
+    &["the mass matrix `consistent` is that of one body"]
+)]
+#[case::bodies_that_do_not_meet(
+    IMPACT,
+    &[(METHOD, "- ▸mpm: {basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian}")],
+    &["in the frame `total_lagrangian` bodies stay in their reference places"]
+)]
+#[case::contact_taken_back(
+    IMPACT,
+    &[(METHOD, "- ▸mpm: {basis: linear, transfer: flip, scheme: usl, start: half_step_back}")],
+    &["contact cannot be taken back"]
+)]
+#[case::an_fem(
+    HALVES,
+    &[("- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}", "- ▸fem: {element: linear, mass: lumped}")],
+    &["the reference FEM is one bar, and the scene lists bodies"]
+)]
+#[case::bars_that_go_through_each_other(
+    IMPACT,
+    &[("[\"sign(L - X)*bar(abs(X - L), t)\"]", "[▸\"sign(L - X)*v0*t + 0*bar(X, t)\"]")],
+    &["where two bodies meet along X, of which none enters the other"]
+)]
+#[case::bars_that_stick(
+    IMPACT,
+    &[("  contact: {friction: 0}\n", ""), ("[\"sign", "[▸\"sign")],
+    &["where two bodies meet along X, the same u_X on both"]
+)]
+#[case::a_manufactured_force(
+    DISKS,
+    &[("run:", "▸manufactured: {displacement: [X, Y]}\nrun:")],
+    &["`manufactured` speaks of one body, and the scene has several"]
+)]
+#[case::a_truth_for_rims(
+    DISKS,
+    &[
+        ("- body: {disk: {centre: [0.2", "- ▸body: {disk: {centre: [0.2"),
+        ("run:", "exact:\n  equation: small_strain\n  displacement: [\"v*t\", \"v*t\"]\nrun:")
+    ],
+    &["a solution is known of boxes that meet face to face"]
+)]
+#[case::a_figure_that_takes_a_truth(
+    DISKS,
+    &[("suite: two", "▸suite: two"), ("    crossings: some", "    crossings: some\n    error_below: 1")],
+    &["no truth", "without one, expectations may bound a `drift` only"]
+)]
+#[case::a_place_without_a_truth(
+    DISKS,
+    &[("methods:", "▸observe: {at: [0.2, 0.2]}\nmethods:")],
+    &["a place is observed against a truth, and the suite has none"]
+)]
+fn bodies_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(sound, edits, words);
+}
