@@ -1,5 +1,8 @@
 //! Slips of the finger: whatever one character does to a suite, loading it never panics.
 
+#[path = "../fuzz/suite_input.rs"]
+mod suite_input;
+
 use super::{
     load,
     samples::{BAR, FORCE, PLATE},
@@ -49,4 +52,13 @@ proptest! {
             prop_assert!(complaint.to_string().contains("wrong.yaml"));
         }
     }
+}
+
+/// What the fuzzer has found worth keeping, in `tests/fuzz/corpus/suite`, and what ever broke it.
+#[test]
+fn the_corpus_of_the_fuzzer_is_read_or_refused() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz/corpus/suite");
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let count = files.map(|file| suite_input::load(&std::fs::read(file).unwrap())).count();
+    assert!(count > 20, "{count} files");
 }

@@ -1,0 +1,29 @@
+//! Bytes as the text of a suite.
+
+use mpm_verify::suite::{
+    Runner, Suite,
+    yaml::{Complaint, Source},
+};
+
+/// Loads what the bytes say; panics where loading does, where a complaint does not name the file, or
+/// where what was accepted cannot be stated.
+pub(crate) fn load(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    let loaded = Source::from_text("suite.yaml", text).and_then(|source| Suite::load(&source));
+    match loaded {
+        Ok(suite) => state(&suite),
+        Err(complaint) => is_placed(&complaint),
+    }
+}
+
+fn state(suite: &Suite) {
+    let runner = Runner::new(suite);
+    assert!(!suite.case_names().is_empty(), "a suite without a case");
+    assert!(runner.units() > 0, "a suite without a run");
+    assert!(!runner.outcome(Vec::new()).statement.is_empty(), "a suite that states nothing");
+}
+
+fn is_placed(complaint: &Complaint) {
+    let shown = complaint.to_string();
+    assert!(shown.contains("suite.yaml"), "a complaint about nothing: {shown}");
+}

@@ -1,0 +1,10 @@
+//! Bytes become particles, a method and a law; three steps owe numbers or the particle to blame.
+
+#![no_main]
+
+#[path = "../scene.rs"]
+mod scene;
+#[path = "../step_input.rs"]
+mod step_input;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| step_input::step(bytes));
