@@ -1,6 +1,8 @@
 //! Every condition that a problem puts on its motion.
 
-use super::{boundary, differences, pointwise, problem::Problem, rims, violation::Violation, weak};
+use super::{
+    boundary, differences, plastic, pointwise, problem::Problem, rims, violation::Violation, weak,
+};
 
 impl Problem {
     /// Holds the motion against the equation (point by point and in weak form), the boundary and
@@ -14,6 +16,7 @@ impl Problem {
         boundary::boundary(self)?;
         boundary::driven(self)?;
         rims::free(self)?;
+        plastic::monotone(self)?;
         differences::differentiation(self)?;
         pointwise::equation(self)?;
         weak::momentum(self)

@@ -1,11 +1,12 @@
 //! Continuum problems that a motion can claim to solve.
 //!
-//! `rho0 u_tt = Div P(grad u) + rho0 b`, with the stress P by one of three laws. Written over any
+//! `rho0 u_tt = Div P(grad u) + rho0 b`, with the stress P by one of five laws. Written over any
 //! [`Number`]: over slopes, the divergence of P follows from its formula by automatic
 //! differentiation.
 
 use super::{
     formula::{Number, Slope},
+    plastic::{Yield, kirchhoff},
     tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit},
 };
 
@@ -18,11 +19,13 @@ pub struct Equation {
 }
 
 /// A law between stress and strain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Law {
     SmallStrain,
     NeoHookean,
     Hencky,
+    J2(Yield),
+    Tait,
 }
 
 impl Equation {
@@ -44,6 +47,30 @@ impl Equation {
     /// (Pa) and Poisson's ratio.
     pub fn hencky(young: f64, poisson: f64) -> Self {
         Self::new(Law::Hencky, young, poisson)
+    }
+
+    /// J2 plasticity with Hencky elasticity in uniaxial strain, under loading that never reverses: see
+    /// [`plastic`](super::plastic). From Young's modulus (Pa), Poisson's ratio, the yield stress in
+    /// tension and the hardening modulus (Pa).
+    pub fn j2(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
+        Self::new(Law::J2(Yield { stress: yield_stress, hardening }), young, poisson)
+    }
+
+    /// A fluid at rest, `P = -p J F^-T` with Tait's equation of state in Cole's form,
+    /// `p = K/7 (J^-7 - 1)` (Cole 1948), from the bulk modulus at rest (Pa).
+    pub fn tait(bulk: f64) -> Self {
+        Self { law: Law::Tait, lambda: bulk, mu: 0.0 }
+    }
+
+    /// Whether the stress depends on the history of the motion, unless loading never reverses.
+    pub(super) fn has_history(&self) -> bool {
+        matches!(self.law, Law::J2(_))
+    }
+
+    /// Whether a body in uniaxial strain flows at the displacement gradient `grad`.
+    pub(super) fn flows(&self, grad: f64) -> bool {
+        let Law::J2(limit) = self.law else { return false };
+        2.0 * self.mu * libm::log(1.0 + grad).abs() > limit.stress
     }
 
     fn new(law: Law, young: f64, poisson: f64) -> Self {
@@ -76,6 +103,21 @@ impl Equation {
                 let (strain, pressure) = (log_strain(&f), lambda * Number::ln(det));
                 let tau = tensor(|i, j| pressure * unit(i, j) + (mu + mu) * strain[i][j]);
                 product(&tau, &tensor(|i, j| cofactor[i][j] / det))
+            }
+            Law::J2(limit) => {
+                let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+                let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+                let det = det(&f, &cofactor);
+                let strain = (&log_strain(&f), Number::ln(det));
+                let tau = kirchhoff(strain, (self.lambda, self.mu), limit);
+                product(&tau, &tensor(|i, j| cofactor[i][j] / det))
+            }
+            Law::Tait => {
+                let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+                let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+                let excess = Number::powi(det(&f, &cofactor), -7) - T::from(1.0);
+                let pressure = lambda * excess * T::from(1.0 / 7.0);
+                tensor(|i, j| -(pressure * cofactor[i][j]))
             }
         }
     }

@@ -13,6 +13,7 @@ pub mod formula;
 mod friction;
 mod meeting;
 mod motion;
+mod plastic;
 mod pointwise;
 mod problem;
 mod random;

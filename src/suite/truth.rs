@@ -39,7 +39,7 @@ pub(super) fn exact(
         let problem = Problem {
             at_rest: true,
             follows_motion: false,
-            ..solution(binder, &path, state, scene, until)?
+            ..solution(binder, &path, state, (scene, true), until)?
         };
         check(binder, &path, &problem)?;
         return Ok(Some(problem));
@@ -50,12 +50,12 @@ pub(super) fn exact(
         let message = "a solution is either exact or manufactured";
         return Err(binder.complain_key(&Path::top("manufactured"), message));
     }
-    let problem = solution(binder, &path, exact, scene, until)?;
+    let problem = solution(binder, &path, exact, (scene, false), until)?;
     if scene.bodies.is_empty() {
         check(binder, &path, &problem)?;
         return Ok(Some(problem));
     }
-    let each = scene.bodies.iter().map(|body| solution(binder, &path, exact, body, until));
+    let each = scene.bodies.iter().map(|body| solution(binder, &path, exact, (body, false), until));
     let each = each.collect::<Result<Vec<Problem>, _>>()?;
     meetings::check(
         binder,
@@ -72,11 +72,11 @@ fn solution(
     binder: &Binder<'_>,
     path: &Path,
     words: &ExactWords,
-    scene: &Scene,
+    (scene, at_rest): (&Scene, bool),
     until: f64,
 ) -> Result<Problem, Complaint> {
     let tolerance = tolerance(binder, path, words.tolerance.as_ref())?;
-    let equation = equation(binder, &path.then("equation"), words.equation, scene)?;
+    let equation = equation(binder, &path.then("equation"), words.equation, (scene, at_rest))?;
     let motion = motion(binder, path, &words.displacement, scene.dimension())?;
     Ok(Problem { tolerance, ..problem(scene, equation, motion, until) })
 }
@@ -86,11 +86,11 @@ fn equation(
     binder: &Binder<'_>,
     path: &Path,
     name: EquationName,
-    scene: &Scene,
+    (scene, at_rest): (&Scene, bool),
 ) -> Result<Equation, Complaint> {
-    let known = law::equation(&scene.material);
-    if let Some(equation) = known.filter(|_| law::own(&scene.material) == Some(name)) {
-        return Ok(equation);
+    if law::named(&scene.material) == name {
+        let known = law::solvable(scene, at_rest);
+        return known.map_err(|(message, help)| binder.complain(path, message).with_help(help));
     }
     let (message, help) = if name == EquationName::LogStrain {
         (

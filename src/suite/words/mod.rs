@@ -97,6 +97,10 @@ named! {
         NeoHookean = "neo_hookean",
         /// `P = (lambda ln(J) I + mu ln(F F^T)) F^-T`.
         Hencky = "hencky",
+        /// J2 plasticity in uniaxial strain, under loading that never reverses.
+        J2 = "j2",
+        /// `P = -p J F^-T`, `p = K/7 (J^-7 - 1)`: a fluid at rest.
+        Tait = "tait",
     }
 }
 

@@ -1,0 +1,84 @@
+//! Materials whose stress is not one of the deformation alone: what the truth knows of them.
+
+use super::{Edits, load, refused};
+use rstest::rstest;
+
+const YIELDING: &str = include_str!("../../verification/plastic-bar.yaml");
+const WAVE: &str = include_str!("../../verification/plastic-wave.yaml");
+const FLUID: &str = include_str!("../../verification/fluid-column.yaml");
+
+#[rstest]
+#[case(YIELDING)]
+#[case(WAVE)]
+#[case(FLUID)]
+fn without_a_mistake_they_are_sound(#[case] text: &str) {
+    load(text).unwrap_or_else(|complaint| panic!("{complaint}"));
+}
+
+#[rstest]
+#[case::that_never_yields(
+    &[("min(2*mu*eps, Y)", "2*mu*eps"), ("[\"rate*t*X\"]", "[▸\"rate*t*X\"]")],
+    &["boundary condition: right is loaded, traction in X"]
+)]
+#[case::of_which_all_flows(
+    &[("2/3*min(2*mu*eps, Y)", "2/3*Y"), ("[\"rate*t*X\"]", "[▸\"rate*t*X\"]")],
+    &["boundary condition: right is loaded, traction in X"]
+)]
+#[case::that_is_let_go(
+    &[("rate*t))/(1 + rate*t)", "rate*t*(1 - t/2)))/(1 + rate*t*(1 - t/2))"), ("until: 1,", "until: 2,"), ("[\"rate*t*X\"]", "[▸\"rate*t*(1 - t/2)*X\"]")],
+    &["loading never reverses where the body flows", "expected 0.0"]
+)]
+#[case::of_another_law(
+    &[("equation: j2", "equation: ▸hencky")],
+    &["`hencky` is not the problem of a `j2` material"]
+)]
+fn a_bar(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(YIELDING, edits, words);
+}
+
+/// Fronts of any speed satisfy the equation point by point.
+#[rstest]
+#[case(&[("cp: \"sqrt(K/rho)\"", "cp: \"0.9*sqrt(K/rho)\""), ("[\"front(e1", "[▸\"front(e1")])]
+#[case(&[("cl: \"sqrt((K + 4/3*mu)/rho)\"", "cl: \"0.9*sqrt((K + 4/3*mu)/rho)\""), ("[\"front(e1", "[▸\"front(e1")])]
+fn a_front_of_another_speed(#[case] edits: Edits<'_>) {
+    refused(WAVE, edits, &["momentum balance across wave fronts"]);
+}
+
+#[rstest]
+#[case::in_the_plane(
+    &[("  Y: 1e-3", "  S: 1e-3"), ("Y/(2*mu)", "S/(2*mu)"), ("yield: Y", "yield: S"), ("dimension: 1", "dimension: 2"), ("from: [0], to: [L]}", "from: [0, 0], to: [L, L]}"), ("grid: {from: [0], to: [\"1.25*L\"]}", "grid: {from: [0, 0], to: [\"1.25*L\", L]}"), ("value: [p0]", "value: [p0, 0]"), ("equation: j2", "equation: ▸j2")],
+    &["in uniaxial strain only", "make it a scene of dimension 1"]
+)]
+#[case::of_finite_elements(
+    &[("methods:\n", "methods:\n  - ▸fem: {element: linear, mass: lumped, law: j2}\n"), ("of: stress, ", "")],
+    &["the reference FEM has no `j2`"]
+)]
+#[case::as_a_reference(
+    &[("\nrun:", "\nreference: {equation: ▸j2, fem: {element: linear, mass: lumped, cells: 100, dt: \"h/100\"}}\nrun:"), ("of: stress, ", "")],
+    &["the reference FEM has no `j2`"]
+)]
+fn plasticity(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(WAVE, edits, words);
+}
+
+#[rstest]
+#[case::of_another_weight(
+    &[("a: \"7*rho*g/K\"", "a: \"7.1*rho*g/K\""), ("[\"0*X\"", "[▸\"0*X\"")],
+    &["equation of motion in Y"]
+)]
+#[case::that_moves(
+    &[("equilibrium:", "exact:"), ("equation: tait", "equation: ▸tait"), ("    rest_below: 1e-9\n", ""), ("    rest_below: 1e-6\n", "")],
+    &["the stress of a viscous fluid in motion depends on its velocity"]
+)]
+fn a_fluid(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(FLUID, edits, words);
+}
+
+/// What is checked to a hundredth still tells plane strain from plane stress.
+#[rstest]
+#[case(&[("np: \"nu/(1 - nu)\"", "np: nu"), ("- \"(1 + s(X, Y))*(cos", "- ▸\"(1 + s(X, Y))*(cos")])]
+#[case(&[("Ep: \"E/(1 - nu^2)\"", "Ep: E"), ("- \"(1 + s(X, Y))*(cos", "- ▸\"(1 + s(X, Y))*(cos")])]
+fn a_disk_that_spins_in_plane_stress(#[case] edits: Edits<'_>) {
+    let disk = include_str!("../../verification/spinning-disk.yaml");
+    refused(disk, edits, &["is violated at X", "this is not a solution"]);
+}
