@@ -4,7 +4,7 @@ use super::{
     basis::{BasisName, Domain, with_basis},
     frame::FrameName,
     mass::MassName,
-    transfer::{Kind, TransferName},
+    transfer::{Kind, TransferChoice},
 };
 use crate::subject::Start;
 
@@ -14,10 +14,11 @@ use crate::subject::Start;
 /// One line that names both parts and says why they do not go together.
 pub fn combine(
     basis: BasisName,
-    transfer: TransferName,
+    transfer: impl Into<TransferChoice>,
     mass: MassName,
     frame: FrameName,
 ) -> Result<(), String> {
+    let transfer = transfer.into();
     let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
     let kind = transfer.kind();
     if kind == Kind::Fit && basis == BasisName::Linear {
@@ -71,7 +72,7 @@ pub fn combine(
 /// # Errors
 /// One line that names the part and says why it does not go with several bodies.
 pub fn combine_bodies(
-    transfer: TransferName,
+    transfer: TransferChoice,
     mass: MassName,
     frame: FrameName,
     start: Start,

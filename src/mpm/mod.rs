@@ -68,5 +68,6 @@ pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
-    Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Tls, Tpic, Transfer, TransferName, Xpic, transfer,
+    Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferName,
+    Xpic, transfer,
 };

@@ -1,23 +1,32 @@
 //! Tables of a stability study.
 
-use super::table::{Table, optional, scientific};
+use super::{
+    figure::{Field, Map},
+    table::{Table, optional, scientific},
+};
 use crate::verify::{
     Critical, Prediction, StabilityLimit, StabilityRow, StabilityStudy, Study, SuiteOutcome, Trial,
 };
 
+/// The studies of a suite that seek a limit, with the names of their cases.
+fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
+    let cases = outcome.cases.iter();
+    cases
+        .filter_map(|case| match &case.study {
+            Study::Stability(study) if study.sought.is_some() => {
+                Some((case.case.as_str(), study.as_ref()))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
 /// The limits of all cases in one table: a row for each case, a column for each value. Nothing
 /// where no limit is sought, or a single case says it all.
 pub(super) fn overview(lines: &mut Vec<String>, outcome: &SuiteOutcome) {
-    let studies: Vec<(&str, &StabilityStudy)> = outcome
-        .cases
-        .iter()
-        .filter_map(|case| match &case.study {
-            Study::Stability(study) => Some((case.case.as_str(), study.as_ref())),
-            _ => None,
-        })
-        .collect();
+    let studies = seeking(outcome);
     let [(_, first), _, ..] = studies[..] else { return };
-    let Some(sought) = &first.sought else { return };
+    let sought = first.sought.as_deref().unwrap_or_default();
     let heads: Vec<String> =
         first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value)).collect();
     let title = format!("limit of {sought}");
@@ -25,14 +34,41 @@ pub(super) fn overview(lines: &mut Vec<String>, outcome: &SuiteOutcome) {
         std::iter::once(title.as_str()).chain(heads.iter().map(String::as_str)).collect();
     let mut table = Table::new(&heads);
     for (name, study) in studies {
-        let value = |row: &StabilityRow| {
-            optional(row.critical.as_ref().and_then(Critical::limit).map(limit))
-        };
+        let value = |row: &StabilityRow| optional(of_row(row).map(limit));
         let cells = std::iter::once(name.to_owned()).chain(study.rows.iter().map(value));
         table.row(cells.collect());
     }
     lines.push(String::new());
     lines.extend(table.flush_left(&[0]).lines());
+}
+
+fn of_row(row: &StabilityRow) -> Option<StabilityLimit> {
+    row.critical.as_ref().and_then(Critical::limit)
+}
+
+/// The same as a figure.
+pub(super) fn map(outcome: &SuiteOutcome) -> Option<String> {
+    let studies = seeking(outcome);
+    let (_, first) = studies.first()?;
+    let sought = first.sought.as_deref().unwrap_or_default();
+    let field = |row: &StabilityRow| Field {
+        value: of_row(row).and_then(StabilityLimit::value),
+        text: of_row(row).map_or("-".to_owned(), |found| match found {
+            StabilityLimit::At(value) => format!("{value:.3}"),
+            beyond => limit(beyond),
+        }),
+    };
+    let row = |(name, study): &(&str, &StabilityStudy)| {
+        ((*name).to_owned(), study.rows.iter().map(field).collect())
+    };
+    let map = Map {
+        title: outcome.title.clone(),
+        x_label: first.swept.clone(),
+        z_label: format!("limit of {sought}"),
+        columns: first.rows.iter().map(|row| row.value.to_string()).collect(),
+        rows: studies.iter().map(row).collect(),
+    };
+    Some(map.to_svg())
 }
 
 /// One row for each value of the parameter that is swept.

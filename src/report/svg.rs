@@ -1,6 +1,7 @@
 //! The figures of a suite.
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
+use super::stability;
 use crate::verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
 
 /// A figure and the name of its file.
@@ -21,6 +22,8 @@ pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(histories(outcome));
     figures.extend(forces(outcome));
+    let file = || format!("{}.svg", outcome.suite);
+    figures.extend(stability::map(outcome).map(|svg| Figure { file: file(), svg }));
     figures
 }
 

@@ -185,7 +185,7 @@ fn setup<const D: usize>(
     effects.extend(on_sets(scene, &particles)?);
     Ok(Setup {
         kernel,
-        transfer: crate::mpm::transfer(transfer),
+        transfer: transfer.build(),
         mass: crate::mpm::mass_matrix(mass),
         frame,
         material: body.own.material.build(),

@@ -3,7 +3,7 @@
 use super::words::EquationName;
 use crate::{
     fem::{Element, Mass, Sampling},
-    mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
+    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
     subject::Start,
 };
 
@@ -15,7 +15,7 @@ pub enum Method {
         /// Basis functions.
         basis: BasisName,
         /// Velocity transfer.
-        transfer: TransferName,
+        transfer: TransferChoice,
         /// Time scheme.
         scheme: SchemeName,
         /// Treatment of the initial velocity.
@@ -63,15 +63,19 @@ impl Method {
 
     /// What makes the method, as rows of name and value.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let rows = match self {
+        let owned = |rows: Vec<(&str, &str)>| -> Vec<(String, String)> {
+            rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+        };
+        match self {
             Self::Mpm { basis, transfer, scheme, start, mass, frame } => {
                 let mass = match mass {
                     MassName::Lumped => "lumped (row sum)",
                     MassName::Consistent => "consistent",
                 };
+                let transfer = transfer.name();
                 let mut rows = vec![
                     ("basis", basis.name()),
-                    ("transfer", transfer.name()),
+                    ("transfer", transfer.as_str()),
                     ("scheme", scheme.name()),
                     ("mass matrix", mass),
                     ("walls", "nodes on a fixed face are held"),
@@ -81,16 +85,15 @@ impl Method {
                 if *frame == FrameName::Total {
                     rows.push(("frame", frame.name()));
                 }
-                rows
+                owned(rows)
             }
-            Self::Fem { element, mass, law, start, sampling } => vec![
+            Self::Fem { element, mass, law, start, sampling } => owned(vec![
                 ("element", element.name()),
                 ("mass matrix", mass.name()),
                 ("law", law.name()),
                 ("start", start.name()),
                 ("error taken", sampling.name()),
-            ],
-        };
-        rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+            ]),
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     fem::{Element, Mass, Sampling},
-    mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
+    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
     subject::Start,
 };
 
@@ -22,7 +22,7 @@ pub(super) fn methods(words: &MethodWords, own_law: EquationName) -> Vec<(String
             let frames = choices(frame.as_ref(), FrameName::Updated, FrameName::name);
             let rest = product(&product(&starts, &masses), &frames);
             let pairs =
-                product(&named(basis, BasisName::name), &named(transfer, TransferName::name));
+                product(&named(basis, BasisName::name), &named(transfer, TransferChoice::name));
             for (name, ((basis, transfer), scheme)) in
                 product(&pairs, &named(scheme, SchemeName::name))
             {
@@ -64,8 +64,9 @@ fn product<A: Copy, B: Copy>(first: &[Choice<A>], second: &[Choice<B>]) -> Vec<C
 }
 
 /// The members of a list that has to be given, each of which is part of the name.
-fn named<T: Copy>(list: &OneOrMany<T>, name: fn(T) -> &'static str) -> Vec<Choice<T>> {
-    list.as_slice().iter().map(|m| (format!("-{}", name(*m).replace('_', "-")), *m)).collect()
+fn named<T: Copy, N: AsRef<str>>(list: &OneOrMany<T>, name: fn(T) -> N) -> Vec<Choice<T>> {
+    let suffix = |member: T| format!("-{}", name(member).as_ref().replace('_', "-"));
+    list.as_slice().iter().map(|member| (suffix(*member), *member)).collect()
 }
 
 /// The members of an optional list with the suffix that each gives to a name: none where there is

@@ -76,6 +76,64 @@ proptest! {
     }
 }
 
+/// sigma after each of `steps` steps of APIC, relative to sigma before.
+fn apic(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> Vec<f64> {
+    let mut solver = particle(TransferName::Apic, scheme, xi, sigma);
+    let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
+    let step = |_| {
+        solver.step(dt).unwrap();
+        solver.particles().sigma[0][(0, 0)] / sigma
+    };
+    (0..steps).map(step).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
+
+    /// The affine field remembers what the force has done. With `s = C^2 / (xi (1 - xi))` and g the
+    /// velocity gradient times dt, over E: USL and MUSL `g <- g - s sigma`, `sigma <- sigma + g`; USF the
+    /// same in the other order. Leapfrogs, in a frame that does not move (sigma is tiny).
+    #[test]
+    fn apic_follows_the_recursion_of_an_oscillator(
+        xi in 0.05..0.95_f64,
+        share in 0.05..0.99_f64,
+    ) {
+        let courant = share * 2.0 * libm::sqrt(xi * (1.0 - xi));
+        let s = courant * courant / (xi * (1.0 - xi));
+        for &scheme in SchemeName::ALL {
+            let found = apic(scheme, xi, 1e-18, courant, 50);
+            let (mut sigma, mut g) = (1.0, 0.0);
+            for (step, found) in found.into_iter().enumerate() {
+                if scheme == SchemeName::Usf {
+                    sigma += g;
+                    g -= s * sigma;
+                } else {
+                    g -= s * sigma;
+                    sigma += g;
+                }
+                let bound = 1.0 / (1.0 - share);
+                let error = (found - sigma).abs() / bound;
+                prop_assert!(error <= 1e-13, "{scheme:?}, step {step}: {found} against {sigma}");
+            }
+        }
+    }
+
+    /// PIC forgets what FLIP keeps, and a lone particle has nothing to keep: the same factors.
+    #[test]
+    fn pic_has_the_factors_of_flip(xi in 0.02..0.98_f64, courant in 0.01..1.5_f64) {
+        let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
+        for &scheme in SchemeName::ALL {
+            let stress = |name| {
+                let mut solver = particle(name, scheme, xi, 0.1);
+                solver.step(dt).unwrap();
+                solver.particles().sigma[0][(0, 0)] / 0.1
+            };
+            let (pic, flip) = (stress(TransferName::Pic), stress(TransferName::Flip));
+            prop_assert!((pic - flip).abs() <= 1e-13 * flip.abs().max(1.0), "{scheme:?}: {pic}, {flip}");
+        }
+    }
+}
+
 /// The share of `sigma` and of the velocity gradient that one step of an affine transfer leaves:
 /// the eigenvalues of the oscillator in `(sigma, C)` lie on the unit circle up to
 /// `C = 2 sqrt(xi (1 - xi))`, and one leaves it beyond.

@@ -3,6 +3,7 @@
 
 mod apic;
 mod blend;
+mod choice;
 mod contract;
 mod flip;
 mod fmpm;
@@ -14,6 +15,7 @@ mod xpic;
 
 pub use apic::Apic;
 pub use blend::Blend;
+pub use choice::TransferChoice;
 pub use contract::{Kind, Transfer};
 pub use flip::Flip;
 pub use fmpm::Fmpm;

@@ -1,7 +1,7 @@
 //! Figures as standalone SVG documents.
 //!
-//! Two kinds are drawn: the [`Convergence`] plot (error against cell size, both axes
-//! logarithmic) and the [`History`] plot (curves over linear axes). Both are pure functions of
+//! Three kinds are drawn: the [`Convergence`] plot (error against cell size, both axes logarithmic),
+//! the [`History`] plot (curves over linear axes) and the [`Map`] (numbers over colours). All are pure functions of
 //! their input, so that a figure can be compared byte by byte: every coordinate is printed with
 //! two decimals and every transcendental comes from `libm`.
 //!
@@ -31,6 +31,7 @@ mod history;
 mod label;
 mod legend;
 mod levels;
+mod map;
 mod marker;
 mod plot;
 mod scale;
@@ -49,4 +50,5 @@ mod tests;
 pub use convergence::Convergence;
 pub use history::{Curve, History};
 pub use levels::{Mark, Point};
+pub use map::{Field, Map};
 pub use series::Series;

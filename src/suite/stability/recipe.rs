@@ -39,6 +39,8 @@ pub(in crate::suite) struct Setting {
     pub(in crate::suite) scene: Scene,
     pub(super) placed: Placed,
     pub(super) level: LevelPlan,
+    /// Lengths of the steps (s), which take turns.
+    pub(super) dt: Vec<f64>,
     pub(super) steps: u64,
     /// Steps of a full run.
     pub(super) full_steps: u64,
@@ -80,11 +82,20 @@ pub(super) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Set
     }
     let h = cell_size(&scene, cells);
     let run = Path::top("run");
-    let dt_at = run.then("dt");
-    let dt = binder.formula(&dt_at, &words.run.dt, &["h"])?.eval(&[h]);
-    if !(dt > 0.0 && dt.is_finite()) {
+    let length = |key: &str, text: &NumberText| {
+        let at = run.then(key);
+        let dt = binder.formula(&at, text, &["h"])?.eval(&[h]);
+        if dt > 0.0 && dt.is_finite() {
+            return Ok(dt);
+        }
         let message = format!("the time step is {}", shown(dt));
-        return Err(binder.complain(&dt_at, &message).with_label("expected a positive number"));
+        Err(binder.complain(&at, &message).with_label("expected a positive number"))
+    };
+    let dt = length("dt", &words.run.dt)?;
+    let every = turns(binder, words)?;
+    let mut steps_of = vec![dt; every];
+    if let Some(text) = &words.run.alternate {
+        steps_of.extend(std::iter::repeat_n(length("alternate", text)?, every));
     }
     let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
     if let Some((what, amount)) = size::too_large(&scene, level) {
@@ -99,6 +110,7 @@ pub(super) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Set
     let setting = Setting {
         placed: placed(binder, words, &scene, h)?,
         level,
+        dt: steps_of,
         steps,
         full_steps: full_steps?,
         frozen: words.run.frozen,
@@ -110,6 +122,23 @@ pub(super) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Set
         at_rest(binder, &setting.scene)?;
     }
     Ok(setting)
+}
+
+/// Steps of one length before it is the turn of the other; one where all are of one length.
+fn turns(binder: &Binder<'_>, words: &StabilityWords) -> Result<usize, Complaint> {
+    const MOST: u64 = 1000;
+    let Some(text) = &words.run.every else { return Ok(1) };
+    let path = Path::top("run").then("every");
+    if words.run.alternate.is_none() {
+        let complaint = binder.complain_key(&path, "steps of one length take no turns");
+        return Err(complaint.with_help("say what the other length is: `alternate`"));
+    }
+    let every = binder.count(&path, text, "the number of steps in turn")?;
+    if every > MOST {
+        let complaint = binder.complain(&path, &format!("{every} steps in turn"));
+        return Err(complaint.with_label(&format!("expected at most {MOST}")));
+    }
+    Ok(every as usize)
 }
 
 fn placed(
@@ -167,7 +196,8 @@ fn scales(binder: &Binder<'_>, words: &StabilityWords, scene: &Scene) -> Result<
         return Err(binder.complain_key(&path, &message));
     }
     let speed = (modulus / scene.density).sqrt();
-    Ok(Scales { speed, modulus, stable_below, unstable_above })
+    let centred = scene.faces.iter().all(|face| !face.hold.is_held());
+    Ok(Scales { speed, modulus, stable_below, unstable_above, centred })
 }
 
 /// A frozen body is one that rests: nothing acts on it.

@@ -36,6 +36,12 @@ pub(in crate::suite) fn rows(plan: &StabilityPlan, setting: &Setting) -> Vec<(St
         format!(", in full {}", setting.full_steps)
     };
     push("run", format!("{} steps{full}", setting.steps));
+    if let (Some(first), Some(last)) = (setting.dt.first(), setting.dt.last()) {
+        let turns = setting.dt.len() / 2;
+        if turns > 0 {
+            push("steps in turn", format!("{turns} of {first:e} s, {turns} of {last:e} s"));
+        }
+    }
     if setting.frozen {
         push("particles", "frozen: no step moves a particle or its domain".to_owned());
     }

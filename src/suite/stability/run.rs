@@ -14,8 +14,8 @@ use crate::{
         start::Initial,
     },
     verify::{
-        CaseOutcome, Critical, Prediction, Stability, StabilityLimit, StabilityRow, StabilityStudy,
-        Study, Trial, amplification, spectral_radius, stability_limit, trial,
+        CaseOutcome, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow,
+        StabilityStudy, Study, Trial, amplification, spectral_radius, stability_limit, trial,
     },
 };
 use rayon::prelude::*;
@@ -143,7 +143,7 @@ impl Job<'_> {
         if setting.perturb > 0.0 {
             perturb(subject.as_mut(), &setting);
         }
-        Ok(trial(subject.as_mut(), setting.level.dt, setting.steps, &setting.scales))
+        Ok(trial(subject.as_mut(), &setting.dt, setting.steps, &setting.scales))
     }
 
     /// The limit of what is sought: predicted and confirmed where the body is frozen, else observed.
@@ -172,8 +172,8 @@ impl Job<'_> {
         let stable = |sought: f64| -> Result<bool, String> {
             let setting = self.setting(&with(sought))?;
             let mut subject = self.subject(&setting)?;
-            let (dt, scales) = (setting.level.dt, setting.scales);
-            let matrix = amplification(subject.as_mut(), dt, scales.speed, scales.modulus)?;
+            let Scales { speed, modulus, .. } = setting.scales;
+            let matrix = amplification(subject.as_mut(), &setting.dt, speed, modulus)?;
             let found = spectral_radius(&matrix);
             let grows = !(found.radius <= 1.0 + DEFECT);
             if grows {

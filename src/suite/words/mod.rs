@@ -9,6 +9,7 @@ mod head;
 mod refine;
 mod scene;
 mod stability;
+mod transfer;
 
 pub(in crate::suite) use drift::DriftWords;
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
@@ -23,7 +24,7 @@ pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, Stabilit
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::{
     fem::{Element, Mass, Sampling},
-    mpm::{BasisName, FrameName, MassName, SchemeName, TransferName},
+    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
     named::named,
     subject::Start,
     verify::{FloorCause, Quantity},
@@ -133,7 +134,7 @@ pub(in crate::suite) struct ReferenceFemWords {
 pub(in crate::suite) enum MethodWords {
     Mpm {
         basis: OneOrMany<BasisName>,
-        transfer: OneOrMany<TransferName>,
+        transfer: OneOrMany<TransferChoice>,
         scheme: OneOrMany<SchemeName>,
         start: Option<OneOrMany<Start>>,
         mass: Option<OneOrMany<MassName>>,

@@ -53,6 +53,10 @@ pub(in crate::suite) struct ParticleWords {
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct StabilityRunWords {
     pub(in crate::suite) dt: NumberText,
+    /// Another length of a step, which takes turns with `dt`.
+    pub(in crate::suite) alternate: Option<NumberText>,
+    /// Steps of one length before it is the turn of the other.
+    pub(in crate::suite) every: Option<NumberText>,
     pub(in crate::suite) steps: NumberText,
     /// Steps of a full run, where that takes more.
     pub(in crate::suite) full_steps: Option<NumberText>,

@@ -18,7 +18,7 @@ const REST: f64 = 1e-12;
 /// What differences of rounded numbers leave where there is nothing.
 const ROUNDING: f64 = 1e-8;
 
-/// The amplification matrix of a step of `dt` (s). `subject` must be frozen and at rest, with speeds
+/// The amplification matrix of a step, or of several steps of the lengths `dt` (s) after one another. `subject` must be frozen and at rest, with speeds
 /// of the size `speed` (m/s) and stresses of the size `modulus` (Pa). Numbers of the state that nothing
 /// else depends on and that only keep their own perturbation (the volume of a particle without
 /// stress) have an eigenvalue of one and no row.
@@ -27,14 +27,14 @@ const ROUNDING: f64 = 1e-8;
 /// One line, if the subject is not at rest or a perturbed step fails.
 pub fn amplification(
     subject: &mut dyn Perturbable,
-    dt: f64,
+    dt: &[f64],
     speed: f64,
     modulus: f64,
 ) -> Result<DMatrix<f64>, String> {
     let (mut sizes, mut rest, mut after) = (Vec::new(), Vec::new(), Vec::new());
     subject.sizes(speed, modulus, &mut sizes);
     subject.state(&mut rest);
-    subject.step(dt).map_err(|failure| failure.to_string())?;
+    advance(subject, dt)?;
     subject.state(&mut after);
     let moved = rest.iter().zip(&after).zip(&sizes).map(|((a, b), size)| (b - a).abs() / size);
     if !moved.fold(0.0, crate::verify::larger).le(&REST) {
@@ -48,7 +48,7 @@ pub fn amplification(
             state.copy_from_slice(&rest);
             state[j] += sign * STEP * sizes[j];
             subject.set_state(&state);
-            subject.step(dt).map_err(|failure| failure.to_string())?;
+            advance(subject, dt)?;
             subject.state(&mut after);
             for i in 0..n {
                 full[(i, j)] += sign * (after[i] - rest[i]) / (2.0 * STEP * sizes[i]);
@@ -57,6 +57,10 @@ pub fn amplification(
     }
     subject.set_state(&rest);
     Ok(reduced(&full))
+}
+
+fn advance(subject: &mut dyn Perturbable, dt: &[f64]) -> Result<(), String> {
+    dt.iter().try_for_each(|dt| subject.step(*dt)).map_err(|failure| failure.to_string())
 }
 
 /// The matrix without the numbers whose column is that of the identity.

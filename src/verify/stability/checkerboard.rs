@@ -1,4 +1,4 @@
-//! How far neighbouring particles disagree about the pressure.
+//! How far particles disagree about the pressure: neighbours, and all of them.
 
 use crate::subject::Samples;
 
@@ -8,17 +8,31 @@ const MOST: usize = 4096;
 /// Labels no further apart than this, in shortest distances, are neighbours along an axis.
 const NEAR: f64 = 1.2;
 
+/// The mean normal stress of each particle (Pa); `None` without stresses.
+fn pressures(samples: &Samples) -> Option<Vec<f64>> {
+    let (n, d) = (samples.len(), samples.dimension.max(1));
+    let mean =
+        |p: usize| (0..d).map(|i| samples.stress[(p * d + i) * d + i]).sum::<f64>() / d as f64;
+    (samples.stress.len() == n * d * d).then(|| (0..n).map(mean).collect())
+}
+
+/// The largest less the smallest mean normal stress, over the largest in magnitude; NaN without
+/// stresses.
+pub(super) fn stress_spread(samples: &Samples) -> f64 {
+    let pressures = pressures(samples).unwrap_or_default();
+    let high = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = pressures.iter().copied().fold(f64::INFINITY, f64::min);
+    (high - low) / high.abs().max(low.abs())
+}
+
 /// The RMS of what the mean normal stress of a particle differs by from that of its neighbours, over
 /// the RMS of the mean normal stress itself. NaN without stresses or neighbours, or from too many
 /// particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
-    if samples.stress.len() != n * d * d || !(2..=MOST).contains(&n) {
+    let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
         return f64::NAN;
-    }
-    let mean =
-        |p: usize| (0..d).map(|i| samples.stress[(p * d + i) * d + i]).sum::<f64>() / d as f64;
-    let pressure: Vec<f64> = (0..n).map(mean).collect();
+    };
     let label = |p: usize| &samples.label[p * d..(p + 1) * d];
     let square = |p: usize, q: usize| {
         label(p).iter().zip(label(q)).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()

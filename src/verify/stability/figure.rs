@@ -23,6 +23,8 @@ named! {
         /// At the end, the part of the stress that changes from particle to particle and no further,
         /// over its mean size.
         Checkerboard = "checkerboard",
+        /// At the end, the largest less the smallest mean normal stress over the largest.
+        StressSpread = "stress_spread",
         /// At the end, the largest stress over the modulus.
         Stress = "stress",
         /// At the end, the largest displacement (m).
@@ -44,6 +46,7 @@ impl RunFigure {
             Self::LeastJ => "least J",
             Self::Speed => "largest speed/c",
             Self::Checkerboard => "checkerboard",
+            Self::StressSpread => "stress spread",
             Self::Stress => "stress/M",
             Self::Displacement => "displacement",
             Self::Steps => "steps",
@@ -61,6 +64,7 @@ impl RunFigure {
             Self::LeastJ => trial.least_j,
             Self::Speed => trial.speed,
             Self::Checkerboard => trial.checkerboard,
+            Self::StressSpread => trial.stress_spread,
             Self::Stress => trial.stress,
             Self::Displacement => trial.displacement,
             Self::Steps => trial.steps as f64,

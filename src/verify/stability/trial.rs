@@ -5,7 +5,10 @@
 //! measure of the size of the stress, which is all that growth needs. It is compared with its start,
 //! or, in a body that starts at rest, with the energy of a strain of one.
 
-use super::{checkerboard::checkerboard, verdict::Stability};
+use super::{
+    checkerboard::{checkerboard, stress_spread},
+    verdict::Stability,
+};
 use crate::{
     subject::{Failure, Samples, Subject},
     verify::{
@@ -25,6 +28,9 @@ pub struct Scales {
     pub stable_below: f64,
     /// Energy, over that at the start, beyond which a run is unstable and ends.
     pub unstable_above: f64,
+    /// Whether the kinetic energy is that about the centre of mass: where nothing holds the body, a
+    /// common velocity is no size of its motion.
+    pub centred: bool,
 }
 
 /// What a run has shown. Figures of a run that failed are those up to its last step.
@@ -50,6 +56,8 @@ pub struct Trial {
     pub least_j: f64,
     /// The largest speed met, over the wave speed.
     pub speed: f64,
+    /// The largest less the smallest mean normal stress over the largest in magnitude, at the end.
+    pub stress_spread: f64,
     /// Changes of the pressure from particle to particle over its size, at the end.
     pub checkerboard: f64,
     /// The largest stress over the modulus, at the end.
@@ -63,17 +71,21 @@ pub struct Trial {
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
-/// Runs `subject` for `steps` steps of `dt` (s), or until it is unstable or fails.
-pub fn trial(subject: &mut dyn Subject, dt: f64, steps: u64, scales: &Scales) -> Trial {
+/// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
+/// unstable or fails.
+pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
     let mut watch = Watch::new(subject, *scales);
+    let mut lengths = dt.iter().cycle();
     for step in 1..=steps {
+        let dt = *lengths.next().unwrap_or(&f64::NAN);
+        watch.time += dt;
         if let Err(failure) = subject.step(dt) {
-            return watch.failed(subject, step, dt, &failure);
+            return watch.failed(subject, step, &failure);
         }
         if step <= FIRST || step % EVERY == 0 || step == steps {
             watch.look(subject);
             if !(watch.energy <= scales.unstable_above) {
-                return watch.grown(subject, step, dt);
+                return watch.grown(subject, step);
             }
         }
     }
@@ -87,6 +99,7 @@ pub fn trial(subject: &mut dyn Subject, dt: f64, steps: u64, scales: &Scales) ->
 
 struct Watch {
     scales: Scales,
+    time: f64,
     samples: Samples,
     balance: Option<Balance>,
     reference: f64,
@@ -100,7 +113,7 @@ impl Watch {
     fn new(subject: &dyn Subject, scales: Scales) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
-        let kinetic_start = kinetic(subject);
+        let kinetic_start = kinetic(subject, scales.centred);
         let start = kinetic_start + stored(&samples, scales.modulus);
         let reference = if start > 0.0 {
             start
@@ -109,6 +122,7 @@ impl Watch {
         };
         let mut watch = Self {
             scales,
+            time: 0.0,
             samples,
             balance: subject.totals().map(Balance::start),
             reference,
@@ -123,8 +137,9 @@ impl Watch {
 
     fn look(&mut self, subject: &dyn Subject) {
         subject.sample(&mut self.samples);
-        self.last =
-            (kinetic(subject) + stored(&self.samples, self.scales.modulus)) / self.reference;
+        self.last = (kinetic(subject, self.scales.centred)
+            + stored(&self.samples, self.scales.modulus))
+            / self.reference;
         self.energy = larger(self.energy, self.last);
         self.speed = larger(self.speed, fastest(&self.samples) / self.scales.speed);
         if let Some(balance) = &mut self.balance {
@@ -133,8 +148,8 @@ impl Watch {
     }
 
     /// An energy that is no number is a failure, not growth.
-    fn grown(self, subject: &dyn Subject, step: u64, dt: f64) -> Trial {
-        let t = step as f64 * dt;
+    fn grown(self, subject: &dyn Subject, step: u64) -> Trial {
+        let t = self.time;
         if !self.last.is_finite() {
             let why = format!("the energy is not finite (step {step}, t = {t:.4e} s)");
             return self.ended(subject, Stability::Failed, Some(why), step);
@@ -146,8 +161,8 @@ impl Watch {
         self.ended(subject, Stability::Unstable, Some(why), step)
     }
 
-    fn failed(self, subject: &dyn Subject, step: u64, dt: f64, failure: &Failure) -> Trial {
-        let why = format!("{failure} (step {step}, t = {:.4e} s)", step as f64 * dt);
+    fn failed(self, subject: &dyn Subject, step: u64, failure: &Failure) -> Trial {
+        let why = format!("{failure} (step {step}, t = {:.4e} s)", self.time);
         self.ended(subject, Stability::Failed, Some(why), step)
     }
 
@@ -169,11 +184,12 @@ impl Watch {
             steps,
             energy: self.energy,
             energy_kept: self.last,
-            kinetic_kept: kinetic(subject) / self.kinetic_start,
+            kinetic_kept: kinetic(subject, self.scales.centred) / self.kinetic_start,
             momentum: drift.of(Conserved::Momentum),
             angular_momentum: drift.of(Conserved::AngularMomentum),
             least_j: subject.census().min_j,
             speed: self.speed,
+            stress_spread: stress_spread(&self.samples),
             checkerboard: checkerboard(&self.samples),
             stress: largest(&self.samples.stress, d * d) / self.scales.modulus,
             displacement: largest(&self.samples.displacement, d),
@@ -181,8 +197,14 @@ impl Watch {
     }
 }
 
-fn kinetic(subject: &dyn Subject) -> f64 {
-    subject.totals().map_or(0.0, |totals| totals.kinetic_energy)
+/// Kinetic energy (J), less that of the centre of mass where that is not asked for.
+fn kinetic(subject: &dyn Subject, centred: bool) -> f64 {
+    let Some(totals) = subject.totals() else { return 0.0 };
+    let square: f64 = totals.momentum.iter().map(|p| p * p).sum();
+    let common = if centred { square / (2.0 * totals.mass) } else { 0.0 };
+    // Rounding may take more than there is; NaN stays NaN.
+    let rest = totals.kinetic_energy - common;
+    if rest < 0.0 { 0.0 } else { rest }
 }
 
 /// `sum V0 |sigma|^2 / (2 M)` (J).
