@@ -1,4 +1,4 @@
-//! What a step of several bodies works with: columns of one name are one.
+//! What a step of several bodies works with: what each keeps of one kind is one column.
 
 use super::coupling::Coupling;
 use crate::subject::{Column, Profile};
@@ -18,22 +18,29 @@ pub(super) fn of<const D: usize>(
                 all.effects.push(effect);
             }
         }
-        body.columns.into_iter().for_each(|column| add(&mut all.columns, column));
+        add(&mut all.columns, body.columns);
     }
     if let Some(coupling) = coupling {
         all.effects.extend(coupling.name());
-        let columns = coupling.columns().into_iter().filter(|column| column.entries > 0);
-        columns.for_each(|column| add(&mut all.columns, column));
+        all.columns.extend(coupling.columns().into_iter().filter(|column| column.entries > 0));
     }
     all
 }
 
-fn add(columns: &mut Vec<Column>, column: Column) {
-    let same = |known: &&mut Column| {
-        (known.name, known.holder, known.bytes) == (column.name, column.holder, column.bytes)
-    };
-    match columns.iter_mut().find(same) {
-        Some(known) => known.entries += column.entries,
-        None => columns.push(column),
+/// Adds the columns of one body to those of others, each to the one that is the same; a second of the
+/// same body (two walls) to the second.
+fn add(all: &mut Vec<Column>, body: Vec<Column>) {
+    let kind = |column: &Column| (column.name, column.holder, column.bytes);
+    let known = all.len();
+    let mut taken = vec![false; known];
+    for column in body {
+        let same = (0..known).find(|&k| !taken[k] && kind(&all[k]) == kind(&column));
+        match same {
+            Some(k) => {
+                taken[k] = true;
+                all[k].entries += column.entries;
+            }
+            None => all.push(column),
+        }
     }
 }
