@@ -50,7 +50,7 @@ impl Equation {
     }
 
     /// J2 plasticity with Hencky elasticity in uniaxial strain, under loading that never reverses: see
-    /// [`plastic`](super::plastic). From Young's modulus (Pa), Poisson's ratio, the yield stress in
+    /// `exact::plastic`. From Young's modulus (Pa), Poisson's ratio, the yield stress in
     /// tension and the hardening modulus (Pa).
     pub fn j2(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         Self::new(Law::J2(Yield { stress: yield_stress, hardening }), young, poisson)

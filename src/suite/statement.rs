@@ -243,7 +243,7 @@ fn equation(material: &MaterialPlan) -> &'static str {
         MaterialPlan::Hencky { .. } => HENCKY,
         MaterialPlan::J2 { .. } => J2,
         MaterialPlan::Newtonian { .. } => TAIT,
-        _ => SMALL_STRAIN,
+        MaterialPlan::LinearElastic { .. } => SMALL_STRAIN,
     }
 }
 
