@@ -56,8 +56,8 @@ fn unknown(name: &str) -> Complaint {
     if let Some(known) = embedded::names().find(near) {
         return complaint.with_help(&format!("did you mean `{known}`?"));
     }
-    let known: Vec<&str> = embedded::names().collect();
-    complaint.with_help(&format!("known suites: {}", known.join(", ")))
+    let known = embedded::names().count();
+    complaint.with_help(&format!("`mpm-verify list` shows the {known} that are built in"))
 }
 
 /// Every `.yaml` file of a folder, sorted by name.

@@ -1,7 +1,7 @@
 //! Every condition that a problem puts on its motion.
 
 use super::{
-    boundary, differences, plastic, pointwise, problem::Problem, rims, violation::Violation, weak,
+    boundary, differences, loading, pointwise, problem::Problem, rims, violation::Violation, weak,
 };
 
 impl Problem {
@@ -16,7 +16,7 @@ impl Problem {
         boundary::boundary(self)?;
         boundary::driven(self)?;
         rims::free(self)?;
-        plastic::monotone(self)?;
+        loading::monotone(self)?;
         differences::differentiation(self)?;
         pointwise::equation(self)?;
         weak::momentum(self)

@@ -11,6 +11,7 @@ mod equation;
 mod forcing;
 pub mod formula;
 mod friction;
+mod loading;
 mod meeting;
 mod motion;
 mod plastic;

@@ -5,15 +5,11 @@
 //! proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, `s = 2 mu` up to
 //! `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that `q = Y + H alpha`,
 //! `3 mu alpha = q_elastic - q`. In uniaxial strain, where this is used, all loading is along one
-//! direction; that it never reverses is checked ([`monotone`]).
+//! direction; that it never reverses is checked (`loading`).
 
 use super::{
     formula::Number,
-    pointwise::{Event, POINTS},
-    problem::Problem,
-    random::Random,
     tensor::{Tensor, sum, tensor, unit},
-    violation::Violation,
 };
 
 /// Yield stress in tension (Pa) and hardening modulus (Pa).
@@ -48,28 +44,4 @@ fn mises<T: Number, const D: usize>(deviator: &Tensor<T, D>, third: T, mu: f64) 
     let square = inside + third * third * T::from((3 - D) as f64);
     // Where nothing is strained the root has no slope, and nothing flows.
     if square.value() == 0.0 { square } else { Number::sqrt(square * T::from(6.0 * mu * mu)) }
-}
-
-/// In uniaxial strain: where the body flows, the stretch never turns back.
-pub(super) fn monotone(problem: &Problem) -> Result<(), Violation> {
-    if !problem.equation.has_history() {
-        return Ok(());
-    }
-    let mut random = Random::new(8);
-    for _ in 0..4 * POINTS {
-        let label = problem.point(&mut random);
-        let event = Event { label, t: problem.moment(&mut random) };
-        let now = problem.motion.derivatives(&event.label, event.t);
-        if !problem.equation.flows(now.grad[0][0]) {
-            continue;
-        }
-        let outwards = if now.grad[0][0] < 0.0 { -1.0 } else { 1.0 };
-        let back = (outwards * now.grad_rate[0][0]).min(0.0);
-        let allowed = problem.tolerance * now.grad[0][0].abs() / problem.until;
-        let name = "the demand that loading never reverses where the body flows: \
-                    the rate du_X/dX dt, where it turns back,"
-            .to_owned();
-        event.judge(allowed, name, (0.0, back), "1/s")?;
-    }
-    Ok(())
 }

@@ -69,7 +69,7 @@ impl<const D: usize> Solver<D> {
     /// Runs one stage of a step of length `dt` (s).
     ///
     /// # Errors
-    /// See [`Subject::step`].
+    /// See [`Subject::step`](crate::subject::Subject::step).
     pub fn run(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
         match stage {
             Stage::Mass => self.mass()?,

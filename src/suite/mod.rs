@@ -28,6 +28,7 @@ mod extent;
 mod filling;
 mod fine_steps;
 mod force;
+mod force_plan;
 mod formal;
 mod hold;
 mod judged;

@@ -1,5 +1,7 @@
 //! A suite whose every word has been checked and every number computed.
 
+pub use super::force_plan::{ForceCase, ForceExpectation, ForcePlan};
+
 use super::{
     hold::Hold,
     method::Method,
@@ -10,7 +12,7 @@ use super::{
 use crate::{
     exact::{Problem, Region, Round, formula::Formula},
     fem::{Element, Mass},
-    mpm::{BasisName, MaterialPlan, Placement},
+    mpm::{MaterialPlan, Placement},
     verify::{Expectation, Quantity},
 };
 
@@ -175,59 +177,6 @@ pub struct ReferencePlan {
     pub cells: u64,
     /// Wanted time step (s), a formula of h.
     pub dt: Formula,
-}
-
-/// An internal-force study.
-#[derive(Debug, Clone)]
-pub struct ForcePlan {
-    /// Cell size (m).
-    pub cell: f64,
-    /// Particles per cell before the moving one leaves.
-    pub ppc: u64,
-    /// Volume of each particle (m).
-    pub volume: f64,
-    /// Uniform stress (Pa).
-    pub stress: f64,
-    /// Number of positions of the moving particle.
-    pub positions: u64,
-    /// Predicted force (N), a formula of n_left and n_right.
-    pub prediction: Formula,
-    /// The cases.
-    pub cases: Vec<ForceCase>,
-}
-
-/// One case of an internal-force study.
-#[derive(Debug, Clone)]
-pub struct ForceCase {
-    /// Its name.
-    pub name: String,
-    /// Basis functions.
-    pub basis: BasisName,
-    /// What is expected of the force.
-    pub expected: ForceExpectation,
-    /// The reason for expecting it.
-    pub because: String,
-}
-
-/// What is expected of the force on a node while a particle moves through it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ForceExpectation {
-    /// It deviates from the prediction by at most this share of the largest prediction.
-    AgreesWithin(f64),
-    /// It changes between neighbouring positions by at most this share.
-    StepsBelow(f64),
-}
-
-impl ForceExpectation {
-    /// In one line, for reports.
-    pub fn summary(self) -> String {
-        match self {
-            Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),
-            Self::StepsBelow(share) => {
-                format!("no step above {share} of the largest predicted force")
-            }
-        }
-    }
 }
 
 impl Suite {

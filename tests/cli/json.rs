@@ -78,7 +78,13 @@ fn every_key_is_there_and_no_other() {
                 has(level, &LEVEL);
                 has(&level["errors"], &["rms", "l1", "l2", "linf", "max_rms"]);
                 if case["subject"] == "mpm" {
-                    let sums = ["mass", "momentum", "angular_momentum", "kinetic_energy"];
+                    let sums = [
+                        "mass",
+                        "momentum",
+                        "angular_momentum",
+                        "kinetic_energy",
+                        "kinetic_energy_gain",
+                    ];
                     has(&level["drift"], &sums);
                 }
             }

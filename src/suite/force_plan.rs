@@ -1,0 +1,56 @@
+//! An internal-force study whose every word has been checked.
+
+use crate::{exact::formula::Formula, mpm::BasisName};
+
+/// An internal-force study.
+#[derive(Debug, Clone)]
+pub struct ForcePlan {
+    /// Cell size (m).
+    pub cell: f64,
+    /// Particles per cell before the moving one leaves.
+    pub ppc: u64,
+    /// Volume of each particle (m).
+    pub volume: f64,
+    /// Uniform stress (Pa).
+    pub stress: f64,
+    /// Number of positions of the moving particle.
+    pub positions: u64,
+    /// Predicted force (N), a formula of n_left and n_right.
+    pub prediction: Formula,
+    /// The cases.
+    pub cases: Vec<ForceCase>,
+}
+
+/// One case of an internal-force study.
+#[derive(Debug, Clone)]
+pub struct ForceCase {
+    /// Its name.
+    pub name: String,
+    /// Basis functions.
+    pub basis: BasisName,
+    /// What is expected of the force.
+    pub expected: ForceExpectation,
+    /// The reason for expecting it.
+    pub because: String,
+}
+
+/// What is expected of the force on a node while a particle moves through it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ForceExpectation {
+    /// It deviates from the prediction by at most this share of the largest prediction.
+    AgreesWithin(f64),
+    /// It changes between neighbouring positions by at most this share.
+    StepsBelow(f64),
+}
+
+impl ForceExpectation {
+    /// In one line, for reports.
+    pub fn summary(self) -> String {
+        match self {
+            Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),
+            Self::StepsBelow(share) => {
+                format!("no step above {share} of the largest predicted force")
+            }
+        }
+    }
+}
