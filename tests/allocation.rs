@@ -3,7 +3,7 @@
 mod common;
 
 use allocation_counter::measure;
-use common::{DT, free_body, in_dimension, methods};
+use common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::{
     exact::{
         Equation, Forcing, Motion, Problem,
@@ -11,9 +11,10 @@ use mpm_verify::{
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        BasisName, Block, Bodies, BodyForce, Damping, Driven, EffectName, Fixed, Friction, Gravity,
-        LocalDamping, MaterialPlan, Matrix, Particles, Placement, Prescribed, Pressure, Roller,
-        SchemeName, SetForce, Side, Solver, Traction, TransferName, Vector, VelocityField,
+        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Driven, EffectName,
+        Fixed, Friction, Gravity, LocalDamping, MaterialPlan, Matrix, Particles, Placement,
+        Prescribed, Pressure, Roller, SchemeName, SetForce, Side, Solver, Traction, TransferName,
+        Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
 };
@@ -84,6 +85,13 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
             Box::new(gravity),
             Box::new(Damping(Box::new(|t| 0.1 * t))),
             Box::new(LocalDamping(0.5)),
+            Box::new(ArtificialViscosity {
+                linear: 0.1,
+                quadratic: 1.0,
+                length: H,
+                speed: 1.0,
+                q: Vec::new(),
+            }),
             Box::new(shear),
             Box::new(pressure),
             Box::new(traction),
@@ -213,6 +221,7 @@ fn no_effect_is_left_out_above() {
         "velocity",
         "body_force",
         "local_damping",
+        "artificial_viscosity",
     ];
     for effect in EffectName::ALL {
         assert!(tested.contains(&effect.name()), "`{}` is not held to its memory", effect.name());

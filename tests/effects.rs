@@ -6,9 +6,10 @@ mod common;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
-        BasisName, BodyForce, Boundary, Counted, Damping, Driven, Effect, EffectName, Fixed,
-        Friction, Gravity, Grid, LocalDamping, Particles, Placement, Prescribed, Pressure, Roller,
-        SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName, Vector,
+        ArtificialViscosity, BasisName, BodyForce, Boundary, Counted, Damping, Driven, Effect,
+        EffectName, Fixed, Friction, Gravity, Grid, LocalDamping, Particles, Placement, Prescribed,
+        Pressure, Roller, SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName,
+        Vector,
     },
     subject::{Column, Holder, Profile, Subject},
     suite::{Hold, StudyPlan, Suite, embedded, profiles},
@@ -16,6 +17,12 @@ use mpm_verify::{
 use rstest::rstest;
 
 type Boxed<const D: usize> = Box<dyn Effect<D>>;
+
+/// On the cells of the free body.
+fn viscosity(size: f64) -> ArtificialViscosity {
+    let (linear, quadratic, length, speed) = (size, size, common::H, 1.16);
+    ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }
+}
 
 /// One of every effect, as strong as `size`: with 0 it changes nothing.
 fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxed<D> {
@@ -35,6 +42,7 @@ fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxe
             Box::new(Driven::on(particles, members, Box::new(move |_, t| uniform(t))))
         }
         EffectName::LocalDamping => Box::new(LocalDamping(size)),
+        EffectName::ArtificialViscosity => Box::new(viscosity(size)),
         EffectName::Damping => Box::new(Damping(Box::new(move |t| size * (1.0 + t)))),
     }
 }

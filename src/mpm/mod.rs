@@ -49,8 +49,8 @@ pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side,
 pub use combination::{combine, combine_bodies};
 pub use counted::{Counted, Tally};
 pub use effect::{
-    BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, LocalDamping, Placement,
-    Pressure, PressureField, SetForce, Traction, TractionField,
+    ArtificialViscosity, BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity,
+    LocalDamping, Placement, Pressure, PressureField, SetForce, Traction, TractionField,
 };
 pub use frame::FrameName;
 pub use grid::Grid;

@@ -1,8 +1,9 @@
 //! The solver: every stage of a step, one by one. [`step`](super::step) has their order.
 
 use super::{
-    algebra::Matrix, basis::Domain, boundary::Advance, frame::FrameName, grid::Grid, initial,
-    particles::Particles, setup::Setup, stage::Stage, transfer::Transfer, whereabouts::Whereabouts,
+    algebra::Matrix, basis::Domain, boundary::Advance, effect::strain, frame::FrameName,
+    grid::Grid, initial, particles::Particles, setup::Setup, stage::Stage, transfer::Transfer,
+    whereabouts::Whereabouts,
 };
 use crate::subject::{Failure, Profile, Site};
 
@@ -144,7 +145,8 @@ impl<const D: usize> Solver<D> {
     }
 
     fn stress(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, transfer, material, frame, .. } = &mut self.setup;
+        let Setup { grid, particles, kernel, transfer, material, frame, effects, .. } =
+            &mut self.setup;
         let passes = transfer.g2p_gradient(kernel.as_ref(), grid, particles);
         if *frame == FrameName::Total {
             particles.push_gradients_forward();
@@ -152,7 +154,7 @@ impl<const D: usize> Solver<D> {
         for (f, grad_v) in particles.def_grad.iter_mut().zip(&particles.grad_v) {
             *f = (Matrix::identity() + grad_v * dt) * *f;
         }
-        material.update(dt, particles);
+        strain(effects, material.as_mut(), dt, particles);
         self.count(passes);
         for (p, (vol, vol0)) in
             self.setup.particles.vol.iter().zip(&self.setup.particles.vol0).enumerate()

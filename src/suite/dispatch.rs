@@ -10,7 +10,7 @@ use super::{
     model::{ConvergencePlan, Scene},
     plan::LevelPlan,
     start::Initial,
-    surface,
+    surface, viscosity,
 };
 use crate::{
     exact::{Forcing, Problem},
@@ -180,7 +180,7 @@ fn setup<const D: usize>(
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
-    let mut effects = effects(body.own, &particles);
+    let mut effects = effects(body.own, &particles, h);
     effects.extend(body.manufactured.map(|made| manufactured_force(made, &particles)));
     effects.extend(on_sets(scene, &particles)?);
     Ok(Setup {
@@ -216,7 +216,11 @@ fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D
     kernel.grid(origin, h, cells, std::array::from_fn(|axis| periodic(scene, axis)))
 }
 
-fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<dyn Effect<D>>> {
+fn effects<const D: usize>(
+    scene: &Scene,
+    particles: &Particles<D>,
+    h: f64,
+) -> Vec<Box<dyn Effect<D>>> {
     let mut effects: Vec<Box<dyn Effect<D>>> = Vec::new();
     if let Some(formulas) = &scene.gravity {
         effects.push(Box::new(Gravity(of_time(formulas))));
@@ -230,6 +234,9 @@ fn effects<const D: usize>(scene: &Scene, particles: &Particles<D>) -> Vec<Box<d
     effects.extend(
         scene.local_damping.map(|share| -> Box<dyn Effect<D>> { Box::new(LocalDamping(share)) }),
     );
+    if let Some(effect) = viscosity::on(scene, h) {
+        effects.push(Box::new(effect));
+    }
     effects.extend(surface::on_faces(scene, particles));
     effects
 }

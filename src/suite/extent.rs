@@ -6,6 +6,19 @@ use super::model::{Scene, SceneFace};
 /// a body that grows.
 const SPARE_CELLS: f64 = 2.0;
 
+impl Scene {
+    /// Number of space dimensions.
+    pub fn dimension(&self) -> usize {
+        self.from.len()
+    }
+
+    /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
+    pub fn period(&self, axis: usize) -> f64 {
+        let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
+        to[axis] - from[axis]
+    }
+}
+
 /// Cell size (m) for `cells` cells along the first axis of the grid, or of the body where the
 /// suite asks for no grid.
 pub(super) fn cell_size(scene: &Scene, cells: u64) -> f64 {

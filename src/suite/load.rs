@@ -6,7 +6,7 @@ use super::{
     cases, comparable, damping, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
-    refine, scene, size, stability, steps, truth, truthless,
+    refine, scene, size, stability, steps, truth, truthless, viscosity,
     wording::shown,
     words::{
         ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StabilityWords,
@@ -55,6 +55,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     let reference = reference.transpose()?.flatten();
     let same_method_dt = steps::same_method(&binder, &words, &refine, &until, instants)?;
     law::check(&binder, &words, &scene)?;
+    viscosity::check(&binder, &words, &scene)?;
     damping::check(&binder, &words, &scene, latest)?;
     if exact.is_none() && reference.is_none() {
         truthless::check(&binder, &words)?;

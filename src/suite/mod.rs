@@ -56,6 +56,7 @@ mod steps;
 mod surface;
 mod truth;
 mod truthless;
+mod viscosity;
 mod wording;
 mod words;
 pub mod yaml;

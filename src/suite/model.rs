@@ -132,6 +132,8 @@ pub struct Scene {
     pub damping: Option<Formula>,
     /// Share of the force out of balance that opposes the motion.
     pub local_damping: Option<f64>,
+    /// Artificial viscosity: coefficients of the linear and of the quadratic term.
+    pub viscosity: Option<[f64; 2]>,
     /// Several bodies, each a scene of its own with the grid, the faces and the loads of this one;
     /// empty where there is one. Then this is the box around all of them, with the first one's
     /// material.
@@ -194,18 +196,5 @@ impl ConvergencePlan {
     /// The problem whose force is manufactured, if it is.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
-    }
-}
-
-impl Scene {
-    /// Number of space dimensions.
-    pub fn dimension(&self) -> usize {
-        self.from.len()
-    }
-
-    /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
-    pub fn period(&self, axis: usize) -> f64 {
-        let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
-        to[axis] - from[axis]
     }
 }

@@ -41,6 +41,7 @@ impl Scene {
             EffectName::BodyForce => self.body_force = None,
             EffectName::Damping => self.damping = None,
             EffectName::LocalDamping => self.local_damping = None,
+            EffectName::ArtificialViscosity => self.viscosity = None,
             EffectName::Traction => self.faces.iter_mut().for_each(|face| face.traction = None),
             EffectName::Pressure => self.faces.iter_mut().for_each(|face| face.pressure = None),
             EffectName::SetForce => self.sets.iter_mut().for_each(|set| set.force = None),

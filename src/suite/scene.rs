@@ -9,7 +9,7 @@ use super::{
     material::material,
     model::{Scene, SceneFace},
     path::Path,
-    sets, surface,
+    sets, surface, viscosity,
     wording::shown,
     words::{LoadWords, SceneWords, SetWords},
     yaml::{Complaint, NumberText},
@@ -86,6 +86,7 @@ fn body(binder: &Binder<'_>, own: &Listed<'_>, words: &SceneWords) -> Result<Sce
         body_force: None,
         damping: None,
         local_damping: None,
+        viscosity: None,
         initial_velocity: initial_velocity(binder, own, dimension)?,
         bodies: Vec::new(),
         contact: None,
@@ -205,6 +206,9 @@ fn add_load(
                 return Err(binder.complain(&path, "damping appears twice"));
             }
             scene.damping = Some(binder.formula(&path, text, &["t"])?);
+        }
+        LoadWords::ArtificialViscosity(words) => {
+            viscosity::add(binder, &path.then("artificial_viscosity"), words, scene)?;
         }
         LoadWords::LocalDamping(text) => {
             damping::add_local(binder, &path.then("local_damping"), text, scene)?;

@@ -214,6 +214,9 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     if let Some(damping) = &scene.damping {
         push(rows, "damping", &format!("{} 1/s", damping.source()));
     }
+    if let Some([linear, quadratic]) = scene.viscosity {
+        push(rows, "viscosity", &format!("artificial, linear {linear}, quadratic {quadratic}"));
+    }
     if let Some(share) = scene.local_damping {
         push(rows, "local damping", &format!("{} of the force out of balance", shown(share)));
     }

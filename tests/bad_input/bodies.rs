@@ -1,5 +1,5 @@
-//! Several bodies: what a scene cannot say of them, methods that know one, and motions that do not
-//! obey contact.
+//! Several bodies: what a scene cannot say of them, methods that know one, motions that do not obey
+//! contact, and viscosities that are none.
 
 use super::{Edits, load, refused};
 use rstest::rstest;
@@ -8,9 +8,11 @@ const IMPACT: &str = include_str!("../../verification/two-bar-impact.yaml");
 const DISKS: &str = include_str!("../../verification/two-disks.yaml");
 const HALVES: &str = include_str!("../../verification/vibrating-bar-of-two.yaml");
 
+const VISCOUS: &str = include_str!("../../verification/artificial-viscosity-linear.yaml");
+
 #[test]
 fn sound() {
-    for text in [IMPACT, DISKS, HALVES] {
+    for text in [IMPACT, DISKS, HALVES, VISCOUS] {
         if let Err(complaint) = load(text) {
             panic!("{complaint}");
         }
@@ -50,6 +52,23 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
     IMPACT,
     &[("  contact: {friction: 0}", "  contact: {friction: ▸-0.5}")],
     &["the coefficient of friction is -0.5", "expected zero or a positive number"]
+)]
+#[case::negative_viscosity(
+    VISCOUS,
+    &[("linear: 1,", "linear: ▸-1,")],
+    &["a coefficient of viscosity is -1", "expected zero or a positive number"]
+)]
+#[case::half_a_viscosity(VISCOUS, &[("{linear: 1, quadratic: 0}", "▸{linear: 1}")], &["quadratic"])]
+#[case::viscosity_twice(
+    VISCOUS,
+    &[("    - artificial", "    - artificial_viscosity: {linear: 0, quadratic: 0}\n    - artificial"),
+      ("viscosity: {linear: 1,", "viscosity: ▸{linear: 1,")],
+    &["artificial viscosity appears twice"]
+)]
+#[case::viscosity_of_finite_elements(
+    VISCOUS,
+    &[("- mpm: {basis: linear, transfer: flip, scheme: [musl, usl], start: half_step_back}", "- ▸fem: {element: linear, mass: lumped}")],
+    &["the reference FEM has no artificial viscosity"]
 )]
 #[case::bars_in_one_place(
     IMPACT,

@@ -51,4 +51,10 @@ pub trait Effect<const D: usize>: Send {
     /// Moves particles otherwise than the grid did, over `dt` (s). Called after the grid has moved
     /// all of them.
     fn drive_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
+
+    /// Called before the material makes stresses of strains.
+    fn before_stress(&mut self, _particles: &mut Particles<D>) {}
+
+    /// Called after it.
+    fn after_stress(&mut self, _particles: &mut Particles<D>) {}
 }

@@ -2,6 +2,7 @@
 //! below; a scene lists the effects it wants, and what it does not list costs nothing: no call, no
 //! column, no branch.
 
+mod artificial_viscosity;
 mod body_force;
 mod contract;
 mod damping;
@@ -11,9 +12,11 @@ mod local_damping;
 mod name;
 mod pressure;
 mod set_force;
+mod strain;
 mod surface;
 mod traction;
 
+pub use artificial_viscosity::ArtificialViscosity;
 pub use body_force::{BodyForce, Field};
 pub use contract::Effect;
 pub use damping::Damping;
@@ -23,5 +26,6 @@ pub use local_damping::LocalDamping;
 pub use name::EffectName;
 pub use pressure::{Pressure, PressureField};
 pub use set_force::SetForce;
+pub(super) use strain::strain;
 pub use surface::Placement;
 pub use traction::{Traction, TractionField};

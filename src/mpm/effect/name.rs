@@ -61,6 +61,8 @@ effects! {
     Damping = "damping";
     /// A share of the force out of balance, against the motion.
     LocalDamping = "local_damping";
+    /// A pressure against compression, for shocks.
+    ArtificialViscosity = "artificial_viscosity";
 }
 
 impl EffectName {

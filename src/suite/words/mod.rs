@@ -17,7 +17,7 @@ pub(in crate::suite) use head::{Head, StudyName};
 pub(in crate::suite) use refine::{RefineWords, RunWords};
 pub(in crate::suite) use scene::{
     AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, OneBodyWords, RoundWords,
-    SceneWords, SetWords,
+    SceneWords, SetWords, ViscosityWords,
 };
 pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
 

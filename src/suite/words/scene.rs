@@ -107,6 +107,8 @@ pub(in crate::suite) enum LoadWords {
     Damping(NumberText),
     /// Share of the force out of balance that opposes the motion, node by node.
     LocalDamping(NumberText),
+    /// Pressure against compression.
+    ArtificialViscosity(ViscosityWords),
     /// Force per unit mass (m/s2), formulas of the coordinates and t.
     BodyForce(Vec<NumberText>),
     /// Force per reference area on one face (Pa), formulas of the coordinates and t.
@@ -119,6 +121,14 @@ pub(in crate::suite) enum LoadWords {
     Velocity { on: String, value: Vec<NumberText> },
 }
 
+/// Coefficients of the artificial viscosity.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ViscosityWords {
+    pub(in crate::suite) linear: NumberText,
+    pub(in crate::suite) quadratic: NumberText,
+}
+
 impl LoadWords {
     /// The effect that the entry asks for.
     pub(in crate::suite) fn effect(&self) -> EffectName {
@@ -126,6 +136,7 @@ impl LoadWords {
             Self::Gravity(_) => EffectName::Gravity,
             Self::Damping(_) => EffectName::Damping,
             Self::LocalDamping(_) => EffectName::LocalDamping,
+            Self::ArtificialViscosity(_) => EffectName::ArtificialViscosity,
             Self::BodyForce(_) => EffectName::BodyForce,
             Self::Traction { .. } => EffectName::Traction,
             Self::Pressure { .. } => EffectName::Pressure,

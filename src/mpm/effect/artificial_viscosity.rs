@@ -1,0 +1,116 @@
+//! Artificial viscosity: a pressure against compression that gives shocks a width of some cells.
+//!
+//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` where `tr D < 0`, and zero where the body does not compress,
+//! with the present density rho, the cell size l and the wave speed c at rest. The quadratic term
+//! (von Neumann & Richtmyer 1950) acts in strong shocks, and is of second order where the motion is
+//! smooth; the linear term (Landshoff 1955) takes the oscillations behind weak ones, and is of
+//! first order.
+//!
+//! The pressure is a part of the stress only while forces are taken from it: before the material makes
+//! new stresses, which a law in rate form adds to the old ones, it is taken out again.
+
+use super::{contract::Effect, name::EffectName};
+use crate::{mpm::particles::Particles, subject::Column};
+
+/// An artificial viscosity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArtificialViscosity {
+    /// Coefficient c1 of the linear term.
+    pub linear: f64,
+    /// Coefficient c2 of the quadratic term.
+    pub quadratic: f64,
+    /// Cell size l (m).
+    pub length: f64,
+    /// Wave speed c (m/s).
+    pub speed: f64,
+    /// The pressure that is in the stress of each particle (Pa); empty before the first step.
+    pub q: Vec<f64>,
+}
+
+impl<const D: usize> Effect<D> for ArtificialViscosity {
+    fn name(&self) -> EffectName {
+        EffectName::ArtificialViscosity
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("q", &self.q)]
+    }
+
+    fn before_stress(&mut self, particles: &mut Particles<D>) {
+        for (sigma, q) in particles.sigma.iter_mut().zip(&self.q) {
+            for i in 0..D {
+                sigma[(i, i)] += q;
+            }
+        }
+    }
+
+    fn after_stress(&mut self, particles: &mut Particles<D>) {
+        self.q.resize(particles.len(), 0.0);
+        for (p, q) in self.q.iter_mut().enumerate() {
+            let closing = -particles.grad_v[p].trace() * self.length;
+            *q = 0.0;
+            if closing > 0.0 {
+                let density = particles.mass[p] / particles.vol[p];
+                *q = density * closing * (self.linear * self.speed + self.quadratic * closing);
+                for i in 0..D {
+                    particles.sigma[p][(i, i)] -= *q;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{Block, LinearElastic, Material, Matrix, Vector};
+    use approx::assert_relative_eq;
+
+    /// Two particles, of which one is compressed and the other stretched, by turns.
+    #[test]
+    fn compression_is_resisted_and_nothing_of_it_stays() {
+        let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 3.0 };
+        let (mut body, mut plain) =
+            (Particles::fill(&block, 1.0, 1), Particles::fill(&block, 1.0, 1));
+        let mut law = LinearElastic::new(1.0, 0.3);
+        let mut effect = ArtificialViscosity {
+            linear: 0.5,
+            quadratic: 2.0,
+            length: 0.1,
+            speed: 4.0,
+            q: Vec::new(),
+        };
+        for step in 0..4 {
+            let rate =
+                Matrix::<2>::new(-0.3, 0.2, 0.0, 0.1) * if step % 2 == 0 { 1.0 } else { -1.0 };
+            for particles in [&mut body, &mut plain] {
+                (particles.grad_v[0], particles.grad_v[1]) = (rate, -rate);
+            }
+            law.update(1e-3, &mut plain);
+            effect.before_stress(&mut body);
+            law.update(1e-3, &mut body);
+            effect.after_stress(&mut body);
+            let compressed = step % 2;
+            let density = body.mass[compressed] / body.vol[compressed];
+            let q = density * 0.02 * (0.5 * 4.0 + 2.0 * 0.02);
+            let expected = plain.sigma[compressed] - Matrix::identity() * q;
+            assert_relative_eq!(body.sigma[compressed], expected, max_relative = 1e-12);
+            let (stretched, same) = (body.sigma[1 - compressed], plain.sigma[1 - compressed]);
+            assert_relative_eq!(stretched, same, epsilon = 1e-15);
+        }
+    }
+
+    /// Bit for bit: a body that only expands knows of no viscosity.
+    #[test]
+    fn expansion_is_free() {
+        let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };
+        let mut body = Particles::fill(&block, 1.0, 1);
+        body.sigma[0][(0, 0)] = 0.1;
+        body.grad_v[0][(0, 0)] = 0.7;
+        let (linear, quadratic, length, speed) = (1.0, 1.0, 1.0, 1.0);
+        let mut effect = ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() };
+        effect.after_stress(&mut body);
+        effect.before_stress(&mut body);
+        assert_eq!(body.sigma[0][(0, 0)], 0.1);
+    }
+}

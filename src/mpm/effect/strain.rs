@@ -1,0 +1,20 @@
+//! The stage in which a material makes stresses of strains, with what effects have to say.
+
+use super::contract::Effect;
+use crate::mpm::{material::Material, particles::Particles};
+
+/// New stresses after `dt` (s).
+pub(in crate::mpm) fn strain<const D: usize>(
+    effects: &mut [Box<dyn Effect<D>>],
+    material: &mut dyn Material<D>,
+    dt: f64,
+    particles: &mut Particles<D>,
+) {
+    for effect in effects.iter_mut() {
+        effect.before_stress(particles);
+    }
+    material.update(dt, particles);
+    for effect in effects {
+        effect.after_stress(particles);
+    }
+}
