@@ -64,6 +64,19 @@ use rstest::rstest;
       ("from: [-2], to: [8]", "from: [-2, -2], to: [8, 8]"), ("ppc: 2", "ppc: ▸2")],
     &["not equally spaced"]
 )]
+#[case::with_a_series_of_nothing(
+    &[("transfer: [flip, pic, apic]", "transfer: [flip, ▸{fmpm: 0}]")],
+    &["a series of 0 terms", "expected a whole number from 1 to 64"]
+)]
+#[case::with_a_series_unknown(
+    &[("transfer: [flip, pic, apic]", "transfer: [flip, {▸fmpn: 2}]")], &["fmpn"]
+)]
+#[case::with_steps_that_take_no_turns(
+    &[("frozen: true", "frozen: true, ▸every: 2")], &["steps of one length take no turns"]
+)]
+#[case::with_turns_too_long(
+    &[("frozen: true", "frozen: true, alternate: 1, every: ▸1e4")], &["expected at most 1000"]
+)]
 #[case::with_an_unknown_word(&[("frozen: true", "▸frosen: true")], &["unknown key `frosen`", "did you mean `frozen`?"])]
 fn a_stability_study(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SWEPT, edits, words);

@@ -60,7 +60,7 @@ fn colour(share: f64) -> (String, &'static str) {
     let mixed: [f64; 3] =
         std::array::from_fn(|k| COLOURS[low][k] * (1.0 - rest) + COLOURS[low + 1][k] * rest);
     let [r, g, b] = mixed.map(|channel| libm::round(channel) as u8);
-    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.45 { PAPER } else { INK })
+    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.5 { PAPER } else { INK })
 }
 
 impl Map {
