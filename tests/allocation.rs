@@ -8,12 +8,14 @@ use mpm_verify::{
     exact::{
         Equation, Forcing, Motion, Problem,
         formula::{Expr, Formula, Scope},
+        heat::{Conduction, HeatForcing, Temperature},
     },
     fem::{self, Bar, Element, Mass, Sampling},
     mpm::{
-        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Driven, EffectName,
-        Fixed, Friction, Gravity, LocalDamping, MaterialPlan, Matrix, Particles, Placement,
-        Prescribed, Pressure, Roller, SchemeName, SetForce, Side, Solver, Traction, TransferName,
+        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Conductor, Damping, Driven,
+        EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, MaterialPlan, Matrix,
+        Particles, Placement, Prescribed, Pressure, Roller, ScalarField, SchemeName, SetForce,
+        Setup, Side, Solver, Thermal, ThermalExpansion, ThermalFace, Traction, TransferName,
         Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
@@ -49,6 +51,8 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         body_force: Vec::new(),
         damping: None,
         local_damping: None,
+        heat: None,
+        expansion: None,
         at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),
@@ -62,8 +66,46 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
     Forcing::new(&problem, labels.iter().map(Vector::as_slice))
 }
 
-/// A body under gravity and a manufactured force, pulled at its far end, with a force on some particles and others driven,
-/// between walls of every kind.
+/// Conduction with a manufactured source and a condition of every kind, in particles of a body that
+/// may deform.
+fn heat<const D: usize>(
+    particles: &mut Particles<D>,
+    (grid, basis): (&Grid<D>, BasisName),
+) -> Heat<D> {
+    let names: Vec<&str> = ["X", "Y", "Z"][..D].iter().chain(&["t"]).copied().collect();
+    let expr = Expr::parse("1 + sum(n, 1, 3, sin(n*X)*cos(t))*cos(X*t)").unwrap();
+    let formula = Formula::bind(&expr, &Scope::new(), &names).unwrap();
+    let problem = Conduction {
+        from: vec![0.0; D],
+        to: vec![1.0; D],
+        density: 1.0,
+        conductivity: 1.0,
+        capacity: 1.0,
+        source: None,
+        initial: None,
+        faces: Vec::new(),
+        temperature: Temperature::new(formula.clone(), D),
+        motion: Some(Motion::new(vec![formula; D])),
+        manufactured: true,
+        until: 1.0,
+        tolerance: 1e-8,
+    };
+    let mut forcing = HeatForcing::new(&problem, particles.x0.iter().map(Vector::as_slice));
+    let number = || -> ScalarField<D> { Box::new(|x, t| x[0] * t) };
+    let heat = Heat::new((0.01, 1.0), particles, |x| (x[0], Vector::zeros()));
+    let convection = Thermal::Convection { coefficient: 0.1, ambient: number() };
+    let conditions = [
+        ((0, Side::Low), Thermal::Temperature(number())),
+        ((0, Side::High), convection),
+        ((D - 1, Side::Low), Thermal::Flux(number())),
+    ];
+    let face = |(at, condition)| ThermalFace::new((grid, basis), particles, at, condition);
+    heat.with_faces(conditions.map(face).into())
+        .with_source(Box::new(move |t, _, into| forcing.at(t, into)))
+}
+
+/// A heated body under gravity and a manufactured force, pulled at its far end, with a force on some
+/// particles and others driven, between walls of every kind.
 fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
     for method in methods() {
         let mut setup = free_body::<D>(method, scheme);
@@ -81,7 +123,10 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         let made = BodyForce::new(Box::new(move |t, _, b| {
             forcing.at(t, b, |force| Vector::<D>::from_fn(|i, _| force[i]));
         }));
+        let heat = heat(&mut setup.particles, (&setup.grid, method.0));
         setup.effects = vec![
+            Box::new(heat),
+            Box::new(ThermalExpansion::in_rate_form(1e-4, 0.0, (1.0, 0.3))),
             Box::new(gravity),
             Box::new(Damping(Box::new(|t| 0.1 * t))),
             Box::new(LocalDamping(0.5)),
@@ -179,7 +224,16 @@ fn kept<const D: usize>(
             let gravity = Gravity(Box::new(|t| Vector::<D>::from_element(-9.81 * t)));
             let force = BodyForce::pointwise(|x, t| x * t);
             let damping = Damping(Box::new(|t| 0.1 * t));
-            setup.effects = vec![Box::new(gravity), Box::new(force), Box::new(damping)];
+            let start = |x: &Vector<D>| (x[0], Vector::zeros());
+            let heat = Heat::new((0.1, 1.0), &mut setup.particles, start);
+            let source = Box::new(|_: f64, _: &[Vector<D>], into: &mut [f64]| into.fill(0.1));
+            setup.effects = vec![
+                Box::new(gravity),
+                Box::new(force),
+                Box::new(damping),
+                Box::new(heat.with_source(source)),
+                Box::new(ThermalExpansion::in_rate_form(1e-4, 0.0, (1.0, 0.3))),
+            ];
         }
         let mut made = Solver::new(setup).unwrap();
         made.step(1e-6).unwrap();
@@ -210,6 +264,32 @@ fn what_is_said_to_be_kept_for_particles_is_what_the_heap_holds(
     in_dimension!(dimension, says_what_it_keeps());
 }
 
+fn conductor_holds_its_memory<const D: usize>() {
+    for &basis in BasisName::ALL {
+        let Setup { kernel, grid, mut particles, .. } =
+            free_body::<D>((basis, TransferName::Flip), SchemeName::Musl);
+        let heat = heat(&mut particles, (&grid, basis));
+        let mut body = Conductor::new(kernel, grid, particles, vec![Box::new(heat)]).unwrap();
+        holds_its_memory(&format!("{D}-D {basis:?}"), &mut body, DT);
+    }
+}
+
+#[rstest]
+fn a_step_of_heat_in_a_body_at_rest_allocates_nothing(#[values(1, 2, 3)] dimension: usize) {
+    in_dimension!(dimension, conductor_holds_its_memory());
+}
+
+/// With a law of the whole deformation.
+#[test]
+fn expansion_that_is_split_off_allocates_in_the_first_step_only() {
+    let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
+    setup.material = MaterialPlan::Hencky { young: 1.0, poisson: 0.0 }.build();
+    let heat = heat(&mut setup.particles, (&setup.grid, BasisName::Linear));
+    let expansion = ThermalExpansion::of_deformation(1e-4, 0.0);
+    setup.effects = vec![Box::new(heat), Box::new(expansion)];
+    holds_its_memory("split", &mut Solver::new(setup).unwrap(), DT);
+}
+
 #[test]
 fn no_effect_is_left_out_above() {
     let tested = [
@@ -222,6 +302,8 @@ fn no_effect_is_left_out_above() {
         "body_force",
         "local_damping",
         "artificial_viscosity",
+        "heat",
+        "thermal_expansion",
     ];
     for effect in EffectName::ALL {
         assert!(tested.contains(&effect.name()), "`{}` is not held to its memory", effect.name());

@@ -14,11 +14,24 @@ const STEPS: usize = 20;
 
 /// Every column of the particles, as bits: so that -0 is not 0 and NaN is itself.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
-    let Particles { x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, grad_v, spacing } =
-        particles;
+    let Particles {
+        x0,
+        x,
+        moved,
+        v,
+        mass,
+        vol0,
+        vol,
+        sigma,
+        def_grad,
+        domain,
+        grad_v,
+        temperature,
+        spacing,
+    } = particles;
     let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
     let matrices = [sigma, def_grad, domain, grad_v].into_iter().flatten().flatten();
-    let scalars = [mass, vol0, vol].into_iter().flatten();
+    let scalars = [mass, vol0, vol, temperature].into_iter().flatten();
     vectors.chain(matrices).chain(scalars).chain(spacing).map(|value| value.to_bits()).collect()
 }
 

@@ -7,9 +7,9 @@ use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
         ArtificialViscosity, BasisName, BodyForce, Boundary, Counted, Damping, Driven, Effect,
-        EffectName, Fixed, Friction, Gravity, Grid, LocalDamping, Particles, Placement, Prescribed,
-        Pressure, Roller, SchemeName, SetForce, Setup, Side, Solver, Traction, TransferName,
-        Vector,
+        EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, Particles, Placement,
+        Prescribed, Pressure, Roller, SchemeName, SetForce, Setup, Side, Solver, ThermalExpansion,
+        Traction, TransferName, Vector,
     },
     subject::{Column, Holder, Profile, Subject},
     suite::{Hold, StudyPlan, Suite, embedded, profiles},
@@ -24,8 +24,20 @@ fn viscosity(size: f64) -> ArtificialViscosity {
     ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }
 }
 
-/// One of every effect, as strong as `size`: with 0 it changes nothing.
-fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxed<D> {
+/// Adds one of every effect, as strong as `size`, after those that it needs: with 0 it changes nothing.
+fn add<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) {
+    for needed in name.needs() {
+        add(*needed, setup, size);
+    }
+    let made = effect(name, setup, size);
+    setup.effects.push(made);
+}
+
+fn effect<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) -> Boxed<D> {
+    if name == EffectName::Heat {
+        let start = |x: &Vector<D>| (size * x[0], Vector::zeros());
+        return Box::new(Heat::new((size, 1.0), &mut setup.particles, start));
+    }
     let particles = &setup.particles;
     let uniform = move |t: f64| Vector::<D>::from_element(size * (1.0 + t));
     let members: &[usize] = if size == 0.0 { &[] } else { &[0, 1] };
@@ -44,16 +56,35 @@ fn effect<const D: usize>(name: EffectName, setup: &Setup<D>, size: f64) -> Boxe
         EffectName::LocalDamping => Box::new(LocalDamping(size)),
         EffectName::ArtificialViscosity => Box::new(viscosity(size)),
         EffectName::Damping => Box::new(Damping(Box::new(move |t| size * (1.0 + t)))),
+        EffectName::ThermalExpansion => {
+            Box::new(ThermalExpansion::in_rate_form(size, 0.0, (1.0, 0.3)))
+        }
+        EffectName::Heat => unreachable!("made above"),
     }
 }
 
 /// Every column of the particles as bits, 0 and -0 being one: `f + 0` is where they differ.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
-    let Particles { x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, grad_v, spacing } =
-        particles;
+    let Particles {
+        x0,
+        x,
+        moved,
+        v,
+        mass,
+        vol0,
+        vol,
+        sigma,
+        def_grad,
+        domain,
+        grad_v,
+        temperature,
+        spacing,
+    } = particles;
     let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
     let matrices = [sigma, def_grad, domain, grad_v].into_iter().flatten().flatten();
-    let scalars = [mass, vol0, vol].into_iter().flatten();
+    // No heat is a temperature of zero.
+    let warm = temperature.iter().filter(|value| **value != 0.0);
+    let scalars = [mass, vol0, vol].into_iter().flatten().chain(warm);
     vectors.chain(matrices).chain(scalars).chain(spacing).map(|v| (v + 0.0).to_bits()).collect()
 }
 
@@ -70,11 +101,11 @@ fn is_absent_or_null<const D: usize>(method: (BasisName, TransferName), scheme: 
     setup.particles.track_deformation();
     let with_deformation = stepped(setup);
     for &name in EffectName::ALL {
-        let one = effect(name, &free_body::<D>(method, scheme), 0.0);
+        let one = effect(name, &mut free_body::<D>(method, scheme), 0.0);
         let without = if one.reads_deformation() { &with_deformation } else { &plain };
         let with = |size: f64| {
             let mut setup = free_body::<D>(method, scheme);
-            setup.effects = vec![effect(name, &setup, size)];
+            add(name, &mut setup, size);
             stepped(setup)
         };
         let what = format!("{D}-D {method:?} {scheme:?}: `{}`", name.name());
@@ -157,8 +188,9 @@ fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
 }
 
 /// The row of the README for a member of a scene, but for the suites that verify it.
-fn row(name: &str, with: impl FnOnce(&mut Setup<2>)) -> String {
-    let (empty, with) = (taken(|_| ()), taken(with));
+/// What it needs is in `before`.
+fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Setup<2>)) -> String {
+    let (empty, with) = (taken(before), taken(with));
     let kept = |holder: Holder| {
         let held = |profile: &Profile| -> Vec<Column> {
             profile.columns.iter().filter(|column| column.holder == holder).copied().collect()
@@ -203,7 +235,7 @@ fn lists(suite: &str, effect: EffectName) -> bool {
 fn has_wall(suite: &str, name: &str) -> bool {
     let StudyPlan::Convergence(plan) = load(suite).study else { return false };
     plan.scene.faces.iter().any(|face| match face.hold {
-        Hold::Free | Hold::Periodic => false,
+        Hold::Free | Hold::Periodic | Hold::AtRest => false,
         Hold::Fixed => name == "fixed",
         Hold::Roller => name == "roller",
         Hold::Velocity(_) => name == "velocity",
@@ -231,7 +263,10 @@ fn are_in_the_readme(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> b
 #[test]
 fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
     let row = |&name: &EffectName| {
-        (name.name(), row(name.name(), |setup| setup.effects = vec![effect(name, setup, 0.1)]))
+        let needed = |setup: &mut Setup<2>| {
+            name.needs().iter().for_each(|needed| add(*needed, setup, 0.1));
+        };
+        (name.name(), row(name.name(), needed, |setup| add(name, setup, 0.1)))
     };
     let rows: Vec<(&str, String)> = EffectName::ALL.iter().map(row).collect();
     let named = |name: &str| *EffectName::ALL.iter().find(|one| one.name() == name).unwrap();
@@ -242,7 +277,7 @@ fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
 fn the_readme_says_what_each_wall_adds_and_which_suites_verify_it() {
     let rows = WALLS.map(|name| {
         let key = format!("{name} wall");
-        (name, row(&key, |setup| setup.boundary = vec![wall(name, &setup.grid)]))
+        (name, row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
     });
     are_in_the_readme(&rows, has_wall);
 }
@@ -253,8 +288,10 @@ fn the_passes_of_a_step_make_up_its_transfers() {
     // Taylor least squares sums over points of cells, and counts particles.
     for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
         let mut setup = free_body::<2>(method, SchemeName::Musl);
-        let listed = [EffectName::Gravity, EffectName::BodyForce, EffectName::SetForce];
-        setup.effects = listed.map(|name| effect(name, &setup, 0.1)).into();
+        for name in [EffectName::Gravity, EffectName::BodyForce, EffectName::SetForce] {
+            add(name, &mut setup, 0.1);
+        }
+        add(EffectName::ThermalExpansion, &mut setup, 0.1);
         let support = setup.kernel.support();
         let (kernel, tally) = Counted::new(setup.kernel);
         setup.kernel = Box::new(kernel);

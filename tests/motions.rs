@@ -42,6 +42,8 @@ fn problem(
         regions: Vec::new(),
         body_force: Vec::new(),
         damping: None,
+        heat: None,
+        expansion: None,
         local_damping: None,
         at_rest: false,
         manufactured: true,

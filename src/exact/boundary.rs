@@ -100,7 +100,7 @@ fn traction(
     sizes: &Sizes,
 ) -> Result<(), Violation> {
     let normal = if face.high { 1.0 } else { -1.0 };
-    let found = normal * problem.equation.piola(&all.grad)[i][face.axis];
+    let found = normal * problem.piola(&event.label, event.t, all)[i][face.axis];
     let name = format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
     let allowed = problem.tolerance * sizes.stress.max(pulled.abs());
     event.judge(allowed, name, (pulled, found), "Pa")

@@ -178,6 +178,12 @@ impl Equation {
         std::array::from_fn(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
     }
 
+    /// `3 lambda + 2 mu` (Pa), what a small strain on all axes is resisted with; none of a law of finite
+    /// strains.
+    pub(super) fn swelling_modulus(&self) -> Option<f64> {
+        (self.law == Law::SmallStrain).then_some(3.0 * self.lambda + 2.0 * self.mu)
+    }
+
     /// Stiffest modulus, `lambda + 2 mu` (Pa): a bound for stresses of a given strain.
     pub fn modulus(&self) -> f64 {
         self.lambda + 2.0 * self.mu

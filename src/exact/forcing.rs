@@ -9,7 +9,7 @@ use super::{
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), where stated forces depend on them.
+    /// The places (m), where stated forces or temperatures depend on them.
     labels: Vec<Vec<f64>>,
 }
 
@@ -18,7 +18,8 @@ impl Forcing {
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
-        let needed = !(problem.regions.is_empty() && problem.body_force.is_empty());
+        let needed = !(problem.regions.is_empty() && problem.body_force.is_empty())
+            || problem.expansion.is_some();
         let labels = if needed { labels } else { Vec::new() };
         Self { problem: problem.clone(), places, labels }
     }
@@ -31,8 +32,8 @@ impl Forcing {
         let mut now = Derivatives::default();
         for (place, force) in into.iter_mut().enumerate() {
             self.places.derivatives(place, &mut now);
-            let whole = self.problem.balance(&now);
             let label = self.labels.get(place);
+            let whole = self.problem.balance(label.map_or(&[], Vec::as_slice), t, &now);
             let given =
                 |i| gravity[i] + label.map_or(0.0, |label| self.problem.at_place(i, label, t));
             let damped = |i| self.problem.damping(i, t, &now);

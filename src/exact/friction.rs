@@ -111,6 +111,8 @@ mod tests {
             gravity: vec![bind("3", &["t"]), bind("-4", &["t"])],
             body_force: Vec::new(),
             damping: None,
+            heat: None,
+            expansion: None,
             local_damping: None,
             at_rest: false,
             manufactured: false,

@@ -155,6 +155,8 @@ mod tests {
         let bar = |from: f64, ends: [Condition; 2]| {
             let [low, high] = ends;
             Problem {
+                heat: None,
+                expansion: None,
                 from: vec![from],
                 to: vec![from + 1.0],
                 round: None,

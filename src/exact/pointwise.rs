@@ -95,7 +95,8 @@ pub(super) fn presence(problem: &Problem) -> Result<(), Violation> {
             return Err(event.violation(condition, None, *u, "m"));
         }
     }
-    if points.iter().any(|(_, now)| largest(&now.u) > 0.0) {
+    // A body that is held and heated has stress enough.
+    if problem.expansion.is_some() || points.iter().any(|(_, now)| largest(&now.u) > 0.0) {
         return Ok(());
     }
     let condition = "the demand that the displacement is not zero everywhere".to_owned();
@@ -147,7 +148,7 @@ pub(super) fn equation(problem: &Problem) -> Result<(), Violation> {
     let points = interior(problem, 4);
     let terms = |event: &Event, d: &Derivatives, i: usize| {
         let inertia = problem.density * d.acceleration[i];
-        let stress = problem.equation.divergence(problem.dimension(), &d.grad, &d.second)[i];
+        let stress = problem.divergence(&event.label, event.t, d)[i];
         (inertia, stress, problem.density * problem.force(&event.label, event.t, d)[i])
     };
     let size = scale(problem, |event, d| {

@@ -2,11 +2,14 @@
 
 use super::{
     equation::Equation,
+    expansion::{Expansion, Swelling, swollen_cauchy, swollen_divergence, swollen_piola},
     formula::Formula,
+    heat::Conduction,
     motion::{Derivatives, Motion, variables, write},
     random::Random,
     region::Region,
     round::Round,
+    tensor::Tensor,
     truth::Truth,
 };
 
@@ -80,6 +83,10 @@ pub struct Problem {
     /// Whether a further body force is added that makes the motion a solution: the method of
     /// manufactured solutions (Roache 2002).
     pub manufactured: bool,
+    /// The heat problem beside it, of a body in which heat flows.
+    pub heat: Option<Conduction>,
+    /// What its temperature does to the body.
+    pub expansion: Option<Expansion>,
     /// Every face of the body.
     pub faces: Vec<Face>,
     /// Parts of the body on which something acts.
@@ -137,14 +144,14 @@ impl Problem {
     /// the problem states.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let now = self.motion.derivatives(label, t);
-        let balance = self.balance(&now);
+        let balance = self.balance(label, t, &now);
         std::array::from_fn(|i| balance[i] - self.given(i, label, t) - self.damping(i, t, &now))
     }
 
     /// The whole body force (m/s2) at `label` and `t`, where the motion's derivatives are `now`.
     pub(super) fn force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.manufactured {
-            return self.balance(now);
+            return self.balance(label, t, now);
         }
         let given = std::array::from_fn(|i| self.given(i, label, t));
         let local = self.opposed(now, &given);
@@ -163,9 +170,36 @@ impl Problem {
     }
 
     /// The body force that the motion needs, `u_tt - Div P / rho0`.
-    pub(super) fn balance(&self, now: &Derivatives) -> [f64; 3] {
-        let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
+    pub(super) fn balance(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
+        let stress = self.divergence(label, t, now);
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
+    }
+
+    /// What temperature makes of the body at one point and time, if it does.
+    fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
+        let heat = self.heat.as_ref()?;
+        Some(self.expansion?.of(&heat.temperature.derivatives(label, t)))
+    }
+
+    /// P (Pa), where the motion's derivatives are `now`.
+    pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
+        match self.swelling(label, t) {
+            None => self.equation.piola(&now.grad),
+            Some(Swelling { theta, .. }) => {
+                swollen_piola(&self.equation, self.dimension(), &now.grad, theta)
+            }
+        }
+    }
+
+    /// Div P (N/m3), where the motion's derivatives are `now`.
+    pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
+        let d = self.dimension();
+        match self.swelling(label, t) {
+            None => self.equation.divergence(d, &now.grad, &now.second),
+            Some(swelling) => {
+                swollen_divergence(&self.equation, d, (&now.grad, &now.second), &swelling)
+            }
+        }
     }
 
     /// The body force (m/s2) that the problem states: gravity, and forces on parts of the body.
@@ -207,9 +241,19 @@ impl Truth for Problem {
         self.motion.deformation_gradient(label, t, into)
     }
 
+    fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
+        self.heat.as_ref()?.temperature(label, t)
+    }
+
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let grad = self.motion.derivatives(label, t).grad;
-        write(&self.equation.cauchy(&grad), self.dimension(), into);
+        let sigma = match self.swelling(label, t) {
+            None => self.equation.cauchy(&grad),
+            Some(Swelling { theta, .. }) => {
+                swollen_cauchy(&self.equation, self.dimension(), &grad, theta)
+            }
+        };
+        write(&sigma, self.dimension(), into);
         true
     }
 }

@@ -17,7 +17,7 @@ pub(super) fn free(problem: &Problem) -> Result<(), Violation> {
             let (label, normal) = round.on_rim(&mut random, rim);
             let event = Event { label, t: problem.moment(&mut random) };
             let now = problem.motion.derivatives(&event.label, event.t);
-            let piola = problem.equation.piola(&now.grad);
+            let piola = problem.piola(&event.label, event.t, &now);
             for i in 0..problem.dimension() {
                 let traction: f64 = piola[i].iter().zip(&normal).map(|(p, n)| p * n).sum();
                 let name = format!(

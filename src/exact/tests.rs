@@ -36,6 +36,8 @@ fn held(dimension: usize) -> Problem {
         body_force: Vec::new(),
         damping: None,
         local_damping: None,
+        heat: None,
+        expansion: None,
         at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),

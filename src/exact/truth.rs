@@ -15,6 +15,12 @@ pub trait Truth: Send + Sync {
         false
     }
 
+    /// Temperature (K) there; none from a truth that does not know it.
+    fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
+        let _ = (label, t);
+        None
+    }
+
     /// Cauchy stress (Pa) there, D * D numbers, row after row. Returns whether this truth knows
     /// it; if not, `into` is left alone.
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {

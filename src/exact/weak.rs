@@ -8,11 +8,11 @@
 use super::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
 
 /// Patches per problem.
-const PATCHES: usize = 12;
+pub(super) const PATCHES: usize = 12;
 
 /// Largest imbalance, relative to the sum of the magnitudes of the terms. The quadrature of a jump
 /// that runs obliquely through the grid of points below is good to about a thousandth.
-const TOLERANCE: f64 = 0.005;
+pub(super) const TOLERANCE: f64 = 0.005;
 
 /// Longest patch, in times that a wave takes through the body: the points below must resolve it.
 const WAVES: f64 = 4.0;
@@ -20,28 +20,49 @@ const WAVES: f64 = 4.0;
 /// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
 /// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten points
 /// on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07 %.
-struct Patch {
-    centre: Vec<f64>,
+pub(super) struct Patch {
+    pub(super) centre: Vec<f64>,
     half: Vec<f64>,
 }
 
 impl Patch {
     fn draw(random: &mut Random, problem: &Problem) -> Self {
-        let (mut centre, mut half): (Vec<f64>, Vec<f64>) = match &problem.round {
-            None => {
-                let ends = problem.from.iter().zip(&problem.to);
-                ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip()
+        let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+        match &problem.round {
+            None => Self::in_box(random, ends, problem.until, longest),
+            Some(round) => {
+                let place = round.patch(random);
+                Self::over(random, place, problem.until, longest)
             }
-            Some(round) => round.patch(random),
-        };
-        let (middle, duration) = interval(random, 0.0, problem.until, WAVES * crossing(problem));
+        }
+    }
+
+    /// A patch in a box, of a run until `until` (s), none longer than `longest` (s).
+    pub(super) fn in_box(
+        random: &mut Random,
+        (from, to): (&[f64], &[f64]),
+        until: f64,
+        longest: f64,
+    ) -> Self {
+        let ends = from.iter().zip(to);
+        let place = ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
+        Self::over(random, place, until, longest)
+    }
+
+    fn over(
+        random: &mut Random,
+        (mut centre, mut half): (Vec<f64>, Vec<f64>),
+        until: f64,
+        longest: f64,
+    ) -> Self {
+        let (middle, duration) = interval(random, 0.0, until, longest);
         centre.push(middle);
         half.push(duration);
         Self { centre, half }
     }
 
     /// Equally spaced points on the axis `a`, time being the last one.
-    fn axis(&self, a: usize, points: usize) -> Vec<Point> {
+    pub(super) fn axis(&self, a: usize, points: usize) -> Vec<Point> {
         let point = |index: usize| {
             let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
             let inside = 1.0 - xi * xi;
@@ -58,14 +79,14 @@ impl Patch {
 /// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
 /// derivative.
 #[derive(Clone, Copy)]
-struct Point {
-    at: f64,
+pub(super) struct Point {
+    pub(super) at: f64,
     factor: f64,
     slope: f64,
 }
 
 /// phi and its derivatives along every axis, where the points of all axes meet.
-fn bump(points: &[Point]) -> (f64, [f64; 4]) {
+pub(super) fn bump(points: &[Point]) -> (f64, [f64; 4]) {
     let factors = |except: usize| {
         let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
         others.map(|(_, point)| point.factor).product::<f64>()
@@ -102,10 +123,10 @@ pub(super) fn momentum(problem: &Problem) -> Result<(), Violation> {
 
 /// The sums of one component over a patch.
 #[derive(Clone, Copy, Default)]
-struct Sums {
-    gain: f64,
-    loss: f64,
-    size: f64,
+pub(super) struct Sums {
+    pub(super) gain: f64,
+    pub(super) loss: f64,
+    pub(super) size: f64,
 }
 
 fn balance(problem: &Problem, patch: &Patch) -> Result<(), Violation> {
@@ -151,7 +172,7 @@ fn sums(problem: &Problem, patch: &Patch) -> [Sums; 3] {
             let mut points = [*time; 4];
             points[..d].copy_from_slice(spot);
             let (phi, slope) = bump(&points[..=d]);
-            let piola = problem.equation.piola(&now.grad);
+            let piola = problem.piola(&labels[place], time.at, &now);
             let force = problem.force(&labels[place], loaded, &now);
             for (i, sums) in all[..d].iter_mut().enumerate() {
                 let inertia = problem.density * now.velocity[i] * slope[d];

@@ -17,7 +17,7 @@ use std::sync::{
 #[derive(Debug, Default)]
 pub struct Tally([AtomicU64; NAMES.len()]);
 
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 18] = [
     "p2g mass",
     "p2g momentum",
     "p2g internal force",
@@ -31,10 +31,15 @@ const NAMES: [&str; 13] = [
     "mass matrix",
     "g2p position",
     "p2g mass gradient",
+    "p2g scalar",
+    "p2g flow",
+    "p2g amount",
+    "g2p scalar",
+    "g2p slope",
 ];
 
 impl Tally {
-    fn add(&self, name: &str, particles: usize) {
+    pub(super) fn add(&self, name: &str, particles: usize) {
         if let Some(pass) = NAMES.iter().position(|known| *known == name) {
             self.0[pass].fetch_add(particles as u64, Relaxed);
         }
@@ -49,8 +54,8 @@ impl Tally {
 
 /// A kernel whose passes are counted.
 pub struct Counted<const D: usize> {
-    kernel: Box<dyn Kernel<D>>,
-    tally: Arc<Tally>,
+    pub(super) kernel: Box<dyn Kernel<D>>,
+    pub(super) tally: Arc<Tally>,
 }
 
 impl<const D: usize> Counted<D> {

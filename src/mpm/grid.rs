@@ -68,6 +68,11 @@ impl<const D: usize> Grid<D> {
         ]
     }
 
+    /// Gives up the fields of a motion, for a body that has none.
+    pub(super) fn forget_motion(&mut self) {
+        (self.velocity, self.force, self.acceleration) = (Vec::new(), Vec::new(), Vec::new());
+    }
+
     /// Volume of a cell (m^D).
     pub fn cell_volume(&self) -> f64 {
         (0..D).map(|_| self.h).product()

@@ -8,6 +8,7 @@ use super::{
     grid::Grid,
     moments::Moments,
     particles::Particles,
+    scalars::Scalars,
 };
 
 /// A velocity field around each particle, `v_p + C_p (x - mean_p)`, as the particle shows it to
@@ -22,7 +23,7 @@ pub struct Shown<'a, const D: usize> {
 }
 
 /// Passes of P2G and G2P for one basis.
-pub trait Kernel<const D: usize>: Send + Sync {
+pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
     fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>);
 

@@ -20,7 +20,7 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
 }
 
 /// The (stateless) kernel of basis `B`.
-struct Loops<B>(PhantomData<B>);
+pub(super) struct Loops<B>(PhantomData<B>);
 
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {

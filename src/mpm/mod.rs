@@ -18,7 +18,9 @@ mod basis;
 mod bodies;
 mod boundary;
 mod combination;
+mod conductor;
 mod counted;
+mod counted_scalars;
 mod effect;
 mod family;
 mod frame;
@@ -31,6 +33,8 @@ mod material;
 mod moments;
 mod particles;
 mod sampling;
+mod scalar_loops;
+mod scalars;
 mod scheme;
 mod setup;
 mod solver;
@@ -47,10 +51,12 @@ pub use basis::*;
 pub use bodies::Bodies;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_bodies};
+pub use conductor::Conductor;
 pub use counted::{Counted, Tally};
 pub use effect::{
-    ArtificialViscosity, BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity,
-    LocalDamping, Placement, Pressure, PressureField, SetForce, Traction, TractionField,
+    ArtificialViscosity, BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, Heat,
+    HeatSource, LocalDamping, Placement, Pressure, PressureField, ScalarField, SetForce, Thermal,
+    ThermalExpansion, ThermalFace, Traction, TractionField,
 };
 pub use frame::FrameName;
 pub use grid::Grid;
@@ -59,10 +65,11 @@ pub use loops::kernel;
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
     Hencky, J2, LinearElastic, Material, MaterialPlan, MaterialWords, NeoHookean, Newtonian,
-    Parameter, Range,
+    Parameter, Range, Rigid,
 };
 pub use moments::Moments;
 pub use particles::{Block, Particles};
+pub use scalars::Scalars;
 pub use scheme::SchemeName;
 pub use setup::Setup;
 pub use solver::Solver;

@@ -33,6 +33,8 @@ pub struct Particles<const D: usize> {
     pub domain: Vec<Matrix<D>>,
     /// Velocity gradients of the present step (1/s), where the material meets the kernel.
     pub grad_v: Vec<Matrix<D>>,
+    /// Temperatures (K); empty unless an effect keeps them.
+    pub temperature: Vec<f64>,
     /// Reference spacing of the particles on each axis (m).
     pub spacing: Vector<D>,
 }
@@ -96,6 +98,7 @@ impl<const D: usize> Particles<D> {
             moved: Vec::new(),
             def_grad: Vec::new(),
             domain: Vec::new(),
+            temperature: Vec::new(),
             grad_v: vec![Matrix::zeros(); total],
             x0,
             spacing,
@@ -179,6 +182,12 @@ impl<const D: usize> Particles<D> {
         flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
     }
 
+    /// Gives up the columns of a motion, for a body that has none.
+    pub(super) fn forget_motion(&mut self) {
+        (self.v, self.sigma, self.grad_v) = (Vec::new(), Vec::new(), Vec::new());
+        self.def_grad = Vec::new();
+    }
+
     /// Turns gradients with respect to X into those with respect to x, `grad0 v F^-1`.
     pub(super) fn push_gradients_forward(&mut self) {
         for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
@@ -200,6 +209,7 @@ impl<const D: usize> Particles<D> {
             Column::of_particles("F", &self.def_grad),
             Column::of_particles("domain", &self.domain),
             Column::of_particles("grad v", &self.grad_v),
+            Column::of_particles("T", &self.temperature),
         ];
         all.into_iter().filter(|column| column.entries > 0).collect()
     }

@@ -13,6 +13,7 @@ impl<const D: usize> Particles<D> {
         }
         samples.velocity.extend(self.v.iter().flat_map(|v| v.iter()));
         samples.weight.extend(&self.vol0);
+        samples.temperature.extend(&self.temperature);
         for (column, into) in [
             (&self.sigma, &mut samples.stress),
             (&self.def_grad, &mut samples.deformation_gradient),

@@ -36,6 +36,10 @@ impl<const D: usize> Solver<D> {
             particles.track_deformation();
         }
         let min_j = initial::complete(particles, kernel.as_ref(), material.as_mut())?;
+        for effect in effects {
+            effect.start(material.as_mut(), particles);
+        }
+        particles.strained_finite()?;
         if setup.frame == FrameName::Total {
             setup.particles.stay_in_reference();
         }
@@ -73,7 +77,12 @@ impl<const D: usize> Solver<D> {
     /// See [`Subject::step`](crate::subject::Subject::step).
     pub fn run(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
         match stage {
-            Stage::Mass => self.mass()?,
+            Stage::Mass => {
+                self.mass()?;
+                if self.started {
+                    self.advance_effects(dt)?;
+                }
+            }
             Stage::Momentum => self.momentum(),
             Stage::Force => self.force(),
             Stage::Acceleration => self.accelerate(dt),
@@ -176,6 +185,16 @@ impl<const D: usize> Solver<D> {
         for effect in &self.setup.effects {
             effect.drive_velocity(self.stands, dt, &mut self.setup.particles);
         }
+    }
+
+    /// Lets effects advance what they keep.
+    fn advance_effects(&mut self, dt: f64) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
+        for effect in effects {
+            let now = (self.time, dt);
+            self.transfers += effect.advance(now, particles, kernel.as_ref(), grid)?;
+        }
+        Ok(())
     }
 
     fn position(&mut self, dt: f64) -> Result<(), Failure> {

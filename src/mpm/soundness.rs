@@ -23,6 +23,7 @@ impl<const D: usize> Particles<D> {
         first("reference volume", &self.vol0, |vol| vol.is_finite())?;
         first("volume", &self.vol, |vol| vol.is_finite())?;
         first("velocity gradient", &self.grad_v, matrix)?;
+        first("temperature", &self.temperature, |t| t.is_finite())?;
         self.strained_finite()
     }
 

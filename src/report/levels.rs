@@ -1,7 +1,7 @@
 //! Tables of levels: what was measured on each, and what it cost.
 
 use super::table::{Table, optional, scientific};
-use crate::verify::{Axis, Convergence, History, LevelOutcome};
+use crate::verify::{Axis, Convergence, History, LevelOutcome, Quantity};
 
 /// Errors, work, drifts and Richardson's extrapolation, level by level.
 pub(super) fn tables(lines: &mut Vec<String>, study: &Convergence) {
@@ -55,9 +55,13 @@ fn level_parts(axis: Axis, level: &LevelOutcome) -> [String; 3] {
     }
 }
 
-/// Errors of the displacement (m), and of the observed velocity relative to its largest value.
+/// Errors of the displacement (m), or of the temperature (K) where that is judged; and of the observed velocity relative to its largest value.
 fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<String> {
     let run = &level.run;
+    let (errors, max_rms) = match study.of {
+        Quantity::Temperature => (run.at_end, run.largest.rms),
+        _ => (run.errors, run.max_rms),
+    };
     let error = |value| match (&run.failure, study.compared) {
         (Some(_), _) => "failed".to_owned(),
         (None, true) => scientific(value),
@@ -71,11 +75,11 @@ fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
         (true, false) => "no",
     };
     let figures = [
-        error(run.errors.rms),
-        error(run.errors.l1),
-        error(run.errors.l2),
-        error(run.errors.linf),
-        error(run.max_rms),
+        error(errors.rms),
+        error(errors.l1),
+        error(errors.l2),
+        error(errors.linf),
+        error(max_rms),
         optional(run.history.as_ref().and_then(History::relative_error).map(scientific)),
         if study.is_judged_by_another_figure() { error(level.error) } else { "-".to_owned() },
         optional(level.order.map(|order| format!("{order:.2}"))),

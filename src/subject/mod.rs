@@ -67,7 +67,7 @@ named! {
 }
 
 /// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point. A
-/// subject that has no stress or no F leaves that column empty, and cannot be judged by it.
+/// subject that has no stress, no F or no temperature leaves that column empty, and cannot be judged by it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Samples {
     /// Number of space dimensions, D.
@@ -84,6 +84,8 @@ pub struct Samples {
     pub stress: Vec<f64>,
     /// Deformation gradients F, `n * D * D` numbers, row after row; may be empty.
     pub deformation_gradient: Vec<f64>,
+    /// Temperatures, `n` numbers (K); may be empty.
+    pub temperature: Vec<f64>,
 }
 
 impl Samples {
@@ -105,6 +107,7 @@ impl Samples {
         self.weight.clear();
         self.stress.clear();
         self.deformation_gradient.clear();
+        self.temperature.clear();
     }
 }
 

@@ -138,7 +138,7 @@ mod tests {
     #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]
     #[case(MaterialPlan::Hencky { young: 100.0, poisson: 0.3 })]
     fn mpm_fem_and_truth_mean_the_same_law(#[case] plan: MaterialPlan) {
-        let truth = law::equation(&plan);
+        let truth = law::equation(&plan).expect("an elastic law");
         let bar = piola(law::own(&plan).unwrap(), &plan).unwrap();
         for stretch in [0.7, 1.0 + 1e-6, 1.4] {
             let stress = piola_of_mpm(&plan, &Matrix::<1>::new(stretch))[(0, 0)];
@@ -159,7 +159,7 @@ mod tests {
     #[case(MaterialPlan::J2 { young: 100.0, poisson: 0.3, r#yield: 5.0, hardening: 40.0 })]
     #[case(MaterialPlan::Newtonian { bulk: 100.0, viscosity: 0.5 })]
     fn mpm_and_truth_mean_the_same_law(#[case] plan: MaterialPlan) {
-        let truth = law::equation(&plan);
+        let truth = law::equation(&plan).expect("an elastic law");
         for stretch in [0.7, 0.97, 1.0, 1.03, 1.4] {
             let mut grad = [[0.0; 3]; 3];
             grad[0][0] = stretch - 1.0;

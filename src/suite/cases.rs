@@ -106,7 +106,7 @@ struct Draft {
 /// is a choice.
 fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f64)]) -> Vec<Draft> {
     let truths = [
-        plan.exact.as_ref().map(|_| (Against::Exact, "-vs-exact")),
+        plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
         plan.same_method_dt.map(|_| (Against::SameMethod, "-vs-shorter-steps")),
     ];
@@ -148,6 +148,7 @@ fn few(
             optional(mass.as_ref().map(|list| list.as_slice().len())),
             optional(frame.as_ref().map(|list| list.as_slice().len())),
         ],
+        MethodWords::Heat { basis } => vec![basis.as_slice().len()],
         MethodWords::Fem { element, mass, law, start, sampling } => vec![
             element.as_slice().len(),
             mass.as_slice().len(),
@@ -204,9 +205,11 @@ fn possible(
         MethodWords::Fem { .. } if plan.refine.axis == Axis::Particles => {
             Err(binder.complain(path, "particles per cell are refined, and an FEM has none"))
         }
-        MethodWords::Mpm { .. } if !plan.refine.has_particles() => Err(binder
-            .complain(path, "MPM needs particles, and `refine` says no `ppc`")
-            .with_help("add `ppc: 4` to `refine`")),
+        MethodWords::Mpm { .. } | MethodWords::Heat { .. } if !plan.refine.has_particles() => {
+            Err(binder
+                .complain(path, "MPM needs particles, and `refine` says no `ppc`")
+                .with_help("add `ppc: 4` to `refine`"))
+        }
         _ => Ok(()),
     }
 }

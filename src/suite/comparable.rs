@@ -6,13 +6,13 @@ use super::{
 };
 use crate::verify::Limits;
 
-/// Refuses to judge a tensor that the reference FEM does not give.
+/// Refuses to judge a quantity that the reference FEM does not give.
 pub(super) fn check(
     binder: &Binder<'_>,
     words: &ConvergenceWords,
     plan: &ConvergencePlan,
 ) -> Result<(), Complaint> {
-    if !plan.of.is_tensor() {
+    if !plan.of.is_optional() {
         return Ok(());
     }
     let name = plan.of.words();
@@ -39,10 +39,13 @@ pub(super) fn check_drift(
     limits: &Limits,
     method: Method,
 ) -> Result<(), Complaint> {
-    if limits.drift.is_empty() || !matches!(method, Method::Fem { .. }) {
+    if limits.drift.is_empty() || matches!(method, Method::Mpm { .. }) {
         return Ok(());
     }
-    let message = "the reference FEM does not give the sums whose drift is bound here";
+    let message = match method {
+        Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
+        _ => "the reference FEM does not give the sums whose drift is bound here",
+    };
     let complaint = binder.complain_key(&path.then("drift"), message);
     Err(complaint.with_help("let this expectation speak of MPM cases only"))
 }

@@ -33,7 +33,7 @@ pub(super) fn boundary<const D: usize>(
     for face in &scene.faces {
         let (axis, side) = (face.axis, side(face));
         match &face.hold {
-            Hold::Free | Hold::Periodic => {}
+            Hold::Free | Hold::Periodic | Hold::AtRest => {}
             Hold::Velocity(value) => {
                 let driven = Prescribed::face(grid, basis, axis, side, of_place_and_time(value));
                 ranked.push((0, Box::new(driven)));

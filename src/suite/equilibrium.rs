@@ -5,10 +5,10 @@
 
 use super::{
     binder::Binder,
+    coordinates::COORDINATES,
     hold::Hold,
     model::Scene,
     path::Path,
-    scene::COORDINATES,
     words::{ConvergenceWords, ExactWords, NormName},
     yaml::Complaint,
 };
@@ -32,7 +32,13 @@ pub(super) fn refuse(
     }
     // Bound without t, for the complaint that there is no t.
     let d = scene.dimension();
-    binder.vector(&path.then("displacement"), &state.displacement, d, &COORDINATES[..d])?;
+    if let Some(texts) = &state.displacement {
+        binder.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
+    }
+    if scene.heat.is_some() {
+        let message = "a body in which heat flows is not at rest: state a motion under `exact`";
+        return Err(binder.complain_key(&path, message));
+    }
     if words.run.until.as_slice().len() > 1 {
         let at = binder.alternative(&Path::top("run").then("until"), 1);
         let message = "a body comes to rest once, under the loads at the end of its run";

@@ -27,6 +27,8 @@ pub enum Hold {
     Velocity(Vec<Formula>),
     /// It is one and the same with the opposite face.
     Periodic,
+    /// The whole body is at rest.
+    AtRest,
 }
 
 impl Hold {
@@ -49,6 +51,7 @@ impl Hold {
             Self::Friction(_) => "has friction",
             Self::Velocity(_) => "has a given velocity",
             Self::Periodic => "is periodic",
+            Self::AtRest => "is at rest",
         }
     }
 }

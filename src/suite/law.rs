@@ -15,25 +15,26 @@ pub(super) fn own(material: &MaterialPlan) -> Option<EquationName> {
         MaterialPlan::LinearElastic { .. } => Some(EquationName::SmallStrain),
         MaterialPlan::NeoHookean { .. } => Some(EquationName::NeoHookean),
         MaterialPlan::Hencky { .. } => Some(EquationName::Hencky),
-        MaterialPlan::J2 { .. } | MaterialPlan::Newtonian { .. } => None,
+        MaterialPlan::J2 { .. } | MaterialPlan::Newtonian { .. } | MaterialPlan::Rigid {} => None,
     }
 }
 
 /// What suites call the equation of motion of a body of this material.
-pub(super) fn named(material: &MaterialPlan) -> EquationName {
-    match material {
+pub(super) fn named(material: &MaterialPlan) -> Option<EquationName> {
+    Some(match material {
         MaterialPlan::J2 { .. } => EquationName::J2,
         MaterialPlan::Newtonian { .. } => EquationName::Tait,
         MaterialPlan::LinearElastic { .. } => EquationName::SmallStrain,
         MaterialPlan::NeoHookean { .. } => EquationName::NeoHookean,
         MaterialPlan::Hencky { .. } => EquationName::Hencky,
-    }
+        MaterialPlan::Rigid {} => return None,
+    })
 }
 
 /// The equation of motion of a body of this material, for which motions the truth has it: J2 where
 /// loading never reverses, a fluid at rest.
-pub(super) fn equation(material: &MaterialPlan) -> Equation {
-    match *material {
+pub(super) fn equation(material: &MaterialPlan) -> Option<Equation> {
+    Some(match *material {
         MaterialPlan::LinearElastic { young, poisson } => Equation::small_strain(young, poisson),
         MaterialPlan::NeoHookean { young, poisson } => Equation::neo_hookean(young, poisson),
         MaterialPlan::Hencky { young, poisson } => Equation::hencky(young, poisson),
@@ -41,7 +42,8 @@ pub(super) fn equation(material: &MaterialPlan) -> Equation {
             Equation::j2(young, poisson, r#yield, hardening)
         }
         MaterialPlan::Newtonian { bulk, .. } => Equation::tait(bulk),
-    }
+        MaterialPlan::Rigid {} => return None,
+    })
 }
 
 /// The equation that a motion of the scene, or its state `at_rest`, is checked against; or why there
@@ -59,7 +61,8 @@ pub(super) fn solvable(
             "the stress of a viscous fluid in motion depends on its velocity",
             "state an `equilibrium`, or a motion without viscosity",
         )),
-        _ => Ok(equation(&scene.material)),
+        _ => equation(&scene.material)
+            .ok_or(("a rigid body does not move", "state a `temperature`, and no `displacement`")),
     }
 }
 
@@ -71,7 +74,10 @@ pub(super) fn manufactured(material: &MaterialPlan) -> Result<Equation, &'static
         }
         MaterialPlan::J2 { .. } => Err("plastic flow depends on the whole history of the motion"),
         MaterialPlan::Newtonian { .. } => Err("viscous stress depends on the rate of deformation"),
-        MaterialPlan::NeoHookean { .. } | MaterialPlan::Hencky { .. } => Ok(equation(material)),
+        MaterialPlan::Rigid {} => Err("a body at rest has no force"),
+        MaterialPlan::NeoHookean { .. } | MaterialPlan::Hencky { .. } => {
+            equation(material).ok_or("the law has no equation")
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::{
     cases, comparable, damping, force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
-    refine, scene, size, stability, steps, truth, truthless, viscosity,
+    refine, rest, scene, size, stability, steps, truth, truthless, viscosity,
     wording::shown,
     words::{
         ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StabilityWords,
@@ -49,7 +49,11 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     })?;
     let until = cases::until(&binder, &words.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let exact = truth::exact(&binder, &words, &scene, latest)?;
+    let conduction = rest::conduction(&binder, &words, &scene, latest)?;
+    let exact = match &conduction {
+        Some(_) => None,
+        None => truth::exact(&binder, &words, &scene, latest)?,
+    };
     let dimension = scene.dimension();
     let reference = words.reference.as_ref().map(|words| reference(&binder, words, dimension));
     let reference = reference.transpose()?.flatten();
@@ -57,7 +61,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
     law::check(&binder, &words, &scene)?;
     viscosity::check(&binder, &words, &scene)?;
     damping::check(&binder, &words, &scene, latest)?;
-    if exact.is_none() && reference.is_none() {
+    if exact.is_none() && conduction.is_none() && reference.is_none() {
         truthless::check(&binder, &words)?;
     }
     let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));
@@ -68,6 +72,7 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         observe: observe.transpose()?,
         scene,
         exact,
+        conduction,
         reference,
         same_method_dt,
         refine,

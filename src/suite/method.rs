@@ -25,6 +25,11 @@ pub enum Method {
         /// Configuration in which the basis lives.
         frame: FrameName,
     },
+    /// The reference MPM of a body at rest: heat, and no stage of mechanics.
+    Heat {
+        /// Basis functions.
+        basis: BasisName,
+    },
     /// The reference FEM.
     Fem {
         /// Shape functions.
@@ -44,7 +49,7 @@ impl Method {
     /// `mpm` or `fem`.
     pub fn subject(&self) -> &'static str {
         match self {
-            Self::Mpm { .. } => "mpm",
+            Self::Mpm { .. } | Self::Heat { .. } => "mpm",
             Self::Fem { .. } => "fem",
         }
     }
@@ -55,7 +60,7 @@ impl Method {
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
-            Self::Mpm { basis, .. } => basis.formal_order().min(2.0),
+            Self::Mpm { basis, .. } | Self::Heat { basis } => basis.formal_order().min(2.0),
             Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
             Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
         }
@@ -87,6 +92,12 @@ impl Method {
                 }
                 owned(rows)
             }
+            Self::Heat { basis } => owned(vec![
+                ("basis", basis.name()),
+                ("temperature", "increments, shown with its slope"),
+                ("capacity matrix", "lumped (row sum)"),
+                ("in time", "forward Euler"),
+            ]),
             Self::Fem { element, mass, law, start, sampling } => owned(vec![
                 ("element", element.name()),
                 ("mass matrix", mass.name()),

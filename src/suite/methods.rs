@@ -34,6 +34,10 @@ pub(super) fn methods(words: &MethodWords, own_law: EquationName) -> Vec<(String
             }
             all
         }
+        MethodWords::Heat { basis } => named(basis, BasisName::name)
+            .into_iter()
+            .map(|(name, basis)| (format!("heat{name}"), Method::Heat { basis }))
+            .collect(),
         MethodWords::Fem { element, mass, law, start, sampling } => {
             let mut all = Vec::new();
             let laws = choices(law.as_ref(), own_law, EquationName::name);

@@ -6,11 +6,12 @@ use super::{
     hold::Hold,
     method::Method,
     plan::RefinePlan,
+    scene_heat::SceneHeat,
     stability::StabilityPlan,
     words::{CrossingLevels, EquationName, NormName},
 };
 use crate::{
-    exact::{Problem, Region, Round, formula::Formula},
+    exact::{Expansion, Problem, Region, Round, formula::Formula, heat::Conduction},
     fem::{Element, Mass},
     mpm::{MaterialPlan, Placement},
     verify::{Expectation, Quantity},
@@ -53,6 +54,8 @@ pub struct ConvergencePlan {
     pub scene: Scene,
     /// The problem that the formulas solve, already checked; absent if only a reference is given.
     pub exact: Option<Problem>,
+    /// The heat problem that a temperature solves in a body at rest, already checked.
+    pub conduction: Option<Conduction>,
     /// A fine computation to compare with.
     pub reference: Option<ReferencePlan>,
     /// Time step (s) of the same method, to compare with in a study of time steps.
@@ -141,6 +144,10 @@ pub struct Scene {
     /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
     /// field.
     pub contact: Option<f64>,
+    /// Conduction of heat.
+    pub heat: Option<SceneHeat>,
+    /// What temperature does to the body.
+    pub expansion: Option<Expansion>,
     /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
     pub initial_displacement: Vec<Formula>,
     /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.
@@ -196,5 +203,15 @@ impl ConvergencePlan {
     /// The problem whose force is manufactured, if it is.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
+    }
+
+    /// Whether the truth is given by formulas.
+    pub fn has_formulas(&self) -> bool {
+        self.exact.is_some() || self.conduction.is_some()
+    }
+
+    /// The heat problem that the formulas solve, of a body at rest or in motion.
+    pub fn heat_problem(&self) -> Option<&Conduction> {
+        self.conduction.as_ref().or_else(|| self.exact.as_ref()?.heat.as_ref())
     }
 }

@@ -38,6 +38,9 @@ impl Scene {
         self.bodies.iter_mut().for_each(|body| body.remove(effect));
         match effect {
             EffectName::Gravity => self.gravity = None,
+            // What needs heat goes with it.
+            EffectName::Heat => (self.heat, self.expansion) = (None, None),
+            EffectName::ThermalExpansion => self.expansion = None,
             EffectName::BodyForce => self.body_force = None,
             EffectName::Damping => self.damping = None,
             EffectName::LocalDamping => self.local_damping = None,

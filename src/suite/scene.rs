@@ -3,13 +3,17 @@
 use super::{
     binder::Binder,
     bodies::{self, Listed},
-    body, damping,
+    body,
+    coordinates::coordinates_and_time,
+    damping,
+    expansion::expansion,
+    heat::heat,
     hold::{self, FACES},
     law,
     material::material,
     model::{Scene, SceneFace},
     path::Path,
-    sets, surface, viscosity,
+    rest, sets, surface, viscosity,
     wording::shown,
     words::{LoadWords, SceneWords, SetWords},
     yaml::{Complaint, NumberText},
@@ -18,14 +22,6 @@ use crate::{
     exact::{Region, formula::Formula},
     mpm::{EffectName, MaterialPlan, Placement},
 };
-
-/// Names of the coordinates in formulas.
-pub(super) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
-
-/// The coordinates of `dimension` dimensions, followed by t.
-pub(super) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
-    COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
-}
 
 /// Checks the scene of a suite.
 pub(super) fn scene(binder: &Binder<'_>, words: &SceneWords) -> Result<Scene, Complaint> {
@@ -87,11 +83,16 @@ fn body(binder: &Binder<'_>, own: &Listed<'_>, words: &SceneWords) -> Result<Sce
         damping: None,
         local_damping: None,
         viscosity: None,
+        heat: None,
+        expansion: None,
         initial_velocity: initial_velocity(binder, own, dimension)?,
         bodies: Vec::new(),
         contact: None,
     };
     combined(binder, &path.then("loads"), &words.loads)?;
+    if scene.is_at_rest() {
+        rest::settle(binder, &path, words, &mut scene.faces)?;
+    }
     for (i, load) in words.loads.iter().enumerate() {
         add_load(binder, &path.then("loads").then(i), load, &mut scene)?;
     }
@@ -227,6 +228,13 @@ fn add_load(
             let path = path.then("force");
             let set = sets::free(binder, &path.then("on"), on, &mut scene.sets)?;
             set.force = Some(binder.vector(&path.then("value"), value, d, &["t"])?);
+        }
+        LoadWords::Heat(words) => {
+            scene.heat = Some(heat(binder, &path.then("heat"), words, scene)?);
+        }
+        LoadWords::ThermalExpansion(words) => {
+            let path = path.then("thermal_expansion");
+            scene.expansion = Some(expansion(binder, &path, words, scene)?);
         }
         LoadWords::Velocity { on, value } => {
             let path = path.then("velocity");

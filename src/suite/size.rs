@@ -28,7 +28,7 @@ pub(super) fn check(
     places: &[Place],
 ) -> Result<(), Complaint> {
     reference(binder, plan)?;
-    if !words.methods.iter().any(|method| matches!(method, MethodWords::Mpm { .. })) {
+    if words.methods.iter().all(|method| matches!(method, MethodWords::Fem { .. })) {
         return Ok(());
     }
     for (level, place) in plan.refine.levels.iter().zip(places) {

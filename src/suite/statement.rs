@@ -2,6 +2,8 @@
 
 use super::{
     amplitude::amplitude,
+    equation_text::equation,
+    heat_statement,
     hold::Hold,
     model::{Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite},
     plan::{LevelPlan, RefinePlan},
@@ -13,14 +15,6 @@ use crate::{
     mpm::{MaterialPlan, Parameter},
     verify::Axis,
 };
-
-const SMALL_STRAIN: &str = "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)";
-const NEO_HOOKEAN: &str =
-    "neo-Hookean, rho0 u_tt = Div P + rho0 b, P = lambda ln(J) F^-T + mu (F - F^-T)";
-const J2: &str = "J2 under loading that never reverses, rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                  tau = K tr(eps) I + s dev(eps), eps = ln(F F^T)/2";
-const TAIT: &str = "Tait, rho0 u_tt = Div P + rho0 b, P = -p J F^-T, p = K/7 (J^-7 - 1)";
-const HENCKY: &str = "Hencky, rho0 u_tt = Div P + rho0 b, P = (lambda ln(J) I + mu ln(F F^T)) F^-T";
 
 /// Rows for the whole suite.
 pub fn rows(suite: &Suite) -> Vec<(String, String)> {
@@ -73,6 +67,7 @@ fn push(rows: &mut Rows, key: &str, value: &str) {
 
 fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
     scene(&plan.scene, rows);
+    rows.extend(heat_statement::truth(plan));
     if let Some(problem) = &plan.exact {
         if problem.manufactured {
             push(rows, "motion", &problem.motion.source());
@@ -194,6 +189,7 @@ fn scene(scene: &Scene, rows: &mut Rows) {
             (None, Hold::Fixed) => "fixed".to_owned(),
             (None, Hold::Roller) => "roller".to_owned(),
             (None, Hold::Periodic) => "periodic".to_owned(),
+            (None, Hold::AtRest) => String::new(),
         };
         push(rows, face.name, &state);
     }
@@ -220,6 +216,8 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     if let Some(share) = scene.local_damping {
         push(rows, "local damping", &format!("{} of the force out of balance", shown(share)));
     }
+    rows.extend(scene.heat.iter().flat_map(heat_statement::scene));
+    rows.extend(scene.expansion.iter().map(heat_statement::expansion));
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
     if one {
         push(rows, "initial velocity", &sources(&scene.initial_velocity));
@@ -237,17 +235,6 @@ fn material(plan: &MaterialPlan) -> String {
 
 fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
-}
-
-/// The problem that a formula solves in a body of this material.
-fn equation(material: &MaterialPlan) -> &'static str {
-    match material {
-        MaterialPlan::NeoHookean { .. } => NEO_HOOKEAN,
-        MaterialPlan::Hencky { .. } => HENCKY,
-        MaterialPlan::J2 { .. } => J2,
-        MaterialPlan::Newtonian { .. } => TAIT,
-        MaterialPlan::LinearElastic { .. } => SMALL_STRAIN,
-    }
 }
 
 fn internal_force(plan: &ForcePlan, rows: &mut Rows) {

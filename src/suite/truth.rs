@@ -2,12 +2,13 @@
 
 use super::{
     binder::Binder,
+    coordinates::coordinates_and_time,
     equilibrium,
+    heat::{self, Rest},
     hold::Hold,
     law, meetings,
     model::{Scene, SceneFace},
     path::Path,
-    scene::coordinates_and_time,
     words::{ConvergenceWords, EquationName, ExactWords},
     yaml::{Complaint, NumberText},
 };
@@ -76,9 +77,16 @@ fn solution(
     until: f64,
 ) -> Result<Problem, Complaint> {
     let tolerance = tolerance(binder, path, words.tolerance.as_ref())?;
-    let equation = equation(binder, &path.then("equation"), words.equation, (scene, at_rest))?;
-    let motion = motion(binder, path, &words.displacement, scene.dimension())?;
-    Ok(Problem { tolerance, ..problem(scene, equation, motion, until) })
+    let (Some(name), Some(texts)) = (words.equation, &words.displacement) else {
+        let message = "a body that moves needs an `equation` and a `displacement`";
+        return Err(binder.complain_key(path, message));
+    };
+    let equation = equation(binder, &path.then("equation"), name, (scene, at_rest))?;
+    let motion = motion(binder, path, texts, scene.dimension())?;
+    let motion_in_heat = scene.is_finite().then(|| motion.clone());
+    let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
+    let heat = heat::problem(binder, path, words.temperature.as_ref(), scene, rest)?;
+    Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
 }
 
 /// The equation that a formula is checked against, which must be that of the scene's material.
@@ -88,7 +96,7 @@ fn equation(
     name: EquationName,
     (scene, at_rest): (&Scene, bool),
 ) -> Result<Equation, Complaint> {
-    if law::named(&scene.material) == name {
+    if law::named(&scene.material) == Some(name) {
         let known = law::solvable(scene, at_rest);
         return known.map_err(|(message, help)| binder.complain(path, message).with_help(help));
     }
@@ -140,15 +148,15 @@ fn manufactured(
                     have the force checked";
         return Err(binder.complain_key(&path, message).with_help(help));
     }
-    let problem = Problem {
-        manufactured: true,
-        ..problem(
-            scene,
-            equation,
-            motion(binder, &path, &made.displacement, scene.dimension())?,
-            until,
-        )
+    let Some(texts) = &made.displacement else {
+        let message = "a body that moves needs a `displacement`";
+        return Err(binder.complain_key(&path, message));
     };
+    let motion = motion(binder, &path, texts, scene.dimension())?;
+    let rest =
+        Rest { motion: Some(motion.clone()), manufactured: true, until, tolerance: TOLERANCE };
+    let heat = heat::problem(binder, &path, made.temperature.as_ref(), scene, rest)?;
+    let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
     check(binder, &path, &problem)?;
     Ok(Some(problem))
 }
@@ -165,6 +173,8 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         body_force: scene.body_force.clone().unwrap_or_default(),
         damping: scene.damping.clone(),
         local_damping: scene.local_damping,
+        heat: None,
+        expansion: scene.expansion,
         at_rest: false,
         manufactured: false,
         faces: scene.faces.iter().map(|words| face(scene, words)).collect(),
@@ -179,6 +189,9 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
 }
 
 fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Complaint> {
+    if let Some(problem) = &problem.heat {
+        heat::check(binder, path, problem)?;
+    }
     problem.check().map_err(|violation| no_solution(binder, path, &violation))
 }
 
@@ -209,7 +222,7 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-fn tolerance(
+pub(super) fn tolerance(
     binder: &Binder<'_>,
     path: &Path,
     text: Option<&NumberText>,
@@ -226,7 +239,7 @@ fn tolerance(
 
 fn face(scene: &Scene, face: &SceneFace) -> Face {
     let condition = match (&face.hold, &face.traction, &face.pressure) {
-        (Hold::Fixed, ..) => Condition::Fixed,
+        (Hold::Fixed | Hold::AtRest, ..) => Condition::Fixed,
         (Hold::Roller, ..) => Condition::Roller,
         (Hold::Friction(coefficient), ..) => Condition::Friction(*coefficient),
         (Hold::Velocity(value), ..) => Condition::Velocity(value.clone()),

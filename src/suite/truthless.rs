@@ -27,7 +27,7 @@ impl Truth for Unknown {
 
 /// Whether a suite compares with nothing.
 pub(super) fn is_truthless(plan: &ConvergencePlan) -> bool {
-    plan.exact.is_none() && plan.reference.is_none()
+    !plan.has_formulas() && plan.reference.is_none()
 }
 
 /// Refuses a suite without a truth that asks for something which takes one.

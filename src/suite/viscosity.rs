@@ -28,6 +28,7 @@ fn wave_speed(material: &MaterialPlan, density: f64) -> f64 {
             lambda + 2.0 * mu
         }
         MaterialPlan::Newtonian { bulk, .. } => bulk,
+        MaterialPlan::Rigid {} => 0.0,
     };
     (modulus / density).sqrt()
 }

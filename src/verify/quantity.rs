@@ -19,6 +19,8 @@ named! {
         Stress = "stress",
         /// F = dx/dX.
         DeformationGradient = "deformation_gradient",
+        /// Temperature (K).
+        Temperature = "temperature",
     }
 }
 
@@ -35,12 +37,23 @@ impl Quantity {
             Self::Velocity => "m/s",
             Self::Stress => "Pa",
             Self::DeformationGradient => "",
+            Self::Temperature => "K",
         }
     }
 
-    /// Whether each label has a D x D tensor, which not every subject and not every truth has.
-    pub fn is_tensor(self) -> bool {
-        matches!(self, Self::Stress | Self::DeformationGradient)
+    /// Whether it is no motion, but what comes with it: not every subject and not every truth has it.
+    pub fn is_optional(self) -> bool {
+        matches!(self, Self::Stress | Self::DeformationGradient | Self::Temperature)
+    }
+
+    /// Numbers at each label in `d` dimensions.
+    fn components(self, d: usize) -> usize {
+        match self {
+            Self::Displacement | Self::Velocity => d,
+            Self::Stress | Self::DeformationGradient => d * d,
+            // Without a dimension there is nothing to compare, be it a number.
+            Self::Temperature => d.min(1),
+        }
     }
 
     /// The column of `samples`.
@@ -50,6 +63,7 @@ impl Quantity {
             Self::Velocity => &samples.velocity,
             Self::Stress => &samples.stress,
             Self::DeformationGradient => &samples.deformation_gradient,
+            Self::Temperature => &samples.temperature,
         }
     }
 
@@ -60,6 +74,9 @@ impl Quantity {
             Self::Velocity => truth.velocity(label, t, into),
             Self::Stress => return truth.stress(label, t, into),
             Self::DeformationGradient => return truth.deformation_gradient(label, t, into),
+            Self::Temperature => {
+                return truth.temperature(label, t).map(|value| into[0] = value).is_some();
+            }
         }
         true
     }
@@ -69,7 +86,7 @@ impl Quantity {
 /// the truth has no such quantity.
 pub fn errors_of(quantity: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
     let d = samples.dimension;
-    let components = if quantity.is_tensor() { d * d } else { d };
+    let components = quantity.components(d);
     let column = quantity.column(samples);
     if components == 0 || column.len() != components * samples.len() {
         return Norms::NONE;
@@ -105,6 +122,9 @@ mod tests {
             into.copy_from_slice(&[0.0, 7.0, 7.0, 0.0]);
             true
         }
+        fn temperature(&self, _: &[f64], _: f64) -> Option<f64> {
+            Some(300.0)
+        }
     }
 
     /// Two labels whose every column is off by a vector of length 5, or a tensor of norm 5.
@@ -117,6 +137,7 @@ mod tests {
             weight: vec![1.0, 3.0],
             stress: vec![3.0, 7.0, 7.0, 4.0, 0.0, 10.0, 11.0, 0.0],
             deformation_gradient: vec![1.0; 8],
+            temperature: vec![305.0, 295.0],
         }
     }
 
@@ -124,6 +145,7 @@ mod tests {
     #[case(Quantity::Displacement)]
     #[case(Quantity::Velocity)]
     #[case(Quantity::Stress)]
+    #[case(Quantity::Temperature)]
     fn every_component_counts(#[case] quantity: Quantity) {
         let Norms { rms, l1, l2, linf } = errors_of(quantity, &off_by_five(), &Sheared, 1.0);
         for norm in [rms, l1, l2, linf] {
@@ -134,6 +156,7 @@ mod tests {
     #[rstest]
     #[case::a_truth_without_it(off_by_five(), Quantity::DeformationGradient)]
     #[case::a_subject_without_it(Samples { stress: Vec::new(), ..off_by_five() }, Quantity::Stress)]
+    #[case::no_heat(Samples { temperature: Vec::new(), ..off_by_five() }, Quantity::Temperature)]
     #[case::half_a_column(
         Samples { stress: vec![0.0, 7.0, 7.0, 0.0], ..off_by_five() },
         Quantity::Stress

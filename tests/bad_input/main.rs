@@ -10,6 +10,7 @@ mod equilibria;
 mod expectations;
 mod formulas;
 mod grammar;
+mod heat;
 mod laws;
 mod materials;
 mod numbers;

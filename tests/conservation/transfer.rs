@@ -38,6 +38,7 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
         moved: Vec::new(),
         domain: vec![Matrix::identity() * (0.5 * H); rows.len()],
         grad_v: vec![Matrix::zeros(); rows.len()],
+        temperature: Vec::new(),
         spacing: Vector::from_element(H),
     }
 }

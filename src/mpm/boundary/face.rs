@@ -12,7 +12,7 @@ pub enum Side {
 }
 
 /// The nodes of `grid` on one face, in their order.
-pub(super) fn nodes<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Vec<usize> {
+pub(in crate::mpm) fn nodes<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Vec<usize> {
     let index = match side {
         Side::Low => 0,
         Side::High => grid.counts[axis] - 1,

@@ -15,6 +15,7 @@ mod roller;
 
 pub use contract::{Advance, Boundary};
 pub use face::Side;
+pub(super) use face::nodes;
 pub use fixed::Fixed;
 pub use friction::Friction;
 pub(super) use prescribed::continued;

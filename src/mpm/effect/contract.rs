@@ -2,8 +2,8 @@
 
 use super::name::EffectName;
 use crate::{
-    mpm::{grid::Grid, kernel::Kernel, particles::Particles},
-    subject::Column,
+    mpm::{grid::Grid, kernel::Kernel, material::Material, particles::Particles},
+    subject::{Column, Failure},
 };
 
 /// A pass between stages. Hooks are empty unless an effect fills them.
@@ -52,9 +52,28 @@ pub trait Effect<const D: usize>: Send {
     /// all of them.
     fn drive_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
 
+    /// Completes the initial state of the particles, once their columns are there.
+    fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
+
     /// Called before the material makes stresses of strains.
     fn before_stress(&mut self, _particles: &mut Particles<D>) {}
 
     /// Called after it.
     fn after_stress(&mut self, _particles: &mut Particles<D>) {}
+
+    /// Takes what the effect itself keeps of the particles from `t` to `t + dt` (s). Called once a
+    /// step, with the particles at their places at `t` and the masses of the grid up to date. Returns
+    /// the particle-node pairs visited.
+    ///
+    /// # Errors
+    /// What became of the first particle that cannot go on.
+    fn advance(
+        &mut self,
+        _t_and_dt: (f64, f64),
+        _particles: &mut Particles<D>,
+        _kernel: &dyn Kernel<D>,
+        _grid: &Grid<D>,
+    ) -> Result<u64, Failure> {
+        Ok(0)
+    }
 }

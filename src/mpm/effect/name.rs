@@ -63,6 +63,10 @@ effects! {
     LocalDamping = "local_damping";
     /// A pressure against compression, for shocks.
     ArtificialViscosity = "artificial_viscosity";
+    /// Conduction of heat, with a temperature on the particles and its own fields on the grid.
+    Heat = "heat";
+    /// Strain that temperature makes.
+    ThermalExpansion = "thermal_expansion", needs [Heat];
 }
 
 impl EffectName {

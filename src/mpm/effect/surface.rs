@@ -43,7 +43,7 @@ pub(super) struct Surface {
     /// Sign of the outward normal along the axis.
     outwards: f64,
     /// Share of the face that each particle stands for (m^(D-1)).
-    area: f64,
+    pub(super) area: f64,
     /// Half a spacing along the axis (m).
     depth: f64,
     /// How far the numbers of particles go down from this layer to the one below it.

@@ -42,6 +42,7 @@ fn modulus(plan: MaterialPlan) -> f64 {
             lambda + 2.0 * mu
         }
         MaterialPlan::Newtonian { bulk, .. } => bulk,
+        MaterialPlan::Rigid {} => 0.0,
     }
 }
 
@@ -62,6 +63,7 @@ fn energy(plan: MaterialPlan, f: &Matrix<3>) -> Option<f64> {
             Some(0.5 * lambda * log * log + mu * strain.norm_squared())
         }
         MaterialPlan::Newtonian { bulk, .. } => Some(bulk / 7.0 * (libm::pow(j, -6.0) / 6.0 + j)),
+        MaterialPlan::Rigid {} => Some(0.0),
     }
 }
 
@@ -71,9 +73,11 @@ fn energy(plan: MaterialPlan, f: &Matrix<3>) -> Option<f64> {
 fn of_deformation(plan: MaterialPlan) -> bool {
     match plan {
         MaterialPlan::LinearElastic { .. } | MaterialPlan::Newtonian { .. } => false,
-        MaterialPlan::NeoHookean { .. } | MaterialPlan::Hencky { .. } | MaterialPlan::J2 { .. } => {
-            true
-        }
+        // No stress at all is the same stress for every F.
+        MaterialPlan::NeoHookean { .. }
+        | MaterialPlan::Hencky { .. }
+        | MaterialPlan::J2 { .. }
+        | MaterialPlan::Rigid {} => true,
     }
 }
 

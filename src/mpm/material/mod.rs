@@ -13,6 +13,7 @@ mod neo_hookean;
 mod newtonian;
 mod parameter;
 mod registry;
+mod rigid;
 #[cfg(test)]
 mod specimen;
 mod spectral;
@@ -24,6 +25,7 @@ pub use linear_elastic::LinearElastic;
 pub use neo_hookean::NeoHookean;
 pub use newtonian::Newtonian;
 pub use parameter::{Parameter, Range};
+pub use rigid::Rigid;
 
 use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
 use registry::{key, materials};
@@ -34,6 +36,7 @@ materials! {
     "hencky" => Hencky { young: YOUNG, poisson: POISSON },
     "j2" => J2 { young: YOUNG, poisson: POISSON, r#yield: YIELD, #[serde(default)] hardening: HARDENING },
     "newtonian" => Newtonian { bulk: BULK, viscosity: VISCOSITY },
+    "rigid" => Rigid {},
 }
 
 impl MaterialPlan {

@@ -9,7 +9,7 @@
 /// and zero. The density, which every material has and no law reads, is added to the words.
 macro_rules! materials {
     ($($name:literal => $member:ident {
-        $($(#[$field_meta:meta])* $field:ident: $parameter:ident),+ $(,)?
+        $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
     },)+) => {
         /// What suites write for a material: its name, its parameters and its density, each
         /// an `N`, which stands for a number.
@@ -24,7 +24,7 @@ macro_rules! materials {
                         $(#[$field_meta])*
                         #[doc = concat!("See [`", stringify!($member), "::new`].")]
                         $field: N,
-                    )+
+                    )*
                     /// Reference density (kg/m^D).
                     density: N,
                 },
@@ -40,7 +40,7 @@ macro_rules! materials {
                     $(
                         #[doc = concat!("See [`", stringify!($member), "::new`].")]
                         $field: f64,
-                    )+
+                    )*
                 },
             )+
         }
@@ -63,10 +63,10 @@ macro_rules! materials {
                 mut number: impl FnMut(&'static str, &Parameter, &N) -> Result<f64, E>,
             ) -> Result<(MaterialPlan, f64), E> {
                 match self {
-                    $(Self::$member { $($field,)+ density } => {
-                        $(let $field = number(key(stringify!($field)), &$parameter, $field)?;)+
+                    $(Self::$member { $($field,)* density } => {
+                        $(let $field = number(key(stringify!($field)), &$parameter, $field)?;)*
                         let density = number("density", &DENSITY, density)?;
-                        Ok((MaterialPlan::$member { $($field),+ }, density))
+                        Ok((MaterialPlan::$member { $($field),* }, density))
                     })+
                 }
             }
@@ -83,21 +83,21 @@ macro_rules! materials {
             /// Every parameter with its value, in the order of registration.
             pub fn parameters(&self) -> Vec<(Parameter, f64)> {
                 match self {
-                    $(Self::$member { $($field),+ } => vec![$(($parameter, *$field)),+],)+
+                    $(Self::$member { $($field),* } => vec![$(($parameter, *$field)),*],)+
                 }
             }
 
             /// Builds the material for a body free of stress.
             pub fn build<const D: usize>(&self) -> Box<dyn Material<D>> {
                 match *self {
-                    $(Self::$member { $($field),+ } => Box::new($member::new($($field),+)),)+
+                    $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
                 }
             }
 
             /// One of every registered material: what enrols them in the law tests.
             #[cfg(test)]
             fn every(value: impl Fn(&Parameter) -> f64) -> Vec<Self> {
-                vec![$(Self::$member { $($field: value(&$parameter)),+ }),+]
+                vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }
         }
     };

@@ -7,12 +7,7 @@ use super::{
 use crate::{
     exact::Random,
     subject::Perturbable,
-    suite::{
-        dispatch::{Body, perturbable},
-        method::Method,
-        plan::Extent,
-        start::Initial,
-    },
+    suite::{dispatch::perturbable, method::Method, plan::Extent, setup::Body, start::Initial},
     verify::{
         CaseOutcome, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow,
         StabilityStudy, Study, Trial, amplification, spectral_radius, stability_limit, trial,
@@ -126,6 +121,7 @@ impl Job<'_> {
             own: &setting.scene,
             initial: Initial::stated(&setting.scene),
             manufactured: None,
+            heat: None,
             keeps_deformation: false,
             placed: setting.placed.clone(),
         };

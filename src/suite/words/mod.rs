@@ -10,16 +10,19 @@ mod refine;
 mod scene;
 mod stability;
 mod transfer;
+mod truth;
 
 pub(in crate::suite) use drift::DriftWords;
 pub(in crate::suite) use force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
 pub(in crate::suite) use head::{Head, StudyName};
 pub(in crate::suite) use refine::{RefineWords, RunWords};
 pub(in crate::suite) use scene::{
-    AnnulusWords, BodyWords, BoundaryWords, BoxWords, LoadWords, OneBodyWords, RoundWords,
-    SceneWords, SetWords, ViscosityWords,
+    AnnulusWords, BodyWords, BoundaryWords, BoxWords, ExpansionWords, HeatWords, LoadWords,
+    OneBodyWords, RoundWords, SceneWords, SetWords, ThermalWords, ViscosityWords,
 };
 pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
+pub use truth::EquationName;
+pub(in crate::suite) use truth::{ExactWords, ManufacturedWords};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::{
@@ -72,39 +75,6 @@ impl ConvergenceWords {
     }
 }
 
-/// A solution, or the state in which the body comes to rest.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::suite) struct ExactWords {
-    pub(in crate::suite) equation: EquationName,
-    pub(in crate::suite) displacement: Vec<NumberText>,
-    pub(in crate::suite) tolerance: Option<NumberText>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::suite) struct ManufacturedWords {
-    pub(in crate::suite) displacement: Vec<NumberText>,
-}
-
-named! {
-    /// Equations of motion, by their law between stress and strain.
-    pub enum EquationName {
-        /// `P = E u_X`: the linear problem of the talk.
-        SmallStrain = "small_strain",
-        /// `P = E ln F`: what the rate form of the original MPM integrates to in 1-D.
-        LogStrain = "log_strain",
-        /// `P = lambda ln(J) F^-T + mu (F - F^-T)`.
-        NeoHookean = "neo_hookean",
-        /// `P = (lambda ln(J) I + mu ln(F F^T)) F^-T`.
-        Hencky = "hencky",
-        /// J2 plasticity in uniaxial strain, under loading that never reverses.
-        J2 = "j2",
-        /// `P = -p J F^-T`, `p = K/7 (J^-7 - 1)`: a fluid at rest.
-        Tait = "tait",
-    }
-}
-
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct ReferenceWords {
@@ -147,6 +117,8 @@ pub(in crate::suite) enum MethodWords {
         start: Option<OneOrMany<Start>>,
         sampling: Option<OneOrMany<Sampling>>,
     },
+    /// MPM of a body at rest, in which heat flows.
+    Heat { basis: OneOrMany<BasisName> },
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]

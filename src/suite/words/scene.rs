@@ -119,6 +119,48 @@ pub(in crate::suite) enum LoadWords {
     Force { on: String, value: Vec<NumberText> },
     /// Velocity of a set (m/s), formulas of the coordinates and t.
     Velocity { on: String, value: Vec<NumberText> },
+    /// Conduction of heat.
+    Heat(HeatWords),
+    /// Strain that temperature makes.
+    ThermalExpansion(ExpansionWords),
+}
+
+/// Thermal expansion.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct ExpansionWords {
+    /// alpha (1/K).
+    pub(in crate::suite) coefficient: NumberText,
+    /// Temperature (K) at which a body that is not deformed is free of stress.
+    pub(in crate::suite) reference: NumberText,
+}
+
+/// Conduction of heat, and what holds on the faces.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct HeatWords {
+    pub(in crate::suite) conductivity: NumberText,
+    pub(in crate::suite) capacity: NumberText,
+    /// Heat that arises (W/kg), a formula of the coordinates and t.
+    pub(in crate::suite) source: Option<NumberText>,
+    /// Initial temperature (K), a formula of the coordinates.
+    pub(in crate::suite) initial: Option<NumberText>,
+    #[serde(default)]
+    pub(in crate::suite) boundary: Ordered<ThermalWords>,
+}
+
+/// What holds on a face; formulas are of the coordinates and t.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(in crate::suite) enum ThermalWords {
+    /// No heat flows.
+    Insulated,
+    /// The temperature (K).
+    Temperature(NumberText),
+    /// Heat that enters (W/m^(D-1)).
+    Flux(NumberText),
+    /// `coefficient (ambient - T)` enters.
+    Convection { coefficient: NumberText, ambient: NumberText },
 }
 
 /// Coefficients of the artificial viscosity.
@@ -142,6 +184,8 @@ impl LoadWords {
             Self::Pressure { .. } => EffectName::Pressure,
             Self::Force { .. } => EffectName::SetForce,
             Self::Velocity { .. } => EffectName::Driven,
+            Self::Heat(_) => EffectName::Heat,
+            Self::ThermalExpansion(_) => EffectName::ThermalExpansion,
         }
     }
 }

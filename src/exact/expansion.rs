@@ -1,0 +1,194 @@
+//! Thermal expansion in the equation of motion.
+//!
+//! With the stretch `theta = 1 + alpha (T - T0)` that temperature makes on every axis,
+//! `P = theta^(D-1) P_e(F/theta)`: the derivative of the energy `theta^D W(F/theta)` of the expanded
+//! body. In a theory of small strains it is `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
+
+use super::{
+    equation::Equation,
+    formula::{Number, Slope},
+    heat::Warmth,
+    tensor::{Tensor, sum, tensor, unit},
+};
+
+/// Expansion by temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expansion {
+    /// alpha (1/K).
+    pub coefficient: f64,
+    /// T0 (K), at which a body that is not deformed is free of stress.
+    pub reference: f64,
+}
+
+/// theta and its gradient (1/m).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Swelling {
+    pub(super) theta: f64,
+    grad: [f64; 3],
+}
+
+impl Expansion {
+    /// What a temperature makes.
+    pub(super) fn of(&self, now: &Warmth) -> Swelling {
+        Swelling {
+            theta: 1.0 + self.coefficient * (now.value - self.reference),
+            grad: now.grad.map(|slope| self.coefficient * slope),
+        }
+    }
+}
+
+/// P (Pa) in D dimensions.
+fn piola<T: Number, const D: usize>(
+    equation: &Equation,
+    grad: &Tensor<T, D>,
+    theta: T,
+) -> Tensor<T, D> {
+    if let Some(modulus) = equation.swelling_modulus() {
+        let pressure = T::from(modulus) * (theta - T::from(1.0));
+        let strained = equation.piola(grad);
+        return tensor(|i, j| strained[i][j] - pressure * unit(i, j));
+    }
+    let elastic: Tensor<T, D> = tensor(|i, j| (grad[i][j] + unit(i, j)) / theta - unit(i, j));
+    let area = (1..D).fold(T::from(1.0), |area, _| area * theta);
+    let stress = equation.piola(&elastic);
+    tensor(|i, j| area * stress[i][j])
+}
+
+/// P (Pa) of a body in `dimension` dimensions; what lies beyond is zero.
+pub(super) fn swollen_piola(
+    equation: &Equation,
+    dimension: usize,
+    grad: &Tensor<f64>,
+    theta: f64,
+) -> Tensor<f64> {
+    match dimension {
+        1 => {
+            let bar: [[f64; 1]; 1] = piola(equation, &block(grad), theta);
+            embedded(&bar)
+        }
+        2 => {
+            let plane: [[f64; 2]; 2] = piola(equation, &block(grad), theta);
+            embedded(&plane)
+        }
+        _ => piola(equation, grad, theta),
+    }
+}
+
+/// Cauchy stress (Pa): that of F/theta, or P itself where strains are small.
+pub(super) fn swollen_cauchy(
+    equation: &Equation,
+    dimension: usize,
+    grad: &Tensor<f64>,
+    theta: f64,
+) -> Tensor<f64> {
+    if equation.swelling_modulus().is_some() {
+        return swollen_piola(equation, dimension, grad, theta);
+    }
+    let inside = |i: usize, j: usize| i.max(j) < dimension;
+    let elastic: Tensor<f64> = tensor(|i, j| {
+        if inside(i, j) {
+            (grad[i][j] + unit::<f64>(i, j)) / theta - unit::<f64>(i, j)
+        } else {
+            0.0
+        }
+    });
+    equation.cauchy(&elastic)
+}
+
+/// Div P (N/m3), as [`Equation::divergence`] gives it without expansion.
+pub(super) fn swollen_divergence(
+    equation: &Equation,
+    dimension: usize,
+    (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+    swelling: &Swelling,
+) -> [f64; 3] {
+    let all = (grad, second);
+    match dimension {
+        1 => {
+            let [x] = divergence_in(equation, all, swelling);
+            [x, 0.0, 0.0]
+        }
+        2 => {
+            let [x, y] = divergence_in(equation, all, swelling);
+            [x, y, 0.0]
+        }
+        _ => divergence_in(equation, all, swelling),
+    }
+}
+
+fn divergence_in<const D: usize>(
+    equation: &Equation,
+    (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+    swelling: &Swelling,
+) -> [f64; D] {
+    let slopes = |i: usize, j: usize| std::array::from_fn(|axis| second[i][j][axis]);
+    let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
+    let theta = Slope::new(swelling.theta, std::array::from_fn(|axis| swelling.grad[axis]));
+    let stress = piola(equation, &varying, theta);
+    std::array::from_fn(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
+}
+
+fn block<const D: usize>(whole: &Tensor<f64>) -> Tensor<f64, D> {
+    tensor(|i, j| whole[i][j])
+}
+
+fn embedded<const D: usize>(block: &Tensor<f64, D>) -> Tensor<f64> {
+    tensor(|i, j| if i.max(j) < D { block[i][j] } else { 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.05, 0.03, 0.0], [0.0; 3]];
+
+    /// Nothing expands where theta = 1.
+    #[rstest]
+    #[case(Equation::small_strain(50.0, 0.3))]
+    #[case(Equation::neo_hookean(50.0, 0.3))]
+    #[case(Equation::hencky(50.0, 0.3))]
+    fn without_expansion_the_stress_is_the_law_s(#[case] equation: Equation) {
+        let (found, plain) = (swollen_piola(&equation, 2, &GRAD, 1.0), equation.piola(&GRAD));
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            assert_relative_eq!(found[i][j], plain[i][j], max_relative = 1e-12);
+        }
+    }
+
+    /// A body that expands freely has no stress, and neither has it a force where theta varies:
+    /// grad u = theta - 1.
+    #[rstest]
+    #[case(Equation::small_strain(50.0, 0.3))]
+    #[case(Equation::neo_hookean(50.0, 0.3))]
+    #[case(Equation::hencky(50.0, 0.3))]
+    fn a_free_body_has_no_stress(#[case] equation: Equation) {
+        let grad = [[0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.2]];
+        let found = swollen_piola(&equation, 3, &grad, 1.2);
+        assert!(found.iter().flatten().all(|p| p.abs() < 1e-13), "{found:?}");
+        let bar = [[0.2, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+        let mut second = [[[0.0; 3]; 3]; 3];
+        second[0][0][0] = 0.7;
+        let swelling = Swelling { theta: 1.2, grad: [0.7, 0.0, 0.0] };
+        let uniaxial = match equation.swelling_modulus() {
+            Some(_) => Equation::small_strain(50.0, 0.0),
+            None => Equation::hencky(50.0, 0.0),
+        };
+        let force = swollen_divergence(&uniaxial, 1, (&bar, &second), &swelling);
+        assert!(force[0].abs() < 1e-12, "{force:?}");
+    }
+
+    /// Of the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
+    #[test]
+    fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
+        let (equation, theta) = (Equation::neo_hookean(50.0, 0.0), 1.1);
+        let piola = swollen_piola(&equation, 2, &GRAD, theta);
+        let sigma = swollen_cauchy(&equation, 2, &GRAD, theta);
+        let f: Tensor<f64> = tensor(|i, j| GRAD[i][j] + unit::<f64>(i, j));
+        let det = f[0][0] * f[1][1] - f[0][1] * f[1][0];
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let expected: f64 = (0..2).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det;
+            assert_relative_eq!(sigma[i][j], expected, max_relative = 1e-12);
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Every condition that a heat problem puts on its temperature.
+
+use super::{
+    equation,
+    field::Warmth,
+    problem::{Conduction, ThermalCondition, ThermalFace},
+    weak,
+};
+use crate::exact::{
+    formula::Formula,
+    motion::{Derivatives, variables},
+    pointwise::{Event, POINTS, largest},
+    random::Random,
+    violation::Violation,
+};
+
+/// Relative agreement asked of automatic differentiation and finite differences.
+const DIFFERENCE_TOLERANCE: f64 = 1e-4;
+
+impl Conduction {
+    /// Holds the temperature against the heat equation (point by point and in weak form), the
+    /// boundary and the initial conditions, at reproducible random points.
+    ///
+    /// # Errors
+    /// The first [`Violation`].
+    pub fn check(&self) -> Result<(), Violation> {
+        presence(self)?;
+        initial(self)?;
+        boundary(self)?;
+        differentiation(self)?;
+        equation(self)?;
+        weak::balance(self)
+    }
+}
+
+type Point = (Event, Derivatives, Warmth);
+
+fn interior(problem: &Conduction, seed: u64) -> Vec<Point> {
+    let mut random = Random::new(seed);
+    let mut point = || {
+        let label = random.point(&problem.from, &problem.to);
+        let t = problem.moment(&mut random);
+        let (motion, now) = problem.now(&label, t);
+        (Event { label, t }, motion, now)
+    };
+    (0..POINTS).map(|_| point()).collect()
+}
+
+/// Largest value of a quantity over the interior points; NaN if any is.
+fn scale(problem: &Conduction, quantity: impl Fn(&Point) -> f64) -> f64 {
+    interior(problem, 1)
+        .iter()
+        .map(|point| quantity(point).abs())
+        .fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b) })
+}
+
+/// The temperature is a number everywhere inside, and not zero everywhere.
+fn presence(problem: &Conduction) -> Result<(), Violation> {
+    let points = interior(problem, 1);
+    let wrong = |(event, _, now): &Point, what: &str| Violation {
+        condition: format!("the demand that the temperature is {what}"),
+        label: event.label.clone(),
+        t: event.t,
+        expected: None,
+        found: now.value,
+        unit: "K",
+    };
+    if let Some(point) = points.iter().find(|(_, _, now)| !now.value.is_finite()) {
+        return Err(wrong(point, "finite"));
+    }
+    if points.iter().any(|(_, _, now)| now.value != 0.0) {
+        return Ok(());
+    }
+    Err(wrong(&points[0], "not zero everywhere"))
+}
+
+/// `T(X, 0) = T0(X)`.
+fn initial(problem: &Conduction) -> Result<(), Violation> {
+    let size = scale(problem, |(_, _, now)| now.value);
+    for (event, _, _) in interior(problem, 2) {
+        let event = Event { t: 0.0, ..event };
+        let found = problem.temperature.at(&event.label, 0.0);
+        // Where nothing is stated, the start must be a number: nothing is near to NaN.
+        let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
+        let name = "initial condition T(X, 0) = T0(X)".to_owned();
+        event.judge(problem.tolerance * size, name, (start, found), "K")?;
+    }
+    Ok(())
+}
+
+fn at(formula: &Formula, event: &Event) -> f64 {
+    formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
+}
+
+/// What the residuals of a condition are compared with.
+struct Sizes {
+    value: f64,
+    inflow: f64,
+}
+
+/// Every face of the body, at random points and times.
+fn boundary(problem: &Conduction) -> Result<(), Violation> {
+    let sizes = Sizes {
+        value: scale(problem, |(_, _, now)| now.value),
+        inflow: scale(problem, |(_, motion, now)| largest(&problem.inflow(motion, now))),
+    };
+    let mut random = Random::new(3);
+    for face in &problem.faces {
+        for _ in 0..POINTS {
+            let mut label = random.point(&problem.from, &problem.to);
+            label[face.axis] =
+                if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
+            let event = Event { label, t: problem.moment(&mut random) };
+            on_face(problem, face, &event, &sizes)?;
+        }
+    }
+    Ok(())
+}
+
+fn on_face(
+    problem: &Conduction,
+    face: &ThermalFace,
+    event: &Event,
+    sizes: &Sizes,
+) -> Result<(), Violation> {
+    let (motion, now) = problem.now(&event.label, event.t);
+    let normal = if face.high { 1.0 } else { -1.0 };
+    let inflow = normal * problem.inflow(&motion, &now)[face.axis];
+    let name = |what: &str| format!("boundary condition: {} {what}", face.name);
+    let (tolerance, unit) = (problem.tolerance, "W/m2");
+    match &face.condition {
+        ThermalCondition::Insulated => {
+            let name = name("is insulated, heat that enters");
+            event.judge(tolerance * sizes.inflow, name, (0.0, inflow), unit)
+        }
+        ThermalCondition::Temperature(formula) => {
+            let given = at(formula, event);
+            let allowed = tolerance * sizes.value.max(given.abs());
+            event.judge(allowed, name("has a given temperature"), (given, now.value), "K")
+        }
+        ThermalCondition::Flux(formula) => {
+            let given = at(formula, event);
+            let allowed = tolerance * sizes.inflow.max(given.abs());
+            event.judge(allowed, name("has a given flux"), (given, inflow), unit)
+        }
+        ThermalCondition::Convection { coefficient, ambient } => {
+            let ambient = at(ambient, event);
+            let given = coefficient * (ambient - now.value);
+            let size = coefficient * sizes.value.max(ambient.abs());
+            let name = name("is cooled by convection, heat that enters");
+            event.judge(tolerance * sizes.inflow.max(size), name, (given, inflow), unit)
+        }
+        ThermalCondition::Periodic => {
+            let mut opposite = event.label.clone();
+            opposite[face.axis] =
+                if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
+            let (there, warm) = problem.now(&opposite, event.t);
+            let title = name("is periodic, the temperature");
+            event.judge(tolerance * sizes.value, title, (warm.value, now.value), "K")?;
+            let across = normal * problem.inflow(&there, &warm)[face.axis];
+            let title = name("is periodic, the flow of heat");
+            event.judge(tolerance * sizes.inflow, title, (across, inflow), unit)
+        }
+    }
+}
+
+/// T_t and Div Q, once by automatic differentiation and once by central differences. A kink that
+/// happens to lie within their reach is no fault, so a point is moved twice before it counts.
+fn differentiation(problem: &Conduction) -> Result<(), Violation> {
+    let rate = scale(problem, |(_, _, now)| now.rate);
+    let mut random = Random::new(5);
+    for _ in 0..POINTS / 4 {
+        let mut last = Ok(());
+        for _ in 0..3 {
+            let label = random.point(&problem.from, &problem.to);
+            let event = Event { label, t: problem.moment(&mut random) };
+            last = differences(problem, &event, rate);
+            if last.is_ok() {
+                break;
+            }
+        }
+        last?;
+    }
+    Ok(())
+}
+
+fn differences(problem: &Conduction, event: &Event, rate: f64) -> Result<(), Violation> {
+    let (motion, now) = problem.now(&event.label, event.t);
+    let step = 1e-5 * problem.until;
+    let value = |t: f64| problem.temperature.at(&event.label, t);
+    let (low, high) = (value(event.t - step), value(event.t + step));
+    let rounding = 1e-13 * (low.abs() + high.abs()) / step;
+    let name = "agreement of two differentiations of T in time".to_owned();
+    let slope = (high - low) / (2.0 * step);
+    event.judge(DIFFERENCE_TOLERANCE * rate + rounding, name, (slope, now.rate), "K/s")?;
+    let (mut divergence, mut size) = (0.0, 0.0);
+    for axis in 0..problem.dimension() {
+        let step = 1e-5 * (problem.to[axis] - problem.from[axis]);
+        let inflow = |sign: f64| {
+            let mut label = event.label.clone();
+            label[axis] += sign * step;
+            let (motion, now) = problem.now(&label, event.t);
+            problem.inflow(&motion, &now)[axis]
+        };
+        let (low, high) = (inflow(-1.0), inflow(1.0));
+        divergence += (high - low) / (2.0 * step);
+        size += (high.abs() + low.abs()) / step;
+    }
+    let exact = problem.conductivity * equation::divergence(problem.dimension(), &motion, &now);
+    let name = "agreement of two differentiations of Div Q".to_owned();
+    let allowed = DIFFERENCE_TOLERANCE * exact.abs() + 1e-9 * size;
+    event.judge(allowed, name, (divergence, exact), "W/m3")
+}
+
+/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, as powers per unit of mass: that which the
+/// temperature needs, and that which is stated.
+fn equation(problem: &Conduction) -> Result<(), Violation> {
+    let terms = |(event, motion, now): &Point| {
+        let needed = problem.balance(motion, now);
+        (needed, problem.source(&event.label, event.t, motion, now))
+    };
+    let size = scale(problem, |point| {
+        let (needed, stated) = terms(point);
+        let stored = problem.capacity * point.2.rate;
+        stored.abs() + (needed - stored).abs() + stated.abs()
+    });
+    for point in &interior(problem, 4) {
+        let (needed, stated) = terms(point);
+        let name = "heat equation, rho0 c T_t = Div(k Grad T) + rho0 s, solved for s,".to_owned();
+        point.0.judge(problem.tolerance * size, name, (needed, stated), "W/kg")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! A temperature T(X, t) given by a formula, with its derivatives.
+
+use crate::exact::{
+    formula::{Formula, Hoisted, Jet},
+    motion::variables,
+};
+
+/// A temperature field (K), a formula of the reference coordinates and t, in this order.
+#[derive(Debug, Clone)]
+pub struct Temperature {
+    formula: Formula,
+    dimension: usize,
+}
+
+/// A temperature at one point and time, with its derivatives; axes beyond the dimension are zero.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Warmth {
+    /// T (K).
+    pub value: f64,
+    /// T_t (K/s).
+    pub rate: f64,
+    /// `grad[a] = dT/dX_a` (K/m).
+    pub grad: [f64; 3],
+    /// `second[a][b] = d2 T/dX_a dX_b` (K/m2).
+    pub second: [[f64; 3]; 3],
+}
+
+impl Temperature {
+    /// A field in `dimension` dimensions.
+    pub fn new(formula: Formula, dimension: usize) -> Self {
+        Self { formula, dimension }
+    }
+
+    /// The formula, as the suite gives it.
+    pub fn source(&self) -> &str {
+        self.formula.source()
+    }
+
+    /// T (K).
+    pub fn at(&self, label: &[f64], t: f64) -> f64 {
+        self.formula.eval(&variables(label, t)[..=label.len()])
+    }
+
+    /// All derivatives, by automatic differentiation.
+    pub fn derivatives(&self, label: &[f64], t: f64) -> Warmth {
+        match self.dimension {
+            1 => self.over_jets::<2>(label, t),
+            2 => self.over_jets::<3>(label, t),
+            _ => self.over_jets::<4>(label, t),
+        }
+    }
+
+    /// The field at `labels`, for which what does not depend on time is computed here and now.
+    pub(super) fn at_places<'a>(
+        &self,
+        labels: impl Iterator<Item = &'a [f64]>,
+    ) -> Box<dyn WarmPlaces> {
+        match self.dimension {
+            1 => Box::new(self.hoisted::<2>(labels)),
+            2 => Box::new(self.hoisted::<3>(labels)),
+            _ => Box::new(self.hoisted::<4>(labels)),
+        }
+    }
+
+    fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Warmth {
+        let seeds: [Jet<N>; N] =
+            std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
+        gather(&self.formula.eval(&seeds))
+    }
+
+    fn hoisted<'a, const N: usize>(
+        &self,
+        labels: impl Iterator<Item = &'a [f64]>,
+    ) -> Hoisted<Jet<N>> {
+        let mut places = Hoisted::new(std::slice::from_ref(&self.formula), N);
+        for label in labels {
+            let seeds: [Jet<N>; N] =
+                std::array::from_fn(|a| Jet::variable(label.get(a).copied().unwrap_or(0.0), a));
+            places.add(&seeds[..N - 1]);
+        }
+        places
+    }
+}
+
+/// A temperature at places that have been given once, at one time after another.
+pub(super) trait WarmPlaces: Send {
+    /// Moves on to the time `t` (s).
+    fn set_time(&mut self, t: f64);
+
+    /// The derivatives at a place, in the order in which they were given. Allocates nothing.
+    fn derivatives(&mut self, place: usize) -> Warmth;
+}
+
+impl<const N: usize> WarmPlaces for Hoisted<Jet<N>> {
+    fn set_time(&mut self, t: f64) {
+        self.set_time(Jet::variable(t, N - 1));
+    }
+
+    fn derivatives(&mut self, place: usize) -> Warmth {
+        self.eval(place).next().map_or_else(Warmth::default, |jet| gather(&jet))
+    }
+}
+
+/// The derivatives from a jet, whose last variable is the time.
+fn gather<const N: usize>(jet: &Jet<N>) -> Warmth {
+    let time = N - 1;
+    let mut all = Warmth { value: jet.value(), rate: jet.d(time), ..Warmth::default() };
+    for a in 0..time {
+        all.grad[a] = jet.d(a);
+        for b in 0..time {
+            all.second[a][b] = jet.dd(a, b);
+        }
+    }
+    all
+}

@@ -1,0 +1,14 @@
+//! The truth about heat: a temperature given by a formula, held against the heat equation.
+
+mod check;
+mod equation;
+mod field;
+mod forcing;
+mod problem;
+#[cfg(test)]
+mod tests;
+mod weak;
+
+pub use field::{Temperature, Warmth};
+pub use forcing::HeatForcing;
+pub use problem::{Conduction, ThermalCondition, ThermalFace};

@@ -1,0 +1,187 @@
+//! Temperatures that solve the heat equation, and wrong ones that must be refused.
+
+use super::{Conduction, HeatForcing, Temperature, ThermalCondition, ThermalFace};
+use crate::exact::{
+    Motion, Violation,
+    formula::{Expr, Formula, Scope},
+    random::Random,
+};
+use rstest::rstest;
+
+const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
+
+fn bind(source: &str, dimension: usize) -> Formula {
+    let names: Vec<&str> = NAMES[..dimension].iter().chain(&["t"]).copied().collect();
+    Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), &names).unwrap()
+}
+
+/// A box from 0 to 1 with rho0 c = 6 and k = 3, insulated all around.
+fn insulated(dimension: usize, temperature: &str) -> Conduction {
+    let face = |i: usize| ThermalFace {
+        name: ["left", "right", "bottom", "top", "back", "front"][i],
+        axis: i / 2,
+        high: i % 2 == 1,
+        condition: ThermalCondition::Insulated,
+    };
+    Conduction {
+        from: vec![0.0; dimension],
+        to: vec![1.0; dimension],
+        density: 2.0,
+        conductivity: 3.0,
+        capacity: 3.0,
+        source: None,
+        initial: None,
+        faces: (0..2 * dimension).map(face).collect(),
+        temperature: Temperature::new(bind(temperature, dimension), dimension),
+        motion: None,
+        manufactured: false,
+        until: 0.3,
+        tolerance: 1e-8,
+    }
+}
+
+/// A bar with conditions on both ends.
+fn bar(temperature: &str, ends: [ThermalCondition; 2]) -> Conduction {
+    let mut bar = insulated(1, temperature);
+    for (face, condition) in bar.faces.iter_mut().zip(ends) {
+        face.condition = condition;
+    }
+    bar
+}
+
+fn refused(problem: &Conduction, words: &str) -> Violation {
+    let found = problem.check().unwrap_err();
+    assert!(found.condition.contains(words), "{found}");
+    found
+}
+
+/// kappa = k/(rho0 c) = 1/2.
+#[rstest]
+#[case(1, "5 + cos(pi*X)*exp(-pi^2*t/2)")]
+#[case(2, "5 + cos(pi*X)*cos(2*pi*Y)*exp(-5*pi^2*t/2)")]
+#[case(3, "5 + cos(pi*X)*cos(pi*Y)*cos(pi*Z)*exp(-3*pi^2*t/2)")]
+fn a_decaying_mode_passes(#[case] dimension: usize, #[case] temperature: &str) {
+    insulated(dimension, temperature).check().unwrap();
+}
+
+#[test]
+fn a_mode_that_decays_at_another_rate_is_refused() {
+    let found = refused(&insulated(1, "cos(pi*X)*exp(-5*t)"), "heat equation");
+    assert_eq!(found.unit, "W/kg");
+}
+
+/// T = (1 - X) t + ... has its source stated; a wrong one is refused.
+#[test]
+fn a_stated_source_is_part_of_the_equation() {
+    let made = insulated(1, "cos(pi*X)*(1 + t)");
+    let source = |text: &str| Some(bind(text, 1));
+    let sound = "3*cos(pi*X) + 3*pi^2*cos(pi*X)*(1 + t)/2";
+    Conduction { source: source(sound), ..made.clone() }.check().unwrap();
+    let wrong = "3*cos(pi*X) - 3*pi^2*cos(pi*X)*(1 + t)/2";
+    refused(&Conduction { source: source(wrong), ..made.clone() }, "heat equation");
+    Conduction { manufactured: true, ..made }.check().unwrap();
+}
+
+/// The equation holds on both sides of the kink, which gives off heat all the same.
+#[test]
+fn a_kink_is_seen_by_the_weak_form() {
+    let hold = |value: &str| ThermalCondition::Temperature(bind(value, 1));
+    refused(&bar("abs(X - 0.4)", [hold("0.4"), hold("0.6")]), "heat balance");
+}
+
+#[rstest]
+#[case::temperature(ThermalCondition::Temperature(bind("7", 1)), "right has a given temperature")]
+#[case::insulated(ThermalCondition::Insulated, "right is insulated")]
+#[case::flux(ThermalCondition::Flux(bind("-6", 1)), "right has a given flux")]
+#[case::convection(
+    ThermalCondition::Convection { coefficient: 2.0, ambient: bind("4", 1) },
+    "right is cooled by convection"
+)]
+fn a_wrong_condition_on_a_face_is_refused(#[case] wrong: ThermalCondition, #[case] words: &str) {
+    // T = 4 + 2 X: 6 W enter at the right and leave at the left.
+    let left = || ThermalCondition::Flux(bind("-6", 1));
+    refused(&bar("4 + 2*X", [left(), wrong]), words);
+    for right in [
+        ThermalCondition::Temperature(bind("6", 1)),
+        ThermalCondition::Flux(bind("6", 1)),
+        ThermalCondition::Convection { coefficient: 2.0, ambient: bind("9", 1) },
+    ] {
+        bar("4 + 2*X", [left(), right]).check().unwrap();
+    }
+}
+
+/// The root is 0.86033...: the fourth digit is enough to be refused.
+#[test]
+fn a_root_of_the_eigenvalue_equation_is_verified() {
+    let cooled = |mu: &str| {
+        let air = ThermalCondition::Convection { coefficient: 3.0, ambient: bind("0", 1) };
+        let mode = format!("cos({mu}*X)*exp(-{mu}^2*t/2)");
+        bar(&mode, [ThermalCondition::Insulated, air])
+    };
+    cooled("0.860333589019380").check().unwrap();
+    refused(&cooled("0.8604"), "cooled by convection");
+}
+
+#[test]
+fn the_start_is_held_to_what_is_stated() {
+    let mode = insulated(1, "cos(pi*X)*exp(-pi^2*t/2)");
+    let from = |text: &str| Some(bind(text, 1));
+    Conduction { initial: from("cos(pi*X)"), ..mode.clone() }.check().unwrap();
+    refused(&Conduction { initial: from("1.001*cos(pi*X)"), ..mode }, "initial condition");
+}
+
+#[rstest]
+#[case("0*X", "not zero everywhere")]
+#[case("ln(-1 - X)", "finite")]
+fn no_temperature_is_none(#[case] temperature: &str, #[case] words: &str) {
+    refused(&insulated(1, temperature), words);
+}
+
+/// `X + u = (1 + t/2) X`: k acts over a longer way, `J C^-1 = 1/(1 + t/2)`.
+#[test]
+fn heat_flows_where_the_body_is_now() {
+    let stretched = |source: &str| Conduction {
+        motion: Some(Motion::new(vec![bind("X*t/2", 1)])),
+        source: Some(bind(source, 1)),
+        ..insulated(1, "cos(pi*X)")
+    };
+    stretched("3*pi^2/2*cos(pi*X)/(1 + t/2)").check().unwrap();
+    refused(&stretched("3*pi^2/2*cos(pi*X)"), "heat equation");
+}
+
+/// A plane under simple shear g: `J C^-1 = [[1 + g^2, -g], [-g, 1]]`.
+#[test]
+fn shear_turns_the_flow() {
+    let sheared = Conduction {
+        motion: Some(Motion::new(vec![bind("t*Y", 2), bind("0*Y", 2)])),
+        source: Some(bind("-3*(1 + t^2)", 2)),
+        faces: Vec::new(),
+        ..insulated(2, "X^2")
+    };
+    sheared.check().unwrap();
+    refused(&Conduction { motion: None, ..sheared }, "heat equation");
+}
+
+/// What a run asks for has the bits of a single question.
+#[rstest]
+fn the_source_of_a_run_is_the_source(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(false, true)] moves: bool,
+) {
+    let components = (0..dimension).map(|_| bind("sin(X)*t/5", dimension)).collect();
+    let problem = Conduction {
+        manufactured: true,
+        motion: moves.then(|| Motion::new(components)),
+        ..insulated(dimension, "cos(X)*exp(-t) + sin(X*t)")
+    };
+    let mut random = Random::new(1);
+    let labels: Vec<Vec<f64>> = (0..5).map(|_| random.point(&problem.from, &problem.to)).collect();
+    let mut forcing = HeatForcing::new(&problem, labels.iter().map(Vec::as_slice));
+    let mut found = [0.0; 5];
+    for t in [0.0, 0.1, 0.2] {
+        forcing.at(t, &mut found);
+        for (label, found) in labels.iter().zip(found) {
+            assert_eq!(found, problem.manufactured_source(label, t), "{label:?}, {t}");
+        }
+    }
+}

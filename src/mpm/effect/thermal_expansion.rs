@@ -1,0 +1,156 @@
+//! Thermal expansion: strain that temperature makes, and that causes no stress.
+//!
+//! For a law of the whole deformation F is split, `F = theta Fe` with the stretch
+//! `theta = 1 + alpha (T - T0)` on every axis, and the law sees Fe (Stojanovic, Djuric & Vujosevic 1964;
+//! Lubarda 2004, Appl. Mech. Rev. 57): a body that is free expands by theta exactly. A law in rate form
+//! takes what `alpha T` changes in the step off the strain, `sigma -= E/(1 - 2 nu) alpha dT I` (Duhamel
+//! & Neumann), which is plane strain in the plane and uniaxial strain on the line.
+//!
+//! The split lives in the D dimensions of the scene: with Poisson's ratio zero the axes that a scene
+//! leaves out have no part in it. Neglected: heat that the expansion takes up.
+
+use super::{contract::Effect, name::EffectName};
+use crate::{
+    mpm::{algebra::Matrix, material::Material, particles::Particles},
+    subject::Column,
+};
+
+/// Expansion by temperature; an effect that keeps temperatures comes before it.
+pub struct ThermalExpansion<const D: usize> {
+    /// alpha (1/K).
+    coefficient: f64,
+    /// T0 (K), at which the body is free of stress when it is not deformed.
+    reference: f64,
+    law: Law<D>,
+}
+
+/// How the law sees it.
+enum Law<const D: usize> {
+    /// Fe, in the place of F while stresses are computed.
+    OfDeformation { elastic: Vec<Matrix<D>> },
+    /// `E/(1 - 2 nu)` (Pa), and the temperatures of the stresses (K).
+    InRateForm { modulus: f64, before: Vec<f64> },
+}
+
+impl<const D: usize> ThermalExpansion<D> {
+    /// With a law of the whole deformation: alpha (1/K) and T0 (K).
+    pub fn of_deformation(coefficient: f64, reference: f64) -> Self {
+        Self { coefficient, reference, law: Law::OfDeformation { elastic: Vec::new() } }
+    }
+
+    /// With a law in rate form, of Young's modulus (Pa) and Poisson's ratio.
+    pub fn in_rate_form(coefficient: f64, reference: f64, (young, poisson): (f64, f64)) -> Self {
+        let modulus = young / (1.0 - 2.0 * poisson);
+        Self { coefficient, reference, law: Law::InRateForm { modulus, before: Vec::new() } }
+    }
+}
+
+impl<const D: usize> Effect<D> for ThermalExpansion<D> {
+    fn name(&self) -> EffectName {
+        EffectName::ThermalExpansion
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        match &self.law {
+            Law::OfDeformation { elastic } => vec![Column::of_particles("Fe", elastic)],
+            Law::InRateForm { before, .. } => vec![Column::of_particles("T before", before)],
+        }
+    }
+
+    /// The stress of the temperature at the start.
+    fn start(&mut self, material: &mut dyn Material<D>, particles: &mut Particles<D>) {
+        match &mut self.law {
+            Law::OfDeformation { elastic } => elastic.clone_from(&particles.def_grad),
+            Law::InRateForm { before, .. } => before.resize(particles.len(), self.reference),
+        }
+        self.before_stress(particles);
+        material.update(0.0, particles);
+        self.after_stress(particles);
+    }
+
+    fn before_stress(&mut self, particles: &mut Particles<D>) {
+        let Law::OfDeformation { elastic } = &mut self.law else { return };
+        std::mem::swap(elastic, &mut particles.def_grad);
+        let whole = elastic.iter().zip(&particles.temperature);
+        for (inner, (f, temperature)) in particles.def_grad.iter_mut().zip(whole) {
+            *inner = f / (1.0 + self.coefficient * (temperature - self.reference));
+        }
+    }
+
+    fn after_stress(&mut self, particles: &mut Particles<D>) {
+        match &mut self.law {
+            Law::OfDeformation { elastic } => {
+                std::mem::swap(elastic, &mut particles.def_grad);
+                for (vol, temperature) in particles.vol.iter_mut().zip(&particles.temperature) {
+                    let theta = 1.0 + self.coefficient * (temperature - self.reference);
+                    *vol *= (0..D).map(|_| theta).product::<f64>();
+                }
+            }
+            Law::InRateForm { modulus, before } => {
+                let changes = before.iter_mut().zip(&particles.temperature);
+                for (sigma, (before, now)) in particles.sigma.iter_mut().zip(changes) {
+                    let pressure = *modulus * self.coefficient * (now - *before);
+                    *sigma -= Matrix::identity() * pressure;
+                    *before = *now;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{Block, Hencky, LinearElastic, NeoHookean, Vector};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// One particle at 30 K, 10 K above the reference.
+    fn warm<const D: usize>() -> Particles<D> {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        particles.track_deformation();
+        particles.temperature = vec![30.0];
+        particles
+    }
+
+    #[rstest]
+    fn a_body_that_expands_freely_has_no_stress(#[values(false, true)] hencky: bool) {
+        let mut body = warm::<3>();
+        let mut expansion = ThermalExpansion::of_deformation(0.02, 20.0);
+        let f = Matrix::<3>::identity() * 1.2;
+        body.def_grad[0] = f;
+        let mut laws: [Box<dyn Material<3>>; 2] =
+            [Box::new(NeoHookean::new(50.0, 0.3)), Box::new(Hencky::new(50.0, 0.3))];
+        expansion.start(laws[usize::from(hencky)].as_mut(), &mut body);
+        assert!(body.sigma[0].norm() < 1e-13, "{}", body.sigma[0]);
+        assert_eq!(body.def_grad[0], f, "F is given back as it was");
+        assert_relative_eq!(body.vol[0], 1.2 * 1.2 * 1.2, max_relative = 1e-14);
+    }
+
+    /// `P_e(1/theta)` of a bar that is held: Hencky's `sigma = E ln(Fe)/Fe`.
+    #[test]
+    fn a_bar_that_is_held_has_the_stress_of_its_inverse_stretch() {
+        let mut bar = warm::<1>();
+        let mut expansion = ThermalExpansion::of_deformation(0.02, 20.0);
+        expansion.start(&mut Hencky::new(50.0, 0.0), &mut bar);
+        let expected = -50.0 * libm::log(1.2) * 1.2;
+        assert_relative_eq!(bar.sigma[0][(0, 0)], expected, max_relative = 1e-14);
+        assert_relative_eq!(bar.vol[0], 1.0, max_relative = 1e-15);
+    }
+
+    /// `-E alpha (T - T0)/(1 - 2 nu)`, at the start and after the temperature has changed.
+    #[test]
+    fn a_law_in_rate_form_takes_the_change_off_the_strain() {
+        let (mut plate, mut law) = (warm::<2>(), LinearElastic::new(50.0, 0.3));
+        let mut expansion = ThermalExpansion::in_rate_form(1e-3, 20.0, (50.0, 0.3));
+        expansion.start(&mut law, &mut plate);
+        let expected = |t: f64| Matrix::<2>::identity() * (-50.0 * 1e-3 * (t - 20.0) / 0.4);
+        assert_relative_eq!(plate.sigma[0], expected(30.0), max_relative = 1e-14);
+        plate.temperature[0] = 17.0;
+        expansion.before_stress(&mut plate);
+        law.update(0.1, &mut plate);
+        expansion.after_stress(&mut plate);
+        assert_relative_eq!(plate.sigma[0], expected(17.0), max_relative = 1e-13);
+    }
+}

@@ -1,0 +1,149 @@
+//! What enters a body through a face of the grid, or what temperature it has there.
+//!
+//! The functions of every basis of this crate conform to the walls of the grid: along the normal one
+//! function is 1 there, and all others are 0. So the nodes of the wall carry the temperature of the
+//! face, and `sum_p A_p N_i` over the layer of particles at the face, taken along the face only, is
+//! the share of the face that node i stands for. Heat enters at the face itself, not at the particles
+//! half a spacing inside: that would be an error of first order.
+//!
+//! Areas are those of the reference body, as with tractions. The face stays where the grid ends.
+
+use super::surface::{Placement, Surface};
+use crate::{
+    mpm::{
+        algebra::Vector,
+        basis::BasisName,
+        boundary::{Side, nodes},
+        grid::Grid,
+        kernel::Kernel,
+        particles::Particles,
+    },
+    subject::Column,
+};
+
+/// A number as a function of place and time (s).
+pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
+
+/// What holds on a face that is not insulated.
+pub enum Thermal<const D: usize> {
+    /// A temperature (K).
+    Temperature(ScalarField<D>),
+    /// Heat that enters (W/m^(D-1)).
+    Flux(ScalarField<D>),
+    /// `coefficient (ambient - T)` enters: Newton's law of cooling, Robin's condition.
+    Convection {
+        /// W/(K m^(D-1)).
+        coefficient: f64,
+        /// K.
+        ambient: ScalarField<D>,
+    },
+}
+
+/// A face of the grid at which the body ends.
+pub struct ThermalFace<const D: usize> {
+    condition: Thermal<D>,
+    axis: usize,
+    wall: usize,
+    /// Nodes and where they are (m).
+    nodes: Vec<(usize, Vector<D>)>,
+    /// Particles next to the face.
+    layer: Vec<usize>,
+    /// The part of the face that belongs to each of them (m^(D-1)).
+    area: f64,
+    /// The same, of each node.
+    share: Vec<f64>,
+}
+
+impl<const D: usize> ThermalFace<D> {
+    /// `condition` on the face `side` of `axis` of `grid`, which has the functions of `basis`.
+    pub fn new(
+        (grid, basis): (&Grid<D>, BasisName),
+        particles: &Particles<D>,
+        (axis, side): (usize, Side),
+        condition: Thermal<D>,
+    ) -> Self {
+        let place = |i| (i, basis.place(grid, i));
+        let Surface { layer, area, .. } = Surface::new(particles, axis, side, Placement::Particles);
+        let held = matches!(condition, Thermal::Temperature(_));
+        Self {
+            condition,
+            axis,
+            wall: if side == Side::Low { 0 } else { grid.counts[axis] - 1 },
+            nodes: nodes(grid, axis, side).into_iter().map(place).collect(),
+            layer: if held { Vec::new() } else { layer },
+            area,
+            share: if held { Vec::new() } else { vec![0.0; grid.nodes()] },
+        }
+    }
+
+    /// What is kept.
+    pub(super) fn columns(&self) -> [Column; 3] {
+        [
+            Column::of_particles("face layer", &self.layer),
+            Column::of_nodes("face nodes", &self.nodes),
+            Column::of_nodes("face share", &self.share),
+        ]
+    }
+
+    /// Gives the nodal temperatures (K) at time `t` (s) what is held of them.
+    pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
+        if let Thermal::Temperature(value) = &self.condition {
+            for (i, x) in &self.nodes {
+                temperature[*i] = value(x, t);
+            }
+        }
+    }
+
+    /// The same for their rates (K/s) from `t` to `t + dt`.
+    pub(super) fn hold_rate(&self, (t, dt): (f64, f64), rate: &mut [f64]) {
+        if let Thermal::Temperature(value) = &self.condition {
+            for (i, x) in &self.nodes {
+                rate[*i] = (value(x, t + dt) - value(x, t)) / dt;
+            }
+        }
+    }
+
+    /// Adds what enters at time `t` (s) to the `flow` (W) into each node, whose temperatures (K) are
+    /// given; returns the particle-node pairs visited.
+    pub(super) fn let_in(
+        &mut self,
+        t: f64,
+        particles: &Particles<D>,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        (temperature, flow): (&[f64], &mut [f64]),
+    ) -> u64 {
+        if matches!(self.condition, Thermal::Temperature(_)) {
+            return 0;
+        }
+        self.gather_shares(particles, kernel, grid);
+        for (i, x) in &self.nodes {
+            let density = match &self.condition {
+                Thermal::Temperature(_) => 0.0,
+                Thermal::Flux(value) => value(x, t),
+                Thermal::Convection { coefficient, ambient } => {
+                    coefficient * (ambient(x, t) - temperature[*i])
+                }
+            };
+            flow[*i] += self.share[*i] * density;
+        }
+        self.layer.len() as u64 * kernel.support()
+    }
+
+    /// The share of the face of each of its nodes: what the layer of particles gives to any node goes
+    /// to the node of the face on the same normal.
+    fn gather_shares(&mut self, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
+        self.share.fill(0.0);
+        for &p in &self.layer {
+            kernel.p2g_amount(particles, p, self.area, grid, &mut self.share);
+        }
+        let stride: usize = grid.counts[..self.axis].iter().product();
+        for node in 0..self.share.len() {
+            let index = grid.index_on_axis(node, self.axis);
+            if index != self.wall {
+                let amount = std::mem::take(&mut self.share[node]);
+                self.share[node - index * stride + self.wall * stride] += amount;
+            }
+        }
+    }
+}
