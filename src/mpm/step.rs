@@ -75,7 +75,9 @@ impl<const D: usize> Subject for Solver<D> {
     }
 
     fn totals(&self) -> Option<Totals> {
-        Some(self.setup.particles.totals(|p| self.setup.transfer.moment(p)))
+        let Setup { particles, transfer, material, .. } = &self.setup;
+        let strain_energy = material.energy(particles);
+        Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
     }
 
     fn census(&self) -> Census {

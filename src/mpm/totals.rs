@@ -7,7 +7,7 @@ use super::{
 use crate::subject::Totals;
 
 impl<const D: usize> Particles<D> {
-    /// Mass, momenta and kinetic energy now. `own` is the first moment of the velocity field that a
+    /// Mass, momenta and kinetic energy now; what the material stores is its own to say. `own` is the first moment of the velocity field that a
     /// particle carries about itself, if the transfer gives it one (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();

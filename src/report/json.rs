@@ -154,6 +154,7 @@ fn level(level: &LevelOutcome, compared: bool) -> Value {
             let sum = |sum: &Conserved| (sum.name().to_owned(), number(drift.of(*sum)));
             Conserved::ALL.iter().map(sum).collect::<Map<_, _>>().into()
         }),
+        "energy_rate": run.energy_rate.map(|rate| [rate.value, rate.low, rate.high].map(number)),
         "unrest": run.unrest.map(number),
         "order": level.order.map(number),
         "failure": run.failure,

@@ -17,6 +17,7 @@ pub(super) fn tables(lines: &mut Vec<String>, study: &Convergence) {
     lines.push(String::new());
     lines.extend(work.without_empty_columns().lines());
     drifts(lines, study);
+    rates(lines, study);
     richardson(lines, study);
 }
 
@@ -123,6 +124,24 @@ fn drifts(lines: &mut Vec<String>, study: &Convergence) {
         let drift = |sum| optional(level.run.drift.map(|drift| shown(drift.of(sum))));
         let cells = [level.cells.to_string()].into_iter();
         table.row(cells.chain(study.drifts.iter().map(|sum| drift(*sum))).collect());
+    }
+    lines.extend(table.lines());
+}
+
+/// How fast the energy grows or decays, where the suite asks.
+fn rates(lines: &mut Vec<String>, study: &Convergence) {
+    if !study.rated {
+        return;
+    }
+    lines.extend([String::new(), "  rate of the energy, d ln E/dt (1/s)".to_owned()]);
+    let mut table = Table::new(&["cells", "rate", "from", "to (95 %)"]);
+    for level in &study.levels {
+        let figures = match (&level.run.failure, level.run.energy_rate) {
+            (None, Some(rate)) => [rate.value, rate.low, rate.high].map(scientific),
+            (None, None) => ["-"; 3].map(str::to_owned),
+            (Some(_), _) => ["failed"; 3].map(str::to_owned),
+        };
+        table.row([level.cells.to_string()].into_iter().chain(figures).collect());
     }
     lines.extend(table.lines());
 }

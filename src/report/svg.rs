@@ -2,6 +2,7 @@
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
 use super::stability;
+use crate::subject::Totals;
 use crate::verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
 
 /// A figure and the name of its file.
@@ -17,10 +18,11 @@ pub struct Figure {
 const MOST_SERIES: usize = 6;
 
 /// Every figure of a suite: convergence plots (as many as keep each readable), the observed
-/// velocity for each MPM or FEM case that watched one, and the forces of an internal-force study.
+/// velocity for each MPM or FEM case that watched one, the energies that were asked for, and the forces of an internal-force study.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(histories(outcome));
+    figures.extend(energies(outcome));
     figures.extend(forces(outcome));
     let file = || format!("{}.svg", outcome.suite);
     figures.extend(stability::map(outcome).map(|svg| Figure { file: file(), svg }));
@@ -129,6 +131,26 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
         Some(Figure { file: format!("{}-{name}-velocity.svg", outcome.suite), svg })
     };
     studies(outcome).into_iter().filter_map(figure).collect()
+}
+
+/// The energy over time, relative to that of the start, on the finest level of every case that is asked
+/// for its rate.
+fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
+    let curve = |(name, study): (&str, &Convergence)| {
+        let account = &study.levels.last().filter(|_| study.rated)?.run.account;
+        let start = account.first()?.1.energy()?;
+        let point = |(t, totals): &(f64, Totals)| Some((*t, totals.energy()? / start));
+        let points = account.iter().map(point).collect::<Option<Vec<_>>>()?;
+        Some(Curve { name: name.to_owned(), points, exact: false, markers: false })
+    };
+    let curves: Vec<Curve> = studies(outcome).into_iter().filter_map(curve).collect();
+    if curves.is_empty() {
+        return None;
+    }
+    let title = format!("{}: energy", outcome.title);
+    let (x_label, y_label) = ("time (s)".to_owned(), "energy over that of the start".to_owned());
+    let svg = History { title, x_label, y_label, curves }.to_svg();
+    Some(Figure { file: format!("{}-energy.svg", outcome.suite), svg })
 }
 
 fn forces(outcome: &SuiteOutcome) -> Option<Figure> {

@@ -10,6 +10,7 @@ mod profile;
 pub use profile::{Column, Holder, Profile};
 
 use crate::named::named;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A solver under test, at one level of refinement.
@@ -113,7 +114,7 @@ impl Samples {
 
 /// Deterministic figures of a run: what it cost, and what a reader must know beside an error.
 /// `None` where the subject has no such thing.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Census {
     /// Particles (MPM).
     pub particles: Option<u64>,
@@ -130,7 +131,7 @@ pub struct Census {
 
 /// Sums over the body, p, of what a motion without outer forces keeps; components beyond the
 /// dimension are zero.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// `sum m_p` (kg).
     pub mass: f64,
@@ -145,9 +146,16 @@ pub struct Totals {
     pub angular_momentum_size: f64,
     /// `sum m_p v_p^2 / 2` (J).
     pub kinetic_energy: f64,
+    /// Energy that the material stores (J); `None` if its law has none.
+    pub strain_energy: Option<f64>,
 }
 
 impl Totals {
+    /// Kinetic and stored energy together (J).
+    pub fn energy(&self) -> Option<f64> {
+        self.strain_energy.map(|stored| self.kinetic_energy + stored)
+    }
+
     /// The sums over two bodies.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
@@ -159,6 +167,7 @@ impl Totals {
             angular_momentum: sum(self.angular_momentum, other.angular_momentum),
             angular_momentum_size: self.angular_momentum_size + other.angular_momentum_size,
             kinetic_energy: self.kinetic_energy + other.kinetic_energy,
+            strain_energy: self.strain_energy.zip(other.strain_energy).map(|(a, b)| a + b),
         }
     }
 }

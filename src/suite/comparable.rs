@@ -39,13 +39,15 @@ pub(super) fn check_drift(
     limits: &Limits,
     method: Method,
 ) -> Result<(), Complaint> {
-    if limits.drift.is_empty() || matches!(method, Method::Mpm { .. }) {
+    let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
+    let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
+    if !asks || matches!(method, Method::Mpm { .. }) {
         return Ok(());
     }
     let message = match method {
         Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
         _ => "the reference FEM does not give the sums whose drift is bound here",
     };
-    let complaint = binder.complain_key(&path.then("drift"), message);
+    let complaint = binder.complain_key(&path.then(key), message);
     Err(complaint.with_help("let this expectation speak of MPM cases only"))
 }

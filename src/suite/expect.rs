@@ -3,6 +3,7 @@
 use super::{
     binder::Binder,
     comparable,
+    interval::interval,
     limits::limits,
     method::Method,
     model::ConvergencePlan,
@@ -130,7 +131,7 @@ fn expectation(
     };
     let because = because(binder, path, &words.because)?;
     let bounds = |key: &str, words: &Option<Vec<NumberText>>| {
-        words.as_ref().map(|pair| bounds(binder, &path.then(key), pair)).transpose()
+        words.as_ref().map(|pair| interval(binder, &path.then(key), pair)).transpose()
     };
     Ok(Expectation {
         verdict,
@@ -160,20 +161,6 @@ fn verdict(binder: &Binder<'_>, path: &Path, word: &str) -> Result<Verdict, Comp
         let complaint = binder.complain(path, &format!("`{word}` is not a verdict"));
         complaint.with_help(&suggestion("verdicts", word, &known))
     })
-}
-
-fn bounds(binder: &Binder<'_>, path: &Path, pair: &[NumberText]) -> Result<(f64, f64), Complaint> {
-    let [low, high] = pair else {
-        let complaint = binder.complain(path, "an interval has two ends");
-        return Err(complaint.with_label("expected [low, high]"));
-    };
-    let low = binder.number(&path.then(0), low)?;
-    let high = binder.number(&path.then(1), high)?;
-    if low <= high {
-        return Ok((low, high));
-    }
-    let message = format!("the interval ends at {high} and starts at {low}");
-    Err(binder.complain(path, &message).with_label("expected [low, high]"))
 }
 
 #[cfg(test)]

@@ -67,6 +67,7 @@ pub(super) fn judged(
             compared: case.against != Against::Nothing,
             bounded: expectation.verdict.is_none(),
             drifts: expectation.limits.drifts(),
+            rated: expectation.limits.energy_rate.is_some(),
             judgement,
             levels,
         })),
@@ -107,6 +108,7 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
     let errors = counted().map(|level| (level.error, level.error));
     let unrest: Option<Vec<f64>> = counted().map(|level| level.run.unrest).collect();
     let drifts: Option<Vec<Drift>> = counted().map(|level| level.run.drift).collect();
+    let rates: Option<Vec<Interval>> = counted().map(|level| level.run.energy_rate).collect();
     Measured {
         errors: errors.reduce(|(least, most), (error, _)| {
             if (least + most + error).is_nan() {
@@ -117,6 +119,10 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
         observed: levels.last().and_then(|level| level.run.observed_error),
         unrest: unrest.and_then(|all| all.into_iter().reduce(larger)),
         drift: drifts.and_then(|drifts| drifts.into_iter().reduce(Drift::larger)),
+        energy_rate: rates.and_then(|rates| {
+            let ends = rates.into_iter().map(|rate| (rate.low, rate.high));
+            ends.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+        }),
     }
 }
 
@@ -222,6 +228,8 @@ mod tests {
             at_end: Norms::ZERO,
             largest: Norms::ZERO,
             drift,
+            account: Vec::new(),
+            energy_rate: None,
             census,
             steps: 1,
             failure: None,
@@ -281,6 +289,7 @@ mod tests {
                 observed: None,
                 unrest: None,
                 drift: None,
+                energy_rate: None,
             };
             headline(&bound, &judgement, &measured, unmet)
         };

@@ -2,6 +2,8 @@
 
 use super::{
     binder::Binder,
+    energy,
+    interval::interval,
     model::ConvergencePlan,
     path::Path,
     words::{DriftWords, ExpectWords},
@@ -27,6 +29,14 @@ pub(super) fn limits(
         drift: match &words.drift {
             Some(words) => drifts(binder, &path.then("drift"), words, plan)?,
             None => Vec::new(),
+        },
+        energy_rate: match &words.energy_rate {
+            Some(words) => {
+                let path = path.then("energy_rate");
+                energy::check(binder, &path, plan)?;
+                Some(interval(binder, &path, words)?)
+            }
+            None => None,
         },
     };
     if let (Some(most), Some(least)) = (limits.error_below, limits.error_above)
@@ -61,12 +71,16 @@ fn drifts(
             Conserved::AngularMomentum => &words.angular_momentum,
             Conserved::KineticEnergy => &words.kinetic_energy,
             Conserved::KineticEnergyGain => &words.kinetic_energy_gain,
+            Conserved::Energy => &words.energy,
         };
         let Some(text) = text else { continue };
         let path = path.then(sum.name());
         if sum == Conserved::AngularMomentum && plan.scene.dimension() == 1 {
             let message = "there is no angular momentum in 1-D";
             return Err(binder.complain_key(&path, message));
+        }
+        if sum == Conserved::Energy {
+            energy::check(binder, &path, plan)?;
         }
         drifts.push((sum, binder.positive(&path, text, "a bound")?));
     }

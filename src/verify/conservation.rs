@@ -1,11 +1,12 @@
 //! What a motion without outer forces keeps, watched over a run.
 //!
 //! A drift is the largest change since t = 0, over the instants, relative to the largest size met:
-//! the total itself for mass and kinetic energy, the sum of the magnitudes of its terms for the
-//! momenta (which may themselves be zero).
+//! the total itself for mass and energies, the sum of the magnitudes of its terms for the
+//! momenta (which may themselves be zero). A law without an energy leaves that sum NaN.
 
 use super::norm::larger;
 use crate::{named::named, subject::Totals};
+use serde::{Deserialize, Serialize};
 
 named! {
     /// A sum over the body.
@@ -21,6 +22,8 @@ named! {
         /// The kinetic energy, of which only a gain over the start counts: what a body that stores
         /// energy in stress and gives it back must not have.
         KineticEnergyGain = "kinetic_energy_gain",
+        /// Kinetic energy and what the material stores, if its law has an energy.
+        Energy = "energy",
     }
 }
 
@@ -39,12 +42,16 @@ impl Conserved {
             Self::KineticEnergy | Self::KineticEnergyGain => {
                 ([totals.kinetic_energy, 0.0, 0.0], totals.kinetic_energy)
             }
+            Self::Energy => {
+                let energy = totals.energy().unwrap_or(f64::NAN);
+                ([energy, 0.0, 0.0], energy.abs())
+            }
         }
     }
 }
 
 /// The relative drift of every sum; NaN if one became NaN or the run failed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Drift([f64; Conserved::ALL.len()]);
 
 impl Drift {
@@ -113,6 +120,7 @@ mod tests {
         angular_momentum: [0.0, 0.0, 3.0],
         angular_momentum_size: 6.0,
         kinetic_energy: 8.0,
+        strain_energy: Some(2.0),
     };
 
     fn drift(later: &[Option<Totals>]) -> Drift {
@@ -131,7 +139,12 @@ mod tests {
         Conserved::AngularMomentum,
         0.5
     )]
-    #[case::energy(Totals { kinetic_energy: 6.0, ..START }, Conserved::KineticEnergy, 0.25)]
+    #[case::energy_that_is_stored(
+        Totals { kinetic_energy: 6.0, strain_energy: Some(4.0), ..START },
+        Conserved::KineticEnergy,
+        0.25
+    )]
+    #[case::stored_energy(Totals { strain_energy: Some(1.0), ..START }, Conserved::Energy, 0.1)]
     #[case::a_size_that_grew(
         Totals { momentum: [1.0, 4.0, 0.0], momentum_size: 50.0, ..START },
         Conserved::Momentum,
@@ -170,12 +183,21 @@ mod tests {
 
     #[test]
     fn a_body_at_rest_does_not_drift_and_one_that_starts_by_itself_does() {
-        let rest = Totals::default();
+        let rest = Totals { strain_energy: Some(0.0), ..Totals::default() };
         let mut balance = Balance::start(rest);
         balance.look(Some(&rest));
         assert_eq!(balance.drift(), Drift([0.0; Conserved::ALL.len()]));
         balance.look(Some(&Totals { momentum: [1.0, 0.0, 0.0], ..rest }));
         assert_eq!(balance.drift().of(Conserved::Momentum), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_law_without_an_energy_keeps_none() {
+        let start = Totals { strain_energy: None, ..START };
+        let mut balance = Balance::start(start);
+        balance.look(Some(&start));
+        assert!(balance.drift().of(Conserved::Energy).is_nan());
+        assert_eq!(balance.drift().of(Conserved::KineticEnergy), 0.0);
     }
 
     #[test]

@@ -129,6 +129,7 @@ mod tests {
             observed: None,
             unrest: None,
             drift: None,
+            energy_rate: None,
         },
         floor: Some(FloorCause::Time),
     };

@@ -15,9 +15,10 @@
 
 use super::beta;
 use super::student;
+use serde::{Deserialize, Serialize};
 
 /// A value with its two-sided 95 % confidence interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// The estimate.
     pub value: f64,

@@ -19,6 +19,9 @@ pub struct Limits {
     pub rest_below: Option<f64>,
     /// Largest relative drifts on any level that counts.
     pub drift: Vec<(Conserved, f64)>,
+    /// What must hold the whole confidence interval of the rate of the energy (1/s) on every level
+    /// that counts.
+    pub energy_rate: Option<(f64, f64)>,
 }
 
 /// What limits speak of.
@@ -33,6 +36,9 @@ pub struct Measured {
     pub unrest: Option<f64>,
     /// Largest drifts of the levels that count; `None` if the subject gives no totals.
     pub drift: Option<Drift>,
+    /// The confidence intervals of the rate of the energy (1/s) on the levels that count, together;
+    /// `None` if one level has none.
+    pub energy_rate: Option<(f64, f64)>,
 }
 
 /// One bound on a figure beside what was measured.
@@ -84,6 +90,13 @@ impl Limits {
                 unmet.push(format!("expected drift of {sum} at most {limit:e}, got {got}"));
             }
         }
+        if let Some((low, high)) = self.energy_rate {
+            let got = measured.energy_rate;
+            if !got.is_some_and(|(least, most)| low <= least && most <= high) {
+                let got = got.map_or("none".to_owned(), rates);
+                unmet.push(format!("expected {}, got {got}", rate_within((low, high))));
+            }
+        }
         unmet
     }
 
@@ -102,6 +115,7 @@ impl Limits {
                 .into_iter()
                 .map(|(limit, sums)| format!("drift of {} at most {limit:e}", sums.join(", "))),
         );
+        parts.extend(self.energy_rate.map(rate_within));
         parts
     }
 
@@ -115,6 +129,10 @@ impl Limits {
         let drifts: Vec<String> = self.drift.iter().map(said).collect();
         if !drifts.is_empty() {
             parts.push(format!("drift of {}", drifts.join(", ")));
+        }
+        if self.energy_rate.is_some() {
+            let got = measured.energy_rate.map_or("none".to_owned(), rates);
+            parts.push(format!("rate of energy {got} 1/s"));
         }
         parts.join("; ")
     }
@@ -137,6 +155,14 @@ impl Limits {
     }
 }
 
+fn rate_within(bounds: (f64, f64)) -> String {
+    format!("rate of energy within {} 1/s", rates(bounds))
+}
+
+fn rates((low, high): (f64, f64)) -> String {
+    format!("[{}, {}]", figures(low), figures(high))
+}
+
 /// Of a drift one digit says enough: it is rounding, or far too much.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
@@ -157,6 +183,7 @@ mod tests {
             observed: Some(1e-4),
             unrest: Some(1e-7),
             drift: Some(still),
+            energy_rate: Some((-2e-5, 1e-5)),
         }
     }
 
@@ -167,6 +194,7 @@ mod tests {
             observed_within: Some(1e-3),
             rest_below: Some(1e-6),
             drift: vec![(Conserved::Mass, 1e-13), (Conserved::Momentum, 0.0)],
+            energy_rate: Some((-2e-5, 1e-5)),
         }
     }
 
@@ -183,6 +211,10 @@ mod tests {
     #[case::not_observed(Measured { observed: None, ..measured() }, 1)]
     #[case::failed(Measured { drift: Some(Drift::NONE), ..measured() }, 2)]
     #[case::no_totals(Measured { drift: None, ..measured() }, 2)]
+    #[case::energy_lost(Measured { energy_rate: Some((-2.1e-5, 0.0)), ..measured() }, 1)]
+    #[case::energy_made(Measured { energy_rate: Some((0.0, 1.1e-5)), ..measured() }, 1)]
+    #[case::energy_nan(Measured { energy_rate: Some((NAN, 0.0)), ..measured() }, 1)]
+    #[case::energy_unknown(Measured { energy_rate: None, ..measured() }, 1)]
     fn every_limit_must_hold(#[case] measured: Measured, #[case] unmet: usize) {
         let found = limits().unmet(&measured);
         assert_eq!(found.len(), unmet, "{found:?}");
@@ -193,8 +225,13 @@ mod tests {
         let mut limits = limits();
         assert_eq!(
             limits.summary()[4..],
-            ["drift of mass at most 1e-13", "drift of momentum at most 0e0"]
+            [
+                "drift of mass at most 1e-13",
+                "drift of momentum at most 0e0",
+                "rate of energy within [-2e-5, 1e-5] 1/s"
+            ]
         );
+        limits.energy_rate = None;
         limits.drift[1].1 = 1e-13;
         assert_eq!(limits.summary()[4..], ["drift of mass, momentum at most 1e-13"]);
         assert!(limits.found(&measured()).ends_with("; drift of mass 0e0, momentum 0e0"));
@@ -202,7 +239,8 @@ mod tests {
 
     #[test]
     fn what_is_not_limited_may_be_anything() {
-        let nothing = Measured { errors: None, observed: None, unrest: None, drift: None };
+        let nothing =
+            Measured { errors: None, observed: None, unrest: None, drift: None, energy_rate: None };
         assert!(Limits::default().unmet(&nothing).is_empty());
         assert!(Limits::default().is_empty() && !limits().is_empty());
     }

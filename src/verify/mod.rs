@@ -40,6 +40,7 @@ mod quantity;
 mod reason;
 mod richardson;
 mod run;
+mod secular;
 mod shape;
 mod stability;
 mod student;

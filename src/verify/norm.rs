@@ -12,9 +12,11 @@
 //!
 //! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
 
+use serde::{Deserialize, Serialize};
+
 /// Norms of one field of errors. All are NaN where there is nothing to measure: an empty field
 /// has no error of zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Norms {
     /// Root of the unweighted mean square.
     pub rms: f64,

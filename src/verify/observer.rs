@@ -1,9 +1,10 @@
 //! One place of the body, watched over time.
 
 use crate::{exact::Truth, subject::Samples};
+use serde::{Deserialize, Serialize};
 
 /// What was seen at one label during a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// Reference position of the label that was watched: the nearest to the wanted one (m).
     pub label: Vec<f64>,

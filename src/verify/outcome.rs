@@ -83,6 +83,8 @@ pub struct Convergence {
     pub bounded: bool,
     /// The totals whose drift was asked for.
     pub drifts: Vec<Conserved>,
+    /// Whether the rate of the energy was asked for.
+    pub rated: bool,
     /// The judge's finding.
     pub judgement: Judgement,
     /// Whose error the finest level shows, where that was asked.

@@ -3,17 +3,20 @@
 use super::{
     clock::Clock,
     conservation::{Balance, Drift},
+    fit::Interval,
     norm::{Norms, larger},
     observer::{History, displacement_at},
     quantity::{Quantity, errors_of},
+    secular::energy_rate,
 };
 use crate::{
     exact::Truth,
-    subject::{Census, Failure, Samples, Subject},
+    subject::{Census, Failure, Samples, Subject, Totals},
 };
+use serde::{Deserialize, Serialize};
 
 /// What a run has shown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// Errors of the displacement at the end (m); all NaN if the run failed.
     pub errors: Norms,
@@ -25,6 +28,10 @@ pub struct Run {
     pub largest: Norms,
     /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
     pub drift: Option<Drift>,
+    /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
+    pub account: Vec<(f64, Totals)>,
+    /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
+    pub energy_rate: Option<Interval>,
     /// Counters at the end, or at the failure.
     pub census: Census,
     /// Steps taken.
@@ -85,6 +92,7 @@ struct Watch<'a> {
     at_end: Norms,
     largest: Norms,
     balance: Option<Balance>,
+    account: Vec<(f64, Totals)>,
     unrest: Option<f64>,
     history: Option<(usize, History)>,
 }
@@ -107,6 +115,7 @@ impl<'a> Watch<'a> {
             at_end: Norms::NONE,
             largest: Norms::ZERO,
             balance: subject.totals().map(Balance::start),
+            account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
             unrest: comparison.at_rest.map(|_| 0.0),
             history,
         }
@@ -119,7 +128,9 @@ impl<'a> Watch<'a> {
         subject.sample(&mut self.samples);
         let t = clock.time(step);
         if let Some(balance) = &mut self.balance {
-            balance.look(subject.totals().as_ref());
+            let totals = subject.totals();
+            balance.look(totals.as_ref());
+            self.account.extend(totals.map(|totals| (t, totals)));
         }
         if let Some((at, history)) = &mut self.history {
             history.record(*at, &self.samples, self.truth, t);
@@ -156,6 +167,8 @@ impl<'a> Watch<'a> {
             at_end: self.at_end,
             largest: self.largest,
             drift: self.balance.as_ref().map(Balance::drift),
+            energy_rate: energy_rate(&self.account),
+            account: self.account,
             census: subject.census(),
             steps: clock.steps,
             failure: None,
@@ -174,6 +187,8 @@ impl<'a> Watch<'a> {
             at_end: Norms::NONE,
             largest: Norms::NONE,
             drift: self.balance.map(|_| Drift::NONE),
+            energy_rate: None,
+            account: self.account,
             census: subject.census(),
             steps: step,
             failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),

@@ -56,6 +56,8 @@ fn a_comparison_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     "drift: {▸angular_momentum: 1e-12}",
     &["there is no angular momentum in 1-D"]
 )]
+#[case::a_rate_without_two_ends("energy_rate: ▸[1e-9]", &["an interval has two ends"])]
+#[case::a_rate_that_ends_before_it_starts("energy_rate: ▸[1e-9, -1e-9]", &["expected [low, high]"])]
 fn a_bound_with(#[case] bound: &str, #[case] words: &[&str]) {
     refused(BAR, &[(EXPECTED, &format!("    {bound}\n"))], words);
 }
@@ -71,6 +73,21 @@ fn a_drift_of_finite_elements() {
     let bound = FEM_EXPECTED.replace("verdict: too_few_levels", "▸drift: {momentum: 1e-12}");
     let words = ["the reference FEM does not give the sums whose drift is bound here"];
     refused(BAR, &[(FEM_EXPECTED, &bound)], &words);
+}
+
+/// The stress of a law in rate form has no energy in a plane.
+#[rstest]
+#[case::its_drift("drift: {▸energy: 1e-3}")]
+#[case::its_rate("▸energy_rate: [-1e-9, 1e-9]")]
+fn an_energy_that_there_is_not(#[case] bound: &str) {
+    let words = ["`linear_elastic` is integrated in rate form", "take `neo_hookean` or `hencky`"];
+    refused(super::PLATE, &[("verdict: too_few_levels", bound)], &words);
+}
+
+#[test]
+fn a_rate_of_finite_elements() {
+    let bound = FEM_EXPECTED.replace("verdict: too_few_levels", "▸energy_rate: [-1, 1]");
+    refused(BAR, &[(FEM_EXPECTED, &bound)], &["the reference FEM does not give the sums"]);
 }
 
 #[test]

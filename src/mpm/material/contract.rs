@@ -13,6 +13,12 @@ pub trait Material<const D: usize>: Send {
         Vec::new()
     }
 
+    /// Energy that all particles store, over the whole body (J); `None` where what stress has done is
+    /// no function of the state. What a law dissipates is not stored.
+    fn energy(&self, _: &Particles<D>) -> Option<f64> {
+        None
+    }
+
     /// New stresses and volumes of all particles from their velocity gradients over `dt` (s). F,
     /// where it exists, is that of the end of the step already. Allocates in the first call only.
     fn update(&mut self, dt: f64, particles: &mut Particles<D>);

@@ -42,6 +42,15 @@ impl<const D: usize> Material<D> for Hencky {
         true
     }
 
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let density = |f: &Matrix<D>| {
+            let strain = half_log(&spectral(&(f * f.transpose())).0);
+            0.5 * self.lambda * strain.sum() * strain.sum() + self.mu * strain.norm_squared()
+        };
+        let all = particles.def_grad.iter().zip(&particles.vol0);
+        Some(all.map(|(f, vol0)| vol0 * density(f)).sum())
+    }
+
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {
         for p in 0..particles.len().min(particles.def_grad.len()) {
             let f = &particles.def_grad[p];

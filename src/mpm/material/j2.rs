@@ -93,6 +93,19 @@ impl<const D: usize> Material<D> for J2 {
         vec![Column::of_particles("plastic flow", &self.flowed)]
     }
 
+    /// That of the elastic strain, `K/2 tr(eps)^2 + mu |dev eps|^2`.
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let density = |p: usize, f: &Matrix<D>| {
+            let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
+            let f = in_space(f);
+            let strain = half_log(&spectral(&(f * before.inverse_metric * f.transpose())).0);
+            let deviator = strain.add_scalar(-strain.sum() / 3.0);
+            0.5 * self.bulk * strain.sum() * strain.sum() + self.mu * deviator.norm_squared()
+        };
+        let all = particles.def_grad.iter().zip(&particles.vol0).enumerate();
+        Some(all.map(|(p, (f, vol0))| vol0 * density(p, f)).sum())
+    }
+
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {
         self.flowed.resize(particles.len(), Flowed::NOT);
         for p in 0..particles.len().min(particles.def_grad.len()) {

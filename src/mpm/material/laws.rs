@@ -113,6 +113,23 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     }
 }
 
+/// What a material says that it stores is what its stress derives from, from nothing at rest, and to
+/// second order in small strains although it is a difference of numbers that are not small.
+fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
+    for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
+        let f = Matrix::<D>::identity() + scattered(size, 0.9);
+        let mut specimen = Specimen::<D>::new(plan);
+        assert!(specimen.energy().is_none_or(|energy| energy.abs() < 1e-13), "at rest");
+        specimen.deform(&f, SLOW);
+        let (found, spaced) = (specimen.energy(), in_space(&f, 1.0));
+        let rest = energy(plan, &Matrix::identity());
+        let expected = energy(plan, &spaced).zip(rest).map(|(energy, rest)| energy - rest);
+        let Some((found, expected)) = found.zip(expected) else { return };
+        // The expected difference cancels: rounding of numbers of the size of the moduli.
+        assert_relative_eq!(found, expected, max_relative = tolerance, epsilon = 3e-13);
+    }
+}
+
 /// `sigma(Q f F) = Q sigma(f F) Q^T`, also after plastic flow in the step before.
 fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     let error = |size: f64, angle: f64| {
@@ -185,5 +202,23 @@ fn every_stress_is_the_derivative_of_an_energy() {
         stress_is_the_derivative_of_the_energy::<1>(plan);
         stress_is_the_derivative_of_the_energy::<2>(plan);
         stress_is_the_derivative_of_the_energy::<3>(plan);
+        stored_energy_is_that_of_the_law::<1>(plan);
+        stored_energy_is_that_of_the_law::<2>(plan);
+        stored_energy_is_that_of_the_law::<3>(plan);
+    }
+}
+
+/// The quadratic form that all elastic laws share, at strains whose squares are far below rounding.
+#[test]
+fn tiny_strains_store_an_energy_too() {
+    for plan in every() {
+        let MaterialPlan::NeoHookean { young, poisson } = plan else { continue };
+        let (lambda, mu) = lame(young, poisson);
+        let h = scattered::<3>(1e-9, 0.4);
+        let mut specimen = Specimen::<3>::new(plan);
+        specimen.deform(&(Matrix::identity() + h), SLOW);
+        let eps = (h + h.transpose()) * 0.5;
+        let expected = 0.5 * lambda * eps.trace() * eps.trace() + mu * eps.norm_squared();
+        assert_relative_eq!(specimen.energy().unwrap(), expected, max_relative = 1e-6);
     }
 }

@@ -39,9 +39,34 @@ impl LinearElastic {
     }
 }
 
+/// `eps e^eps - e^eps + 1`, the integral of `s e^s`: a series where the sum would cancel.
+fn logarithmic_work(eps: f64) -> f64 {
+    if eps.abs() > 0.05 {
+        return eps * libm::exp(eps) - libm::expm1(eps);
+    }
+    // sum over n of (n - 1)/n! eps^n
+    let mut power = 1.0;
+    let terms = (1..=9).map(|n| {
+        power *= eps / f64::from(n);
+        power * f64::from(n - 1)
+    });
+    terms.sum()
+}
+
 impl<const D: usize> Material<D> for LinearElastic {
     fn reads_deformation(&self) -> bool {
         false
+    }
+
+    /// Along a line the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per reference
+    /// volume, of `J sigma d eps`, to `M (eps e^eps - e^eps + 1)`; here with the eps of the stress,
+    /// which is what pushes. In a plane or in space the work depends on the way: no energy.
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let modulus = self.lambda + 2.0 * self.mu;
+        let stored = |(sigma, vol0): (&Matrix<D>, &f64)| {
+            vol0 * modulus * logarithmic_work(sigma[(0, 0)] / modulus)
+        };
+        (D == 1).then(|| particles.sigma.iter().zip(&particles.vol0).map(stored).sum())
     }
 
     fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
@@ -74,6 +99,25 @@ mod tests {
         }
         assert_relative_eq!(bar.vol[0], 1.1, max_relative = 1e-12);
         assert_relative_eq!(bar.sigma[0][(0, 0)], young * libm::log(1.1), max_relative = 1e-6);
+    }
+
+    /// `W(J) = M (J ln J - J + 1)`, whose derivative is sigma; and none in a plane.
+    #[test]
+    fn a_bar_stores_the_work_of_its_stress() {
+        for stretch in [1.2, 0.7, 1.01, 1.0 - 1e-9] {
+            let mut bar = one_particle::<1>();
+            bar.sigma[0] = Matrix::<1>::new(100.0 * libm::log(stretch));
+            let stored = Material::<1>::energy(&LinearElastic::new(100.0, 0.0), &bar);
+            let small = stretch - 1.0;
+            let expected = if small.abs() < 1e-6 {
+                50.0 * small * small
+            } else {
+                100.0 * (stretch * libm::log(stretch) - small)
+            };
+            assert_relative_eq!(stored.unwrap(), expected, max_relative = 1e-8);
+        }
+        let plate = one_particle::<2>();
+        assert_eq!(Material::<2>::energy(&LinearElastic::new(100.0, 0.0), &plate), None);
     }
 
     #[test]

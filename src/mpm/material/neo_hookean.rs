@@ -28,11 +28,26 @@ impl NeoHookean {
         let pressure = (self.lambda * libm::log(j) - self.mu) / j;
         Matrix::identity() * pressure + f * f.transpose() * (self.mu / j)
     }
+
+    /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), of `H = F - I`: where strains are
+    /// small, F : F - D and 2 ln J are nearly the same.
+    fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
+        let h = f - Matrix::identity();
+        let trace = h.trace();
+        let minors = 0.5 * (trace * trace - (h * h).trace());
+        let log = libm::log1p(trace + minors + if D == 3 { det(&h) } else { 0.0 });
+        0.5 * self.lambda * log * log + self.mu * (trace - log + 0.5 * h.norm_squared())
+    }
 }
 
 impl<const D: usize> Material<D> for NeoHookean {
     fn reads_deformation(&self) -> bool {
         true
+    }
+
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let all = particles.def_grad.iter().zip(&particles.vol0);
+        Some(all.map(|(f, vol0)| vol0 * self.density(f)).sum())
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {

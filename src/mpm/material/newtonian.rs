@@ -39,6 +39,16 @@ impl<const D: usize> Material<D> for Newtonian {
         false
     }
 
+    /// That of the pressure, `K/7 (J^-6/6 + J - 7/6)`.
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let density = |j: f64| {
+            let cube = 1.0 / (j * j * j);
+            self.bulk / 7.0 * (cube * cube / 6.0 + j - 7.0 / 6.0)
+        };
+        let all = particles.vol.iter().zip(&particles.vol0);
+        Some(all.map(|(vol, vol0)| vol0 * density(vol / vol0)).sum())
+    }
+
     fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
         for p in 0..particles.len() {
             let grad_v = &particles.grad_v[p];

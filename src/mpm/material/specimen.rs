@@ -47,6 +47,11 @@ impl<const D: usize> Specimen<D> {
         self.flow(&((step - Matrix::identity()) / dt), dt)
     }
 
+    /// The stored energy (J), of a volume of one.
+    pub(super) fn energy(&self) -> Option<f64> {
+        self.0.energy(&self.1)
+    }
+
     pub(super) fn j(&self) -> f64 {
         self.1.vol[0] / self.1.vol0[0]
     }

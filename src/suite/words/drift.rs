@@ -12,4 +12,5 @@ pub(in crate::suite) struct DriftWords {
     pub(in crate::suite) angular_momentum: Option<NumberText>,
     pub(in crate::suite) kinetic_energy: Option<NumberText>,
     pub(in crate::suite) kinetic_energy_gain: Option<NumberText>,
+    pub(in crate::suite) energy: Option<NumberText>,
 }

@@ -193,6 +193,8 @@ pub(in crate::suite) struct ExpectWords {
     /// Largest speed towards the end of every level that counts, over the wave speed.
     pub(in crate::suite) rest_below: Option<NumberText>,
     pub(in crate::suite) drift: Option<DriftWords>,
+    /// Bounds on the rate of the energy (1/s).
+    pub(in crate::suite) energy_rate: Option<Vec<NumberText>>,
     pub(in crate::suite) because: String,
     /// What is expected of a full run, where that differs.
     pub(in crate::suite) full: Option<Box<ExpectWords>>,
