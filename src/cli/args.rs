@@ -61,6 +61,10 @@ pub(super) struct RunArgs {
     /// Write reports, JSON and figures into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Keep finished levels in this folder, and take from it those that are there: an interrupted
+    /// run goes on where it was
+    #[arg(long, value_name = "DIR")]
+    pub(super) resume: Option<PathBuf>,
     /// Threads to use; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N")]
     pub(super) jobs: Option<usize>,

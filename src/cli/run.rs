@@ -8,7 +8,7 @@ use super::{
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
-    suite::{Extent, Runner, Suite},
+    suite::{Extent, Kept, Runner, Suite},
     verify::SuiteOutcome,
 };
 use std::{fs, io, path::Path};
@@ -24,6 +24,13 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         output::complain(&message);
         return BAD_INPUT;
     }
+    let kept = match args.resume.as_deref().map(open).transpose() {
+        Ok(kept) => kept,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
     let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
@@ -33,7 +40,8 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         return BAD_INPUT;
     }
     let bar = progress_bar(&suites, extent(args));
-    let outcomes: Vec<SuiteOutcome> = suites.iter().map(|suite| one(suite, args, &bar)).collect();
+    let outcomes: Vec<SuiteOutcome> =
+        suites.iter().map(|suite| one(suite, args, kept.as_ref(), &bar)).collect();
     bar.finish_and_clear();
     match args.format {
         Format::Json => output::print(&report::json(&outcomes)),
@@ -47,7 +55,11 @@ pub(super) fn run(args: &RunArgs) -> u8 {
     if let Err(message) = &written {
         output::complain(message);
     }
-    if !refused.is_empty() || written.is_err() {
+    let unkept = kept.as_ref().and_then(Kept::complaint);
+    if let Some(complaint) = &unkept {
+        output::complain(&format!("error: --resume {complaint}"));
+    }
+    if !refused.is_empty() || written.is_err() || unkept.is_some() {
         BAD_INPUT
     } else if outcomes.iter().all(SuiteOutcome::passed) {
         PASSED
@@ -80,9 +92,9 @@ fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
     bar
 }
 
-fn one(suite: &Suite, args: &RunArgs, bar: &ProgressBar) -> SuiteOutcome {
+fn one(suite: &Suite, args: &RunArgs, kept: Option<&Kept>, bar: &ProgressBar) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
-    let outcome = Runner::over(suite, extent(args)).run(&|| bar.inc(1));
+    let outcome = Runner::over(suite, extent(args)).keeping(kept).run(&|| bar.inc(1));
     if args.format == Format::Text && !args.brief {
         bar.suspend(|| output::print(&format!("{}\n", report::text(&outcome))));
     }
@@ -92,6 +104,11 @@ fn one(suite: &Suite, args: &RunArgs, bar: &ProgressBar) -> SuiteOutcome {
 /// Makes the folder of `--out`, before hours are spent on what cannot be written.
 fn prepare(folder: &Path) -> Result<(), String> {
     fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))
+}
+
+/// Opens the folder of `--resume`.
+fn open(folder: &Path) -> Result<Kept, String> {
+    Kept::open(folder).map_err(|error| format!("error: --resume {}: {error}", folder.display()))
 }
 
 /// The first name that two suites have.

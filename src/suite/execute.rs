@@ -5,6 +5,7 @@ use super::{
     fine_steps::FineSteps,
     force,
     judged::{error_of, judge_levels, judged, refused},
+    kept::Kept,
     model::{
         Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, StudyPlan, Suite,
     },
@@ -18,7 +19,8 @@ use super::{
 use crate::{
     exact::{Problem, Truth},
     verify::{
-        self, Axis, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Study, SuiteOutcome,
+        self, Axis, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Run, Study,
+        SuiteOutcome,
     },
 };
 use rayon::prelude::*;
@@ -31,6 +33,7 @@ pub type Progress<'a> = &'a (dyn Fn() + Sync);
 pub struct Runner<'a> {
     suite: &'a Suite,
     extent: Extent,
+    kept: Option<&'a Kept>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
 }
 
@@ -49,7 +52,13 @@ impl<'a> Runner<'a> {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
-        Self { suite, extent, references }
+        Self { suite, extent, kept: None, references }
+    }
+
+    /// Keeps finished levels, and takes those that have been kept.
+    #[must_use]
+    pub fn keeping(self, kept: Option<&'a Kept>) -> Self {
+        Self { kept, ..self }
     }
 
     /// Units of progress of the whole suite.
@@ -122,7 +131,7 @@ impl<'a> Runner<'a> {
             .levels(self.extent)
             .par_iter()
             .map(|level| {
-                let level = level_of(plan, case, truth, *level);
+                let level = self.level(plan, case, truth, *level);
                 progress();
                 level
             })
@@ -132,9 +141,30 @@ impl<'a> Runner<'a> {
             Err(reason) => return refused(plan, case, expectation, reason),
         };
         let judgement = judge_levels(plan, case, expectation, &levels);
-        let again = |level| level_of(plan, case, truth, level);
+        let again = |level| self.level(plan, case, truth, level);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
         judged(plan, case, expectation, levels, judgement, floor)
+    }
+
+    /// One level of a case against `truth`.
+    fn level(
+        &self,
+        plan: &ConvergencePlan,
+        case: &Case,
+        truth: &dyn Truth,
+        level: LevelPlan,
+    ) -> Result<LevelOutcome, String> {
+        let clock = Clock::new(case.until, level.dt, plan.instants)
+            .ok_or("the time step makes no sense")?;
+        let run = || run_of(plan, case, truth, level, &clock);
+        let run = match self.kept {
+            None => run(),
+            Some(kept) => {
+                let Suite { name, fingerprint, .. } = self.suite;
+                kept.level(&format!("{name} {fingerprint:016x} {} {level:?}", case.name), run)
+            }
+        };
+        Ok(level_of(plan, level, clock.dt(), run?))
     }
 
     fn truth(&self, plan: &'a ConvergencePlan, case: &Case) -> Result<&dyn Truth, String> {
@@ -157,31 +187,31 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// One level of a case against `truth`.
-fn level_of(
+fn run_of(
     plan: &ConvergencePlan,
     case: &Case,
     truth: &dyn Truth,
     level: LevelPlan,
-) -> Result<LevelOutcome, String> {
+    clock: &Clock,
+) -> Result<Run, String> {
     let mut subject = subject(plan, case.method, level)?;
-    let clock =
-        Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
     let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref(), at_rest: rest };
-    let run = verify::run(&mut *subject, truth, &clock, &comparison);
+    Ok(verify::run(&mut *subject, truth, clock, &comparison))
+}
+
+fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> LevelOutcome {
     let crossed = run.census.crossings.is_some_and(|n| n > 0);
     let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
     let LevelPlan { cells, h, .. } = level;
     let ppc = level.ppc.filter(|_| run.census.particles.is_some());
-    let dt = clock.dt();
     let spacing = match plan.refine.axis {
         Axis::Space => h,
         Axis::Time => dt,
         Axis::Particles => level.particle_spacing(plan.scene.dimension()),
     };
     let error = error_of(plan, &run);
-    Ok(LevelOutcome { cells, h, spacing, dt, ppc, usable: !excluded, error, order: None, run })
+    LevelOutcome { cells, h, spacing, dt, ppc, usable: !excluded, error, order: None, run }
 }
 
 fn internal_force(plan: &ForcePlan, case: &ForceCase, progress: Progress<'_>) -> CaseOutcome {

@@ -3,7 +3,9 @@
 use super::{
     bar_limits,
     binder::{Binder, Parameter},
-    cases, comparable, damping, force, law,
+    cases, comparable, damping, force,
+    kept::fingerprint,
+    law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
     refine, rest, scene, size, stability, steps, truth, truthless, viscosity,
@@ -24,11 +26,12 @@ impl Suite {
     /// # Errors
     /// A [`Complaint`] with the place of the first thing that is wrong.
     pub fn load(source: &Source) -> Result<Self, Complaint> {
-        match study_of(source)? {
+        let suite = match study_of(source)? {
             StudyName::Convergence => convergence(source),
             StudyName::InternalForce => internal_force(source),
             StudyName::Stability => stability(source),
-        }
+        };
+        Ok(Self { fingerprint: fingerprint(source.text().as_bytes()), ..suite? })
     }
 }
 
@@ -119,7 +122,7 @@ fn assemble(
     study: StudyPlan,
 ) -> Suite {
     let functions = functions.as_slice().to_vec();
-    Suite { name, title, source, about, parameters, functions, study }
+    Suite { name, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 
 /// A name becomes part of test and file names.

@@ -39,6 +39,7 @@ mod heat_statement;
 mod hold;
 mod interval;
 mod judged;
+mod kept;
 mod law;
 mod limits;
 mod load;
@@ -75,6 +76,7 @@ pub mod yaml;
 
 pub use execute::{Progress, Runner};
 pub use hold::Hold;
+pub use kept::Kept;
 pub use method::Method;
 pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,

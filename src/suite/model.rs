@@ -34,6 +34,8 @@ pub struct Suite {
     pub functions: Vec<(String, String)>,
     /// What is studied.
     pub study: StudyPlan,
+    /// Of the text of the file.
+    pub(super) fingerprint: u64,
 }
 
 /// A study, by kind.

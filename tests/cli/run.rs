@@ -180,3 +180,50 @@ fn a_reader_that_never_came_is_no_reason_either() {
     assert_eq!(child.wait().expect("an end").code(), Some(SOUND));
     assert!(folder.path().is_dir());
 }
+
+/// The first two levels are there, one of them torn; the text, the JSON and the figures are the same as
+/// without. A folder that is none is bad input.
+#[test]
+fn a_resumed_run_prints_the_same_bytes() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let plain = folder.call(&["run", "bar.yaml", "--out", "plain"]);
+    let first = folder.call(&["run", "bar.yaml", "--resume", "kept"]);
+    assert_eq!((first.code, &first.out), (SOUND, &plain.out));
+    let kept = folder.files("kept");
+    assert_eq!(kept.len(), 8, "four levels of two cases");
+    let whole = folder.read(&format!("kept/{}", kept[1]));
+    folder.write(&format!("kept/{}", kept[1]), &whole[..whole.len() / 2]);
+    for gone in &kept[2..] {
+        folder.write(&format!("kept/{gone}"), "");
+    }
+    let resumed = folder.call(&["run", "bar.yaml", "--resume", "kept", "--out", "resumed"]);
+    assert_eq!((resumed.code, &resumed.out), (SOUND, &plain.out));
+    assert_eq!(folder.files("kept"), kept);
+    assert_eq!(folder.read(&format!("kept/{}", kept[1])), whole);
+    for file in folder.files("plain") {
+        assert_eq!(folder.read(&format!("plain/{file}")), folder.read(&format!("resumed/{file}")));
+    }
+    let none = folder.call(&["run", "bar.yaml", "--resume", "bar.yaml"]);
+    assert_eq!(none.code, BAD_INPUT);
+    assert!(none.errors.contains("--resume bar.yaml"), "{}", none.errors);
+}
+
+/// What is kept is marked, and read back instead of being run again.
+#[test]
+fn a_kept_level_is_taken_and_one_of_another_suite_is_not() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.call(&["run", "bar.yaml", "--resume", "kept"]);
+    for kept in folder.files("kept") {
+        let text = folder.read(&format!("kept/{kept}"));
+        let marked = text.replace("failure: null", "failure: marked");
+        assert_ne!(text, marked);
+        folder.write(&format!("kept/{kept}"), marked);
+    }
+    let marked = folder.call(&["run", "bar.yaml", "--resume", "kept"]);
+    assert!(marked.out.contains("marked"), "{}", marked.out);
+    folder.write("bar.yaml", BAR.replace("until: 0.05", "until: 0.06"));
+    let changed = folder.call(&["run", "bar.yaml", "--resume", "kept"]);
+    assert!(!changed.out.contains("marked"), "{}", changed.out);
+}

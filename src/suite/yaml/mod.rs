@@ -26,6 +26,7 @@
 //! ```
 
 mod complaint;
+mod exchange;
 mod locate;
 mod number_text;
 mod one_or_many;
@@ -46,6 +47,7 @@ mod words;
 mod tests;
 
 pub use complaint::Complaint;
+pub(in crate::suite) use exchange::{read_again, written};
 pub use locate::Step;
 pub use number_text::NumberText;
 pub use one_or_many::OneOrMany;
