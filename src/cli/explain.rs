@@ -2,9 +2,12 @@
 
 use super::{args::ExplainArgs, output, show, status::BAD_INPUT};
 use mpm_verify::{
-    mpm::EffectName,
     report,
-    suite::{StudyPlan, Suite, profiles, statement},
+    suite::{
+        StudyPlan, Suite,
+        profiles::{self, Dispensable},
+        statement,
+    },
 };
 
 /// Prints the page of each suite.
@@ -19,11 +22,11 @@ pub(super) fn explain(args: &ExplainArgs) -> u8 {
     show::each(&args.targets.targets, |suite| explanation(suite, without))
 }
 
-fn named(name: &str) -> Result<EffectName, String> {
-    if let Some(effect) = EffectName::ALL.iter().find(|effect| effect.name() == name) {
-        return Ok(*effect);
+fn named(name: &str) -> Result<Dispensable, String> {
+    if let Some(found) = Dispensable::all().find(|known| known.name() == name) {
+        return Ok(found);
     }
-    let known: Vec<&str> = EffectName::ALL.iter().map(|effect| effect.name()).collect();
+    let known: Vec<&str> = Dispensable::all().map(Dispensable::name).collect();
     let nearest = known
         .iter()
         .map(|known| (strsim::jaro_winkler(known, name), known))
@@ -36,7 +39,7 @@ fn named(name: &str) -> Result<EffectName, String> {
     Err(format!("error: --without {name}: there is no such effect\nhelp: {hint}"))
 }
 
-fn explanation(suite: &Suite, without: Option<EffectName>) -> String {
+fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());
     page += &line("source", &suite.source);
     for (key, value) in statement::rows(suite) {
@@ -57,7 +60,7 @@ fn line(key: &str, value: &str) -> String {
 }
 
 /// What a step of the case takes, and what it would not without an effect.
-fn taken(suite: &Suite, case: &str, without: Option<EffectName>) -> String {
+fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(all) = profiles::of_case(suite, case, None) else { return String::new() };
     let mut page: String =
         report::profile(&all).iter().map(|(key, text)| line(key, text)).collect();

@@ -77,11 +77,14 @@ fn refuse_beside(binder: &Binder<'_>, path: &Path, words: &SceneWords) -> Result
         return Err(binder.complain_key(&path.then(*key), &message));
     }
     for (i, load) in words.loads.iter().enumerate() {
-        if let LoadWords::Traction { .. } | LoadWords::Pressure { .. } = load {
-            let name = load.effect().name();
-            let message = format!("`{name}` acts on a face of one body, and the scene has several");
-            return Err(binder.complain_key(&path.then("loads").then(i).then(name), &message));
-        }
+        let name = load.effect().name();
+        let acts = match load {
+            LoadWords::Traction { .. } | LoadWords::Pressure { .. } => "acts on a face of",
+            LoadWords::Heat { .. } | LoadWords::ThermalExpansion { .. } => "is that of",
+            _ => continue,
+        };
+        let message = format!("`{name}` {acts} one body, and the scene has several");
+        return Err(binder.complain_key(&path.then("loads").then(i).then(name), &message));
     }
     Ok(())
 }

@@ -6,14 +6,38 @@ use super::{
 };
 use crate::{mpm::EffectName, subject::Profile};
 
-/// What a step of the case called `name` takes on the coarsest level, without one effect if that
-/// is wanted. None of a case that has no steps, or whose subject does not say.
-pub fn of_case(suite: &Suite, name: &str, without: Option<EffectName>) -> Option<Profile> {
+/// What a scene may do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dispensable {
+    /// An effect.
+    Effect(EffectName),
+    /// Contact between bodies, which share one velocity field without it.
+    Contact,
+}
+
+impl Dispensable {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
+    }
+
+    /// The name as suites and reports spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Effect(effect) => effect.name(),
+            Self::Contact => "contact",
+        }
+    }
+}
+
+/// What a step of the case called `name` takes on the coarsest level, without one thing if that is
+/// wanted. None of a case that has no steps, or whose subject does not say.
+pub fn of_case(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let StudyPlan::Convergence(plan) = &suite.study else { return None };
     let case = plan.cases.iter().find(|case| case.name == name)?;
     match without {
         None => of(plan, case),
-        Some(effect) => of(&lacking(plan, effect), case),
+        Some(without) => of(&lacking(plan, without), case),
     }
 }
 
@@ -22,9 +46,13 @@ pub(super) fn of(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }
 
-/// The plan with a scene that does not list `effect`.
-fn lacking(plan: &ConvergencePlan, effect: EffectName) -> ConvergencePlan {
+/// The plan with a scene that does not list `without`.
+fn lacking(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
     let mut plan = plan.clone();
+    let Dispensable::Effect(effect) = without else {
+        plan.scene.contact = None;
+        return plan;
+    };
     if let (EffectName::BodyForce, Some(problem)) = (effect, &mut plan.exact) {
         problem.manufactured = false;
     }

@@ -48,6 +48,11 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
     &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  loads:\n    - ▸traction: {on: right, value: [1]}")],
     &["`traction` acts on a face of one body, and the scene has several"]
 )]
+#[case::heat(
+    IMPACT,
+    &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  loads:\n    - ▸heat: {conductivity: 1, capacity: 1}")],
+    &["`heat` is that of one body, and the scene has several"]
+)]
 #[case::negative_friction(
     IMPACT,
     &[("  contact: {friction: 0}", "  contact: {friction: ▸-0.5}")],

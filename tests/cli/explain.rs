@@ -57,6 +57,16 @@ fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
 }
 
 #[test]
+fn contact_can_be_left_out_too() {
+    let found = Folder::new().call(&["explain", "two-bar-impact", "--without", "contact"]);
+    for words in
+        ["effects           contact\n", "`contact` these lines change:", "p2g mass gradient"]
+    {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
 fn without_what_is_not_there_nothing_changes() {
     let found = Folder::new().call(&["explain", "set-force", "--without", "gravity"]);
     assert!(found.out.contains("`gravity` is not there, nothing changes"), "{}", found.out);
