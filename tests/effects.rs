@@ -6,15 +6,16 @@ mod common;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
-        ArtificialViscosity, BasisName, BodyForce, Boundary, Counted, Damping, Driven, Effect,
-        EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, Particles, Placement,
-        Prescribed, Pressure, Roller, SchemeName, SetForce, Setup, Side, Solver, ThermalExpansion,
-        Traction, TransferName, Vector,
+        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Driven,
+        Effect, EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, Particles,
+        Placement, Prescribed, Pressure, Roller, SchemeName, SetForce, Setup, Side, Solver, Tally,
+        ThermalExpansion, Traction, TransferName, Vector,
     },
     subject::{Column, Holder, Profile, Subject},
     suite::{Hold, StudyPlan, Suite, embedded, profiles},
 };
 use rstest::rstest;
+use std::sync::Arc;
 
 type Boxed<const D: usize> = Box<dyn Effect<D>>;
 
@@ -190,7 +191,11 @@ fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
 /// The row of the README for a member of a scene, but for the suites that verify it.
 /// What it needs is in `before`.
 fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Setup<2>)) -> String {
-    let (empty, with) = (taken(before), taken(with));
+    row_of(name, &taken(before), &taken(with))
+}
+
+/// The row for what is in `with` and not in `empty`.
+fn row_of(name: &str, empty: &Profile, with: &Profile) -> String {
     let kept = |holder: Holder| {
         let held = |profile: &Profile| -> Vec<Column> {
             profile.columns.iter().filter(|column| column.holder == holder).copied().collect()
@@ -204,7 +209,7 @@ fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Se
                 if whole { "" } else { " where it acts" }
             )
         };
-        let columns: Vec<String> = added(&held(&with), &held(&empty)).iter().map(text).collect();
+        let columns: Vec<String> = added(&held(with), &held(empty)).iter().map(text).collect();
         if columns.is_empty() { "nothing".to_owned() } else { columns.join(", ") }
     };
     let particles = with.particles as u64;
@@ -271,6 +276,30 @@ fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
     let rows: Vec<(&str, String)> = EffectName::ALL.iter().map(row).collect();
     let named = |name: &str| *EffectName::ALL.iter().find(|one| one.name() == name).unwrap();
     are_in_the_readme(&rows, |suite, name| lists(suite, named(name)));
+}
+
+/// What the second step of two bodies takes that lie across each other.
+fn taken_by_two(friction: Option<f64>) -> Profile {
+    let tally = Arc::<Tally>::default();
+    let setup = |shift: f64| {
+        let method = (BasisName::Linear, TransferName::Flip);
+        let mut setup = free_body::<2>(method, SchemeName::Musl);
+        setup.particles.x.iter_mut().for_each(|x| x[0] += shift);
+        setup.kernel = Box::new(Counted::sharing(setup.kernel, &tally));
+        setup
+    };
+    let mut bodies = Bodies::new(vec![setup(0.0), setup(0.3)], friction).unwrap();
+    bodies.step(DT).unwrap();
+    tally.take();
+    bodies.step(DT).unwrap();
+    Profile { passes: tally.take(), ..bodies.profile() }
+}
+
+#[test]
+fn the_readme_says_what_contact_adds_and_which_suites_verify_it() {
+    let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
+    let has_contact = |suite: &str, _: &str| matches!(load(suite).study, StudyPlan::Convergence(plan) if plan.scene.contact.is_some());
+    are_in_the_readme(&[("contact", row)], has_contact);
 }
 
 #[test]
