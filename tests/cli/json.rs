@@ -21,7 +21,7 @@ const CASE: [&str; 15] = [
     "stability",
 ];
 
-const LEVEL: [&str; 17] = [
+const LEVEL: [&str; 18] = [
     "cells",
     "h",
     "spacing",
@@ -36,6 +36,7 @@ const LEVEL: [&str; 17] = [
     "errors",
     "judged",
     "drift",
+    "energy_rate",
     "unrest",
     "order",
     "failure",
