@@ -33,18 +33,20 @@ pub(super) fn is_truthless(plan: &ConvergencePlan) -> bool {
 /// Refuses a suite without a truth that asks for something which takes one.
 pub(super) fn check(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
     let asked = |words: &ExpectWords| {
-        let ExpectWords { order, verdict, finest_pair, floor, drift, .. } = words;
+        let ExpectWords { order, verdict, finest_pair, floor, drift, energy_rate, .. } = words;
         let ExpectWords { error_below, error_above, observed_within, rest_below, .. } = words;
         let bounds = [error_below, error_above, observed_within, rest_below];
         let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();
-        judged || floor.is_some() || bounds.iter().any(|b| b.is_some()) || drift.is_none()
+        let kept = drift.is_some() || energy_rate.is_some();
+        judged || floor.is_some() || bounds.iter().any(|b| b.is_some()) || !kept
     };
     let full = |words: &ExpectWords| words.full.as_deref().is_some_and(asked);
     if words.expect.iter().any(|words| asked(words) || full(words)) {
         let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
                        `reference`";
         let complaint = binder.complain_key(&Path::top("suite"), message);
-        return Err(complaint.with_help("without one, expectations may bound a `drift` only"));
+        return Err(complaint
+            .with_help("without one, expectations may bound a `drift` or an `energy_rate` only"));
     }
     if words.observe.is_some() {
         let message = "a place is observed against a truth, and the suite has none";

@@ -136,7 +136,7 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
 #[case::a_figure_that_takes_a_truth(
     DISKS,
     &[("suite: two", "▸suite: two"), ("    crossings: some", "    crossings: some\n    error_below: 1")],
-    &["no truth", "without one, expectations may bound a `drift` only"]
+    &["no truth", "without one, expectations may bound a `drift` or an `energy_rate` only"]
 )]
 #[case::a_place_without_a_truth(
     DISKS,
