@@ -3,12 +3,10 @@
 use super::{
     dispatch::subject,
     fine_steps::FineSteps,
-    force,
+    force_case::internal_force,
     judged::{error_of, judge_levels, judged, refused},
     kept::Kept,
-    model::{
-        Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, StudyPlan, Suite,
-    },
+    model::{Against, Case, ConvergencePlan, StudyPlan, Suite},
     plan::{Extent, LevelPlan},
     probe,
     reference::Reference,
@@ -18,10 +16,7 @@ use super::{
 };
 use crate::{
     exact::{Problem, Truth},
-    verify::{
-        self, Axis, CaseOutcome, Clock, Comparison, ForceRow, LevelOutcome, Run, Study,
-        SuiteOutcome,
-    },
+    verify::{self, Axis, CaseOutcome, Clock, Comparison, LevelOutcome, Run, SuiteOutcome},
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -98,7 +93,11 @@ impl<'a> Runner<'a> {
     pub fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         match &self.suite.study {
             StudyPlan::Convergence(plan) => self.convergence(plan, &plan.cases[index], progress),
-            StudyPlan::InternalForce(plan) => internal_force(plan, &plan.cases[index], progress),
+            StudyPlan::InternalForce(plan) => {
+                let outcome = internal_force(plan, &plan.cases[index]);
+                progress();
+                outcome
+            }
             StudyPlan::Stability(plan) => {
                 stability::case(plan, &plan.cases[index], self.extent, progress)
             }
@@ -212,57 +211,4 @@ fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> Leve
     };
     let error = error_of(plan, &run);
     LevelOutcome { cells, h, spacing, dt, ppc, usable: !excluded, error, order: None, run }
-}
-
-fn internal_force(plan: &ForcePlan, case: &ForceCase, progress: Progress<'_>) -> CaseOutcome {
-    let rows = force::rows(plan, case);
-    progress();
-    let (met, verdict, reason) = judged_force(&rows, case.expected);
-    let expected = case.expected.summary();
-    let unmet = if met { Vec::new() } else { vec![format!("expected: {expected}; {reason}")] };
-    CaseOutcome {
-        case: case.name.clone(),
-        subject: "mpm",
-        settings: vec![("basis".to_owned(), case.basis.name().to_owned())],
-        profile: None,
-        expected,
-        because: case.because.clone(),
-        verdict: verdict.to_owned(),
-        reason,
-        unmet,
-        study: Study::InternalForce(rows),
-    }
-}
-
-/// Whether the force is as expected, the verdict, and the figure that led to it.
-fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'static str, String) {
-    let largest = largest(rows.iter().map(|row| row.predicted));
-    match expected {
-        ForceExpectation::AgreesWithin(share) => {
-            let worst = self::largest(rows.iter().map(|row| row.force - row.predicted)) / largest;
-            let met = worst <= share;
-            let reason = format!(
-                "largest deviation from the prediction {worst:.1e} of the largest predicted \
-                 force, over {} positions",
-                rows.len()
-            );
-            (met, if met { "agrees" } else { "differs" }, reason)
-        }
-        ForceExpectation::StepsBelow(share) => {
-            let steps = rows.windows(2).map(|pair| pair[1].force - pair[0].force);
-            let worst = self::largest(steps) / largest;
-            let met = worst <= share;
-            let reason = format!(
-                "largest change between neighbouring positions {worst:.3} of the largest \
-                 predicted force, over {} positions",
-                rows.len()
-            );
-            (met, if met { "smooth" } else { "jumps" }, reason)
-        }
-    }
-}
-
-/// Largest magnitude; NaN if any value is.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.map(f64::abs).fold(0.0, verify::larger)
 }

@@ -32,6 +32,7 @@ mod extent;
 mod filling;
 mod fine_steps;
 mod force;
+mod force_case;
 mod force_plan;
 mod formal;
 mod heat;
