@@ -85,6 +85,7 @@ fn every_key_is_there_and_no_other() {
                         "angular_momentum",
                         "kinetic_energy",
                         "kinetic_energy_gain",
+                        "energy",
                     ];
                     has(&level["drift"], &sums);
                 }
