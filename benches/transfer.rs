@@ -9,7 +9,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use mpm_verify::{
     mpm::{
         BasisName, Block, FrameName, Grid, Kernel, LinearElastic, MassName, Matrix, Particles,
-        SchemeName, Setup, Solver, Transfer, TransferName, Vector, kernel, mass_matrix, transfer,
+        SchemeName, Setup, Solver, Transfer, TransferName, Vector, Wanted, kernel, mass_matrix,
+        transfer,
     },
     subject::{Start, Subject},
 };
@@ -76,23 +77,26 @@ fn scene<const D: usize>(
 struct Method<const D: usize> {
     kernel: Box<dyn Kernel<D>>,
     transfer: Box<dyn Transfer<D>>,
+    /// How fast the grid carries each particle (m/s).
+    carried: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Method<D> {
     fn p2g(&mut self, particles: &Particles<D>, grid: &mut Grid<D>) {
         let kernel = &*self.kernel;
-        self.transfer.p2g_mass(kernel, particles, grid);
-        let mut momentum = std::mem::take(&mut grid.velocity);
-        self.transfer.p2g_momentum(kernel, particles, grid, &mut momentum);
-        grid.velocity = momentum;
-        self.transfer.p2g_internal_force(kernel, particles, grid);
+        let all = Wanted { mass: true, momentum: true, force: true };
+        self.transfer.p2g(kernel, particles, grid, all);
     }
 
     fn g2p(&mut self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>) {
         let kernel = &*self.kernel;
         self.transfer.g2p_velocity(kernel, grid, &[], dt, particles);
         self.transfer.g2p_gradient(kernel, grid, particles);
-        kernel.g2p_position(grid, dt, particles);
+        self.carried.resize(particles.len(), Vector::zeros());
+        kernel.g2p(grid, &grid.velocity, particles, (0.0, 1.0), &mut self.carried);
+        for (x, v) in particles.x.iter_mut().zip(&self.carried) {
+            *x += v * dt;
+        }
     }
 }
 
@@ -160,7 +164,7 @@ fn check_g2p<const D: usize>(
 /// A solver that has made one step and kept its momentum.
 fn checked_solver<const D: usize>(
     id: &str,
-    Method { kernel, transfer }: Method<D>,
+    Method { kernel, transfer, .. }: Method<D>,
     grid: Grid<D>,
     particles: Particles<D>,
 ) -> Solver<D> {
@@ -206,7 +210,7 @@ fn compare<const D: usize>(
         let scene = scene::<D>(&*kernel, count, order);
         let mut transfer = transfer::<D>(name);
         transfer.start(&*kernel, &scene.0, &scene.1);
-        (Method { kernel, transfer }, scene)
+        (Method { kernel, transfer, carried: Vec::new() }, scene)
     };
     group.throughput(Throughput::Elements(make().1.1.len() as u64));
 

@@ -158,6 +158,7 @@ fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
         ("sigma", 32),
         ("grad v", 32),
         ("cell", 16),
+        ("carried", 16),
     ];
     assert_eq!(named(Holder::Particle), of_particles);
     let of_nodes = [("mass", 8), ("velocity", 16), ("force", 16), ("acceleration", 16)];

@@ -45,6 +45,17 @@ pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
 }
 
+/// `[f(0), f(1), ...]`, by way of an array of `nothing`. For the hot loop: `std::array::from_fn` does
+/// not always become part of its caller.
+#[inline(always)]
+pub(super) fn array<const N: usize, T: Copy>(nothing: T, mut f: impl FnMut(usize) -> T) -> [T; N] {
+    let mut array = [nothing; N];
+    for k in 0..N {
+        array[k] = f(k);
+    }
+    array
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

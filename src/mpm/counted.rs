@@ -1,10 +1,11 @@
-//! A kernel that counts its passes: what a step does, seen from outside.
+//! A kernel that counts its passes: what a step does, seen from outside. Parts of a pass that does
+//! several things count as if each were alone.
 
 use super::{
     algebra::{Matrix, Vector},
     basis::Domain,
     grid::Grid,
-    kernel::{Kernel, Shown},
+    kernel::{Affine, Divergence, Kernel, Maps, Shown, Takes},
     moments::Moments,
     particles::Particles,
 };
@@ -72,9 +73,32 @@ impl<const D: usize> Counted<D> {
 }
 
 impl<const D: usize> Kernel<D> for Counted<D> {
-    fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
-        self.tally.add("p2g mass", particles.len());
-        self.kernel.p2g_mass(particles, grid);
+    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
+        let force = |kind| maps.force == Some(kind);
+        let by_moment = |shown: Shown<'_, D>| matches!(shown.affine, Some(Affine::Moment(_)));
+        for (name, wanted) in [
+            ("p2g mass", maps.mass),
+            ("p2g momentum", maps.momentum.is_some()),
+            ("p2g internal force", force(Divergence::Gradient)),
+            ("p2g affine force", force(Divergence::Fit)),
+            ("moments", maps.mass && maps.momentum.is_some_and(by_moment)),
+        ] {
+            self.tally.add(name, if wanted { particles.len() } else { 0 });
+        }
+        self.kernel.p2g(particles, maps, grid);
+    }
+
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>) {
+        for (name, wanted) in [
+            ("g2p", takes.change.is_some()),
+            ("g2p", takes.mix.is_some()),
+            ("g2p moment", takes.moment.is_some()),
+            ("g2p gradient", takes.gradient.is_some()),
+            ("g2p position", takes.carried.is_some()),
+        ] {
+            self.tally.add(name, if wanted { particles.len() } else { 0 });
+        }
+        self.kernel.g2p_all(grid, particles, takes);
     }
 
     fn p2g_momentum(
@@ -86,16 +110,6 @@ impl<const D: usize> Kernel<D> for Counted<D> {
     ) {
         self.tally.add("p2g momentum", particles.len());
         self.kernel.p2g_momentum(particles, shown, grid, momentum);
-    }
-
-    fn p2g_internal_force(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
-        self.tally.add("p2g internal force", particles.len());
-        self.kernel.p2g_internal_force(particles, grid);
-    }
-
-    fn p2g_affine_force(&self, particles: &Particles<D>, moments: &Moments<D>, grid: &mut Grid<D>) {
-        self.tally.add("p2g affine force", particles.len());
-        self.kernel.p2g_affine_force(particles, moments, grid);
     }
 
     fn p2g_point_force(
@@ -136,12 +150,11 @@ impl<const D: usize> Kernel<D> for Counted<D> {
         &self,
         grid: &Grid<D>,
         field: &[Vector<D>],
-        seen: (&Particles<D>, &Moments<D>),
-        keep_and_factor: (f64, f64),
+        particles: &Particles<D>,
         moment: &mut [Matrix<D>],
     ) {
-        self.tally.add("g2p moment", seen.0.len());
-        self.kernel.g2p_moment(grid, field, seen, keep_and_factor, moment);
+        self.tally.add("g2p moment", particles.len());
+        self.kernel.g2p_moment(grid, field, particles, moment);
     }
 
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
@@ -159,9 +172,14 @@ impl<const D: usize> Kernel<D> for Counted<D> {
         self.kernel.mass_entries(grid, particles, entry);
     }
 
-    fn g2p_position(&self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>) {
-        self.tally.add("g2p position", particles.len());
-        self.kernel.g2p_position(grid, dt, particles);
+    /// Part of what it is divided for.
+    fn divide_by_inertia(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        matrices: &mut [Matrix<D>],
+    ) {
+        self.kernel.divide_by_inertia(grid, particles, matrices);
     }
 
     fn p2g_point_moment(

@@ -26,6 +26,8 @@ pub struct Grid<const D: usize> {
     /// Nodal acceleration a_i (m/s2).
     pub acceleration: Vec<Vector<D>>,
     inverse_h: f64,
+    /// Cells along each axis, as numbers that positions are compared with.
+    ends: [f64; D],
 }
 
 impl<const D: usize> Grid<D> {
@@ -50,6 +52,7 @@ impl<const D: usize> Grid<D> {
             force: vec![Vector::zeros(); nodes],
             acceleration: vec![Vector::zeros(); nodes],
             inverse_h: 1.0 / h,
+            ends: cells.map(|cells| cells as f64),
         }
     }
 
@@ -101,20 +104,36 @@ impl<const D: usize> Grid<D> {
         Some(cell)
     }
 
+    /// The cell that holds `x` and the place in it, from 0 to 1 on each axis, or `None` outside the
+    /// grid.
+    #[inline(always)]
+    pub fn locate(&self, x: &Vector<D>) -> Option<([usize; D], [f64; D])> {
+        let (mut cell, mut xi) = ([0; D], [0.0; D]);
+        for axis in 0..D {
+            let (s, end) = (self.wrapped(x, axis), self.ends[axis]);
+            if !(s >= 0.0 && s <= end) {
+                return None;
+            }
+            let (low, last) = (floor(s), end - 1.0);
+            let low = if low > last { last } else { low };
+            (cell[axis], xi[axis]) = (whole(low), s - low);
+        }
+        Some((cell, xi))
+    }
+
     /// Position along `axis` in units of h, counted from the first wall.
-    #[inline]
+    #[inline(always)]
     pub fn local(&self, x: &Vector<D>, axis: usize) -> f64 {
         (x[axis] - self.origin[axis]) * self.inverse_h
     }
 
     /// The same, brought back into the grid on a periodic axis.
-    #[inline]
+    #[inline(always)]
     pub fn wrapped(&self, x: &Vector<D>, axis: usize) -> f64 {
-        let s = self.local(x, axis);
-        if !self.periodic[axis] {
+        let (s, n) = (self.local(x, axis), self.ends[axis]);
+        if !self.periodic[axis] || (s >= 0.0 && s < n) {
             return s;
         }
-        let n = self.cells[axis] as f64;
         s - n * libm::floor(s / n)
     }
 
@@ -130,15 +149,16 @@ impl<const D: usize> Grid<D> {
     }
 
     /// [`Grid::wrap`] for a whole number that may lie before the first wall.
-    #[inline]
+    #[inline(always)]
     pub fn wrap_signed(&self, index: f64, axis: usize) -> usize {
         let n = self.counts[axis] as f64;
-        let index = if self.periodic[axis] { index - n * libm::floor(index / n) } else { index };
-        index as usize
+        let beyond = self.periodic[axis] && !(index >= 0.0 && index < n);
+        let index = if beyond { index - n * libm::floor(index / n) } else { index };
+        index as i64 as usize
     }
 
     /// 1/h (1/m).
-    #[inline]
+    #[inline(always)]
     pub fn inverse_h(&self) -> f64 {
         self.inverse_h
     }
@@ -160,9 +180,28 @@ impl<const D: usize> Grid<D> {
     }
 }
 
+/// 2^52: numbers from here to twice that are whole, and their last bits are those of the excess.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than all
+/// the rest, and a conversion to integers and back as much as the weights.
+#[inline(always)]
+pub(super) fn floor(x: f64) -> f64 {
+    const SHIFT: f64 = 1.5 * WHOLE;
+    let nearest = (x + SHIFT) - SHIFT;
+    nearest - if nearest > x { 1.0 } else { 0.0 }
+}
+
+/// The whole number `x`, from 0 to 2^32, as an integer.
+#[inline(always)]
+fn whole(x: f64) -> usize {
+    ((x + WHOLE).to_bits() & 0xffff_ffff) as usize
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn numbers_and_indices_agree() {
@@ -170,6 +209,28 @@ mod tests {
         for node in 0..grid.nodes() {
             let index = std::array::from_fn(|axis| grid.index_on_axis(node, axis));
             assert_eq!(grid.node(&index), node);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn cells_and_places_in_them_add_up(x in -2.0..20.0_f64, periodic: bool) {
+            let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [7], [periodic], [8]);
+            let x = Vector::<1>::new(x);
+            let found = grid.locate(&x);
+            prop_assert_eq!(found.map(|(cell, _)| cell), grid.cell(&x));
+            if let Some(([cell], [xi])) = found {
+                prop_assert!((0.0..=1.0).contains(&xi));
+                prop_assert_eq!(cell as f64 + xi, grid.wrapped(&x, 0));
+            }
+        }
+
+        #[test]
+        fn the_inline_floor_is_that_of_the_library(x in -1e9..1e9_f64) {
+            for x in [x, libm::floor(x), libm::round(x) + 0.5, 1e-9 * x] {
+                prop_assert_eq!(floor(x), libm::floor(x));
+            }
+            prop_assert_eq!(whole(libm::fabs(libm::floor(x))) as f64, libm::fabs(libm::floor(x)));
         }
     }
 

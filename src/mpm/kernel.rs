@@ -1,6 +1,8 @@
 //! The passes over particles and nodes of which transfers, mass matrices and effects are made.
 //!
-//! [`Kernel`] is object-safe: one virtual call per pass, none per particle.
+//! [`Kernel`] is object-safe: one virtual call per pass, none per particle. A pass computes the weights
+//! of a particle anew, so what is wanted of the same particles and nodes is best asked for in one:
+//! [`Maps`] and [`Takes`] say what, and each part has the bits that it would have alone.
 
 use super::{
     algebra::{Matrix, Vector},
@@ -11,23 +13,80 @@ use super::{
     scalars::Scalars,
 };
 
+/// The slope of the velocity field around each particle. `mean_p`, the weighted mean of the nodes, is
+/// where the particle is, but for domains that a wall cuts off; taken from there, the affine part
+/// carries no momentum.
+#[derive(Debug, Clone, Copy)]
+pub enum Affine<'a, const D: usize> {
+    /// `C_p` (1/s).
+    Slope(&'a [Matrix<D>]),
+    /// `C_p = B_p D_p^-1` by the first moment B_p (m^2/s); D_p is that of the weights where the
+    /// particle is.
+    Moment(&'a [Matrix<D>]),
+}
+
 /// A velocity field around each particle, `v_p + C_p (x - mean_p)`, as the particle shows it to
-/// the nodes it sees. `mean_p`, the weighted mean of the nodes, is where the particle is, but for
-/// domains that a wall cuts off; taken from there, the affine part carries no momentum.
+/// the nodes it sees.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a, const D: usize> {
     /// v_p (m/s).
     pub v: &'a [Vector<D>],
-    /// C_p (1/s) with the moments of the nodes, if the field is not constant.
-    pub affine: Option<(&'a [Matrix<D>], &'a Moments<D>)>,
+    /// C_p, if the field is not constant.
+    pub affine: Option<Affine<'a, D>>,
+}
+
+/// What makes a force of a stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Divergence {
+    /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
+    Gradient,
+    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N): the gradient of a
+    /// least-squares fit in place of that of the basis (Hu et al. 2018, eq. 18).
+    Fit,
+}
+
+/// What is mapped to the nodes in one pass.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Maps<'a, const D: usize> {
+    /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
+    pub mass: bool,
+    /// Momentum `sum_p m_p (v_p + C_p (x_i - mean_p)) N_i(x_p)` (kg m/s) into `grid.velocity`.
+    pub momentum: Option<Shown<'a, D>>,
+    /// Internal force (N) into `grid.force`.
+    pub force: Option<Divergence>,
+}
+
+/// What is taken from the nodes in one pass, from their velocities where nothing else is said.
+#[derive(Debug, Default)]
+pub struct Takes<'a, const D: usize> {
+    /// `value_p += dt sum_i a_i N_i(x_p)` with `dt`, of the nodes' accelerations.
+    pub change: Option<f64>,
+    /// Then `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and `factor`.
+    pub mix: Option<(f64, f64)>,
+    /// The value that `change` and `mix` are about (m/s).
+    pub value: Option<&'a mut [Vector<D>]>,
+    /// `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
+    pub moment: Option<&'a mut [Matrix<D>]>,
+    /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
+    pub gradient: Option<&'a mut [Matrix<D>]>,
+    /// `carried_p = sum_i v_i N_i(x_p)`: how fast the grid carries the particle (m/s).
+    pub carried: Option<&'a mut [Vector<D>]>,
 }
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
-    /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
-    fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>);
+    /// Maps what `maps` says to the nodes.
+    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>);
 
-    /// Momentum `sum_p m_p (v_p + C_p (x_i - mean_p)) N_i(x_p)` (kg m/s) into `momentum`.
+    /// Takes what `takes` says from the nodes.
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>);
+
+    /// `m_i` alone, see [`Maps::mass`].
+    fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
+        self.p2g(particles, &Maps { mass: true, ..Maps::default() }, grid);
+    }
+
+    /// Momentum alone, see [`Maps::momentum`], into `momentum`.
     fn p2g_momentum(
         &self,
         particles: &Particles<D>,
@@ -36,12 +95,11 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         momentum: &mut [Vector<D>],
     );
 
-    /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N) into `grid.force`.
-    fn p2g_internal_force(&self, particles: &Particles<D>, grid: &mut Grid<D>);
-
-    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N) into `grid.force`: the
-    /// gradient of a least-squares fit in place of that of the basis (Hu et al. 2018, eq. 18).
-    fn p2g_affine_force(&self, particles: &Particles<D>, moments: &Moments<D>, grid: &mut Grid<D>);
+    /// The force of the gradients of the basis alone, see [`Maps::force`].
+    fn p2g_internal_force(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
+        let force = Some(Divergence::Gradient);
+        self.p2g(particles, &Maps { force, ..Maps::default() }, grid);
+    }
 
     /// Adds `force` (N), which acts on particle `p`, to the nodes that the particle sees.
     fn p2g_point_force(
@@ -71,18 +129,25 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Matrix<D>],
     );
 
-    /// `moment_p <- keep moment_p + factor sum_i field_i (x) (x_i - mean_p) N_i(x_p)`.
+    /// `moment_p = sum_i field_i (x) (x_i - mean_p) N_i(x_p)`.
     fn g2p_moment(
         &self,
         grid: &Grid<D>,
         field: &[Vector<D>],
-        seen: (&Particles<D>, &Moments<D>),
-        keep_and_factor: (f64, f64),
+        particles: &Particles<D>,
         moment: &mut [Matrix<D>],
     );
 
     /// Where the nodes lie that each particle sees.
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>);
+
+    /// `matrix_p <- matrix_p D_p^-1`.
+    fn divide_by_inertia(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        matrices: &mut [Matrix<D>],
+    );
 
     /// Calls `entry` with i, j and `m_p N_i(x_p) N_j(x_p)` (kg) for every particle and every pair
     /// of nodes that it sees: the consistent mass matrix.
@@ -92,9 +157,6 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         particles: &Particles<D>,
         entry: &mut dyn FnMut(usize, usize, f64),
     );
-
-    /// `x_p += dt sum_i v_i N_i(x_p)`.
-    fn g2p_position(&self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>);
 
     /// Adds to the nodes that particle `p` sees the forces of a moment, `moment grad N_i(x_p)`, whose
     /// sum is zero: `moment = f (x) d` (N m) takes the force f from the particle to the place d (m) away.

@@ -23,6 +23,7 @@ mod counted;
 mod counted_scalars;
 mod effect;
 mod family;
+mod four;
 mod frame;
 mod grid;
 mod initial;
@@ -31,9 +32,9 @@ mod loops;
 mod mass;
 mod material;
 mod moments;
+mod packed;
 mod particles;
 mod sampling;
-mod scalar_loops;
 mod scalars;
 mod scheme;
 mod setup;
@@ -44,6 +45,7 @@ mod state;
 mod step;
 mod totals;
 mod transfer;
+mod visits;
 mod whereabouts;
 
 pub use algebra::{Matrix, Vector, cofactor, det, dyad};
@@ -60,7 +62,7 @@ pub use effect::{
 };
 pub use frame::FrameName;
 pub use grid::Grid;
-pub use kernel::{Kernel, Shown};
+pub use kernel::{Affine, Divergence, Kernel, Maps, Shown, Takes};
 pub use loops::kernel;
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
@@ -75,6 +77,6 @@ pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
-    Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferName,
-    Xpic, transfer,
+    Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Recipe, Tls, Tpic, Transfer, TransferChoice,
+    TransferName, Wanted, Xpic, transfer,
 };

@@ -1,6 +1,9 @@
 //! Where the nodes lie that a particle sees: what affine transfers need of a basis.
 
-use super::algebra::{Matrix, Vector};
+use super::{
+    algebra::{Matrix, Vector, dyad},
+    basis::Spread,
+};
 use crate::subject::Column;
 
 /// Second moments below this share of h^2 are rounding: the particle sees the nodes of one point
@@ -15,8 +18,6 @@ pub struct Moments<const D: usize> {
     /// `D_p = sum_i (x_i - x_p) (x) (x_i - x_p) N_i`, about that mean (m^2): the inertia tensor of
     /// APIC (Jiang et al. 2015, eq. 8).
     pub second: Vec<Matrix<D>>,
-    /// Its inverse; zero on an axis along which there is no second moment.
-    pub inverse: Vec<Matrix<D>>,
 }
 
 impl<const D: usize> Moments<D> {
@@ -24,23 +25,61 @@ impl<const D: usize> Moments<D> {
     pub fn resize(&mut self, particles: usize) {
         self.mean.resize(particles, Vector::zeros());
         self.second.resize(particles, Matrix::zeros());
-        self.inverse.resize(particles, Matrix::zeros());
     }
 
     /// What is kept.
-    pub(super) fn columns(&self) -> [Column; 3] {
-        [
-            Column::of_particles("mean", &self.mean),
-            Column::of_particles("D", &self.second),
-            Column::of_particles("D^-1", &self.inverse),
-        ]
+    pub(super) fn columns(&self) -> [Column; 2] {
+        [Column::of_particles("mean", &self.mean), Column::of_particles("D", &self.second)]
+    }
+}
+
+/// Mean and second moments of the weights of one particle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Inertia<const D: usize> {
+    /// The mean of the nodes, from the particle (m).
+    pub(super) mean: Vector<D>,
+    /// D_p (m^2).
+    pub(super) second: Matrix<D>,
+}
+
+impl<const D: usize> Inertia<D> {
+    /// Of weights that are products of functions of one coordinate each, by mean and variance along
+    /// each axis: D_p is diagonal.
+    #[inline(always)]
+    pub(super) fn diagonal((mean, variance): ([f64; D], [f64; D])) -> Self {
+        let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
+        for axis in 0..D {
+            inertia.mean[axis] = mean[axis];
+            inertia.second[(axis, axis)] = variance[axis];
+        }
+        inertia
     }
 
-    /// Stores the moments of particle `p`; `h` is the cell size (m).
-    pub(super) fn set(&mut self, p: usize, mean: Vector<D>, second: Matrix<D>, h: f64) {
-        self.mean[p] = mean;
-        self.second[p] = second;
-        self.inverse[p] = inverse(second, SMALLEST * h * h);
+    /// Of any weights.
+    #[inline(always)]
+    pub(super) fn full(spread: &Spread<D>) -> Self {
+        let mean = spread.first;
+        Self { mean, second: spread.second - dyad(&mean, &mean) }
+    }
+
+    /// `matrix D_p^-1`, where D_p is diagonal; `h` is the cell size (m). Zero for an axis along which
+    /// there is no second moment.
+    #[inline(always)]
+    pub(super) fn divide_diagonal(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
+        let mut quotient = *matrix;
+        for axis in 0..D {
+            let second = self.second[(axis, axis)];
+            let inverse = if second > SMALLEST * h * h { 1.0 / second } else { 0.0 };
+            for row in 0..D {
+                quotient[(row, axis)] *= inverse;
+            }
+        }
+        quotient
+    }
+
+    /// `matrix D_p^-1`.
+    pub(super) fn divide(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
+        matrix * inverse(self.second, SMALLEST * h * h)
     }
 }
 
@@ -75,5 +114,13 @@ mod tests {
     fn a_full_matrix_is_inverted() {
         let second = Matrix::<3>::new(2.0, 0.5, 0.1, 0.5, 3.0, 0.2, 0.1, 0.2, 1.0);
         assert_relative_eq!(inverse(second, 1e-13) * second, Matrix::identity(), epsilon = 1e-14);
+    }
+
+    #[test]
+    fn a_diagonal_one_is_divided_by_as_any_other() {
+        let second = Matrix::<2>::new(0.25, 0.0, 0.0, 1e-20);
+        let inertia = Inertia { mean: Vector::zeros(), second };
+        let matrix = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);
+        assert_eq!(inertia.divide_diagonal(&matrix, 1.0), inertia.divide(&matrix, 1.0));
     }
 }

@@ -46,12 +46,12 @@ impl<const D: usize> Setup<D> {
         self.scheme.stages(self.transfer.reads_grid_velocity() || reads_velocity)
     }
 
-    /// The effects, and all that is kept for particles and nodes, with the column `cell` of the
+    /// The effects, and all that is kept for particles and nodes, with the columns `of_solver` of the
     /// solver. The factors of a consistent mass matrix, made anew in each step, are not among them.
-    pub(super) fn profile(&self, cell: Column) -> Profile {
+    pub(super) fn profile(&self, of_solver: [Column; 2]) -> Profile {
         let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
         let mut columns = particles.columns();
-        columns.push(cell);
+        columns.extend(of_solver);
         columns.extend(transfer.columns());
         columns.extend(material.columns());
         columns.extend(effects.iter().flat_map(|effect| effect.columns()));

@@ -1,11 +1,20 @@
 //! The solver: every stage of a step, one by one. [`step`](super::step) has their order.
 
 use super::{
-    algebra::Matrix, basis::Domain, boundary::Advance, effect::strain, frame::FrameName,
-    grid::Grid, initial, particles::Particles, setup::Setup, stage::Stage, transfer::Transfer,
+    algebra::{Matrix, Vector},
+    basis::Domain,
+    boundary::Advance,
+    effect::strain,
+    frame::FrameName,
+    grid::Grid,
+    initial,
+    particles::Particles,
+    setup::Setup,
+    stage::{Gathered, Stage, Visited, maps, takes},
+    transfer::{Transfer, Wanted},
     whereabouts::Whereabouts,
 };
-use crate::subject::{Failure, Profile, Site};
+use crate::subject::{Column, Failure, Profile, Site};
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
@@ -21,6 +30,10 @@ pub struct Solver<const D: usize> {
     pub(super) transfers: u64,
     pub(super) min_j: f64,
     pub(super) whereabouts: Whereabouts<D>,
+    /// How fast the grid carries each particle (m/s), from the visit that asks for it until
+    /// positions move.
+    pub(super) carried: Vec<Vector<D>>,
+    visited: Visited,
 }
 
 impl<const D: usize> Solver<D> {
@@ -48,7 +61,20 @@ impl<const D: usize> Solver<D> {
         transfer.start(kernel.as_ref(), grid, particles);
         let (time, stands, started, frozen, transfers) = (0.0, 0.0, false, false, 0);
         let advance = Advance { from: 0.0, to: 0.0, dt: 0.0 };
-        Ok(Self { setup, time, stands, advance, started, frozen, transfers, min_j, whereabouts })
+        let (carried, visited) = (vec![Vector::zeros(); setup.particles.len()], Visited::default());
+        Ok(Self {
+            setup,
+            time,
+            stands,
+            advance,
+            started,
+            frozen,
+            transfers,
+            min_j,
+            whereabouts,
+            carried,
+            visited,
+        })
     }
 
     /// The particles as they are now.
@@ -68,7 +94,8 @@ impl<const D: usize> Solver<D> {
 
     /// The effects, and all that is kept for particles and nodes: what a step works with.
     pub fn profile(&self) -> Profile {
-        self.setup.profile(self.whereabouts.columns())
+        let carried = Column::of_particles("carried", &self.carried);
+        self.setup.profile([self.whereabouts.columns(), carried])
     }
 
     /// Runs one stage of a step of length `dt` (s).
@@ -76,15 +103,30 @@ impl<const D: usize> Solver<D> {
     /// # Errors
     /// See [`Subject::step`](crate::subject::Subject::step).
     pub fn run(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
+        self.run_first(&[stage], dt)
+    }
+
+    /// Runs the first of `stages`. What those after it want of the same particles and nodes is done
+    /// in the same visit, if nothing in between changes either.
+    pub(super) fn run_first(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
+        let Some((&stage, rest)) = stages.split_first() else { return Ok(()) };
         match stage {
             Stage::Mass => {
+                self.visited.p2g = maps(stages);
+                self.map(self.visited.p2g);
                 self.mass()?;
                 if self.started {
                     self.advance_effects(dt)?;
                 }
             }
-            Stage::Momentum => self.momentum(),
-            Stage::Force => self.force(),
+            Stage::Momentum => {
+                let is_mapped = std::mem::take(&mut self.visited.p2g.momentum);
+                self.momentum(is_mapped);
+            }
+            Stage::Force => {
+                let is_mapped = std::mem::take(&mut self.visited.p2g.force);
+                self.force(is_mapped);
+            }
             Stage::Acceleration => self.accelerate(dt),
             Stage::GridVelocity => {
                 let Grid { velocity, acceleration, .. } = &mut self.setup.grid;
@@ -93,49 +135,65 @@ impl<const D: usize> Solver<D> {
                 }
             }
             Stage::ParticleVelocity => {
-                let Setup { grid, particles, kernel, transfer, boundary, .. } = &mut self.setup;
-                let passes = transfer.g2p_velocity(kernel.as_ref(), grid, boundary, dt, particles);
-                self.count(passes);
+                self.visited.g2p = takes(rest);
+                self.take(Some(dt), self.visited.g2p);
                 self.drive(dt);
             }
-            Stage::Stress => self.stress(dt)?,
+            Stage::Stress => {
+                if !std::mem::take(&mut self.visited.g2p.gradient) {
+                    let wanted = takes(stages);
+                    self.take(None, wanted);
+                    self.visited.g2p = Gathered { gradient: false, ..wanted };
+                }
+                self.stress(dt)?;
+            }
             Stage::Position if self.frozen => {}
-            Stage::Position => self.position(dt)?,
+            Stage::Position => {
+                if !std::mem::take(&mut self.visited.g2p.carried) {
+                    self.take(None, takes(stages));
+                }
+                self.position(dt)?;
+            }
         }
         Ok(())
     }
 
     fn mass(&mut self) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
-        let passes = transfer.p2g_mass(kernel.as_ref(), particles, grid)
-            + mass.assemble(kernel.as_ref(), particles, grid, boundary)?;
+        let Setup { grid, particles, kernel, mass, boundary, .. } = &mut self.setup;
+        let passes = mass.assemble(kernel.as_ref(), particles, grid, boundary)?;
         self.count(passes);
         Ok(())
     }
 
-    fn momentum(&mut self) {
+    /// From momenta to velocities; `is_mapped` tells that the momenta are there.
+    fn momentum(&mut self, is_mapped: bool) {
         let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let mut field = std::mem::take(&mut grid.velocity);
-        let passes = transfer.p2g_momentum(kernel.as_ref(), particles, grid, &mut field);
+        let mut passes = 0;
+        if !is_mapped {
+            passes += transfer.p2g_momentum(kernel.as_ref(), particles, grid, &mut field);
+        }
         mass.solve(grid, &mut field);
         for condition in boundary.iter() {
             condition.hold_velocity(&mut field, self.stands);
         }
-        let refined = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
+        passes += transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
         grid.velocity = field;
-        self.count(passes + refined);
+        self.count(passes);
     }
 
-    fn force(&mut self) {
-        let Setup { grid, particles, kernel, transfer, effects, .. } = &mut self.setup;
-        let passes = transfer.p2g_internal_force(kernel.as_ref(), particles, grid);
+    /// External forces on top of the internal ones; `is_mapped` tells that these are there.
+    fn force(&mut self, is_mapped: bool) {
+        if !is_mapped {
+            self.map(Wanted { force: true, ..Wanted::default() });
+        }
+        let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects.iter_mut() {
             self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
         }
         for effect in &self.setup.effects {
             effect.oppose_motion(&mut self.setup.grid);
         }
-        self.count(passes);
     }
 
     fn accelerate(&mut self, dt: f64) {
@@ -154,9 +212,7 @@ impl<const D: usize> Solver<D> {
     }
 
     fn stress(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { grid, particles, kernel, transfer, material, frame, effects, .. } =
-            &mut self.setup;
-        let passes = transfer.g2p_gradient(kernel.as_ref(), grid, particles);
+        let Setup { particles, material, frame, effects, .. } = &mut self.setup;
         if *frame == FrameName::Total {
             particles.push_gradients_forward();
         }
@@ -164,7 +220,6 @@ impl<const D: usize> Solver<D> {
             *f = (Matrix::identity() + grad_v * dt) * *f;
         }
         strain(effects, material.as_mut(), dt, particles);
-        self.count(passes);
         for (p, (vol, vol0)) in
             self.setup.particles.vol.iter().zip(&self.setup.particles.vol0).enumerate()
         {
@@ -199,7 +254,9 @@ impl<const D: usize> Solver<D> {
 
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
-        kernel.g2p_position(grid, dt, particles);
+        for (p, v) in self.carried.iter().enumerate() {
+            *particles.position_mut(p) += v * dt;
+        }
         for effect in effects {
             effect.drive_position(dt, particles);
         }

@@ -4,6 +4,10 @@ use super::{setup::Setup, solver::Solver, stage::Stage};
 use crate::subject::{Census, Failure, Samples, Start, Subject, Totals};
 
 impl<const D: usize> Solver<D> {
+    fn run_all(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
+        (0..stages.len()).try_for_each(|k| self.run_first(&stages[k..], dt))
+    }
+
     /// Gives walls back what they hold of velocities that something else has changed.
     pub(super) fn hold_velocity(&mut self) {
         for condition in &self.setup.boundary {
@@ -57,14 +61,10 @@ impl<const D: usize> Subject for Solver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         if !self.started {
             self.open(dt);
-            for &stage in self.opening() {
-                self.run(stage, dt)?;
-            }
+            self.run_all(self.opening(), dt)?;
             self.opened(dt);
         }
-        for &stage in self.setup.stages(false) {
-            self.run(stage, dt)?;
-        }
+        self.run_all(self.setup.stages(false), dt)?;
         self.time += dt;
         Ok(())
     }

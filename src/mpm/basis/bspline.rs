@@ -7,10 +7,11 @@
 //! algorithm A2.2).
 
 use super::{
-    contract::{Basis, Domain, Seen},
-    tensor::{self, Along},
+    along::Along,
+    contract::{Basis, Domain},
+    product::Product,
 };
-use crate::mpm::{grid::Grid, particles::Particles};
+use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
 
 /// Quadratic B-splines.
 #[derive(Debug, Clone, Copy)]
@@ -31,15 +32,11 @@ fn greville(i: usize, p: usize, cells: usize, periodic: bool) -> f64 {
     (i + 1..=i + p).map(|k| knot(k, p, cells, periodic)).sum::<f64>() / p as f64
 }
 
-/// The K = p + 1 functions of one axis at `s` (in cells) within `cell`, with derivatives per cell.
-fn functions<const K: usize>(
-    s: f64,
-    cell: usize,
-    cells: usize,
-    periodic: bool,
-) -> ([f64; K], [f64; K]) {
+/// The K = p + 1 functions of an axis with walls at `s` (in cells) within `cell`, with derivatives
+/// per cell.
+fn functions<const K: usize>(s: f64, cell: usize, cells: usize) -> ([f64; K], [f64; K]) {
     let p = K - 1;
-    let knot = |k: usize| knot(k, p, cells, periodic);
+    let knot = |k: usize| knot(k, p, cells, false);
     let span = cell + p;
     let (mut value, mut lower) = ([0.0; K], [0.0; K]);
     value[0] = 1.0;
@@ -64,30 +61,68 @@ fn functions<const K: usize>(
     (value, slope)
 }
 
-fn visit<const D: usize, const K: usize>(
-    grid: &Grid<D>,
-    particles: &Particles<D>,
-    p: usize,
-    visit: impl FnMut(Seen<'_, D>),
-) {
-    let x = &particles.x[p];
-    let Some(cell) = grid.cell(x) else { return };
-    let axes: [Along<K>; D] = std::array::from_fn(|axis| {
-        let (cells, periodic) = (grid.cells[axis], grid.periodic[axis]);
-        let s = grid.wrapped(x, axis);
-        let (weight, slope) = functions::<K>(s, cell[axis], cells, periodic);
-        Along {
-            count: K,
-            index: std::array::from_fn(|r| grid.wrap(cell[axis] + r, axis)),
-            weight,
-            slope: slope.map(|slope| slope * grid.inverse_h()),
+/// The same where no knot is repeated, at `xi` from 0 to 1 within the cell: all spans have length 1.
+#[inline(always)]
+fn uniform<const K: usize>(xi: f64) -> ([f64; K], [f64; K]) {
+    let (mut value, mut lower) = ([0.0; K], [0.0; K]);
+    value[0] = 1.0;
+    for degree in 1..K {
+        lower = value;
+        let mut carried = 0.0;
+        for r in 0..degree {
+            let share = lower[r] * (1.0 / degree as f64);
+            value[r] = carried + ((r + 1) as f64 - xi) * share;
+            carried = (xi + (degree - 1 - r) as f64) * share;
         }
-    });
-    let offset = |axis: usize, r: usize| {
-        let place = greville(cell[axis] + r, K - 1, grid.cells[axis], grid.periodic[axis]);
-        (place - grid.wrapped(x, axis)) * grid.h
-    };
-    tensor::visit(grid, &axes, offset, visit);
+        value[degree] = carried;
+    }
+    let mut slope = [0.0; K];
+    for r in 1..K {
+        slope[r - 1] -= lower[r - 1];
+        slope[r] += lower[r - 1];
+    }
+    (value, slope)
+}
+
+/// The functions of `axis` in a cell, at `xi` from 0 to 1 within it.
+#[inline(always)]
+fn along<const D: usize, const K: usize>(
+    grid: &Grid<D>,
+    axis: usize,
+    cell: usize,
+    xi: f64,
+) -> Along<K> {
+    let (p, cells, h) = (K - 1, grid.cells[axis], grid.h);
+    let (mut weight, mut slope) = uniform::<K>(xi);
+    let first = 0.5 * (1.0 - p as f64) - xi;
+    let mut place: [f64; K] = array(0.0, |r| first + r as f64);
+    // A sum of p + 1 boxes has p + 1 times the variance 1/12 of one.
+    let mut variance = (p + 1) as f64 / 12.0;
+    if !grid.periodic[axis] && (cell + 1 < p || cell + p > cells) {
+        let wall = at_wall::<K>(cells, cell, xi);
+        // One by one: numbers that stay in registers elsewhere must not go by memory for its sake.
+        variance = 0.0;
+        for r in 0..K {
+            (weight[r], slope[r], place[r]) = (wall[0][r], wall[1][r], wall[2][r]);
+            variance += weight[r] * place[r] * place[r];
+        }
+    }
+    Along {
+        first: cell,
+        weight,
+        slope: array(0.0, |r| slope[r] * grid.inverse_h()),
+        offset: array(0.0, |r| place[r] * h),
+        variance: variance * (h * h),
+    }
+}
+
+/// Values, slopes per cell and places (in cells, from the particle) where knots may be repeated.
+#[cold]
+#[inline(never)]
+fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
+    let s = cell as f64 + xi;
+    let (weight, slope) = functions::<K>(s, cell, cells);
+    [weight, slope, array(0.0, |r| greville(cell + r, K - 1, cells, false) - s)]
 }
 
 macro_rules! bspline {
@@ -95,6 +130,8 @@ macro_rules! bspline {
         impl Basis for $name {
             const DEGREE: u8 = $degree;
             const DOMAIN: Domain = Domain::Point;
+
+            type Patch<const D: usize> = Product<D, $functions>;
 
             fn count(cells: usize, periodic: bool) -> usize {
                 if periodic { cells } else { cells + $degree }
@@ -104,14 +141,15 @@ macro_rules! bspline {
                 greville(index, $degree, cells, periodic)
             }
 
-            #[inline]
-            fn visit<const D: usize>(
+            #[inline(always)]
+            fn patches<const D: usize>(
                 grid: &Grid<D>,
                 particles: &Particles<D>,
                 p: usize,
-                seen: impl FnMut(Seen<'_, D>),
+                mut see: impl FnMut(&Product<D, $functions>),
             ) {
-                visit::<D, $functions>(grid, particles, p, seen);
+                let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
+                see(&Product(array(Along::NONE, |axis| along(grid, axis, cell[axis], xi[axis]))));
             }
 
             fn support(dimension: usize) -> u64 {

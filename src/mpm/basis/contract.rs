@@ -1,6 +1,7 @@
 //! What a basis is to the rest of the solver.
 
-use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
+use super::patch::{Patch, Seen};
+use crate::mpm::{grid::Grid, particles::Particles};
 
 /// What a basis must know of a particle besides its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,19 +12,6 @@ pub enum Domain {
     Fixed,
     /// Its domain, which deforms with it.
     Follows,
-}
-
-/// One node as a particle sees it.
-#[derive(Debug, Clone, Copy)]
-pub struct Seen<'a, const D: usize> {
-    /// Number of the node.
-    pub node: usize,
-    /// N_i at the particle.
-    pub weight: f64,
-    /// grad N_i at the particle (1/m).
-    pub gradient: &'a Vector<D>,
-    /// Where the function sits ([`Basis::abscissa`]), from the particle: x_i - x_p (m).
-    pub offset: Vector<D>,
 }
 
 /// A family of basis functions N_i on the grid. How one is added: [`crate::mpm::adding_a_basis`].
@@ -38,6 +26,13 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// Where it is not, as in CPDI, it is the average of a gradient over the domain.
     const GRADIENT_OF_WEIGHT: bool = true;
 
+    /// Whether a particle sees all its nodes in one patch.
+    const ONE_PATCH: bool = true;
+
+    /// Some of the nodes that a particle sees, with the functions there: products of functions
+    /// along the axes ([`Product`](super::Product)).
+    type Patch<const D: usize>: Patch<D>;
+
     /// Functions along an axis of `cells` cells.
     fn count(cells: usize, periodic: bool) -> usize;
 
@@ -45,15 +40,27 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// positions x_i for which sum N_i x_i = x (Greville abscissae).
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
-    /// Calls `visit` for every node that particle `p` sees, once or several times: its weight and
-    /// its gradient are the sums over the visits. Does nothing where the particle is
-    /// outside the grid: the solver reports that when it moves particles, not here.
+    /// Calls `see` for every patch of nodes that particle `p` sees. A node may lie in several: its
+    /// weight and its gradient are the sums. Does nothing where the particle is outside the grid: the
+    /// solver reports that when it moves particles, not here. To be `#[inline(always)]`: it is part
+    /// of the hot loop.
+    fn patches<const D: usize>(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        see: impl FnMut(&Self::Patch<D>),
+    );
+
+    /// Calls `visit` for every node of every patch.
+    #[inline(always)]
     fn visit<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        visit: impl FnMut(Seen<'_, D>),
-    );
+        mut visit: impl FnMut(Seen<'_, D>),
+    ) {
+        Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
+    }
 
     /// Most visits to nodes that a particle makes in D dimensions: the unit of the work counter.
     fn support(dimension: usize) -> u64;

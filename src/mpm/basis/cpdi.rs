@@ -21,10 +21,17 @@
 //! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
 //! to the wall would not keep it.
 
-use super::contract::{Basis, Domain, Seen};
+use super::{
+    along::Along,
+    contract::{Basis, Domain},
+    patch::{Patch, Seen, Spread},
+    product::Product,
+};
 use crate::mpm::{
-    algebra::{Matrix, Vector, cofactor, det},
-    grid::Grid,
+    algebra::{Matrix, Vector, array, cofactor, det},
+    four::Width,
+    grid::{Grid, floor},
+    packed::{View, ViewMut},
     particles::Particles,
 };
 
@@ -61,43 +68,90 @@ fn within<const D: usize>(
     (centre, domain)
 }
 
-/// The two hats along an axis that are not zero at some place.
-struct Hats {
-    index: [usize; 2],
-    weight: [f64; 2],
-    /// Where they sit, in cells.
-    place: [f64; 2],
+/// The hats that a corner sees, with the share of the corner, and its gradient, which is in
+/// proportion to their weights.
+#[derive(Debug, Clone, Copy)]
+pub struct Corner<const D: usize> {
+    hats: Product<D, 2>,
+    /// `R^-T s_c` (1/m).
+    outward: Vector<D>,
 }
 
 /// The hats at `s` (in cells) along `axis`. Corners outside the grid by round-off are on the wall.
-#[inline]
-fn hats<const D: usize>(grid: &Grid<D>, s: f64, axis: usize) -> Hats {
-    let (index, low, xi) = if grid.periodic[axis] {
-        let cell = libm::floor(s);
-        ([cell, cell + 1.0].map(|node| grid.wrap_signed(node, axis)), cell, s - cell)
+#[inline(always)]
+fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Along<2> {
+    let (first, cell, xi) = if grid.periodic[axis] {
+        let cell = floor(s);
+        (grid.wrap_signed(cell, axis), cell, s - cell)
     } else {
-        let cell = (s as usize).min(grid.cells[axis] - 1);
-        ([cell, cell + 1], cell as f64, (s - cell as f64).clamp(0.0, 1.0))
+        let cell = (s as i64 as usize).min(grid.cells[axis] - 1);
+        (cell, cell as f64, (s - cell as f64).clamp(0.0, 1.0))
     };
-    Hats { index, weight: [1.0 - xi, xi], place: [low, low + 1.0] }
+    let slope = grid.inverse_h();
+    let offset = [(cell - own) * grid.h, (cell + 1.0 - own) * grid.h];
+    Along::new(first, [1.0 - xi, xi], [-slope, slope], offset)
 }
 
-/// Calls `visit` with node, weight and place (in cells) for each product of hats.
-#[inline]
-fn products<const D: usize>(
-    grid: &Grid<D>,
-    hats: &[Hats; D],
-    mut visit: impl FnMut(usize, f64, Vector<D>),
-) {
-    for near in 0..1_usize << D {
-        let (mut index, mut weight) = ([0; D], 1.0);
-        let place = Vector::from_fn(|axis, _| hats[axis].place[near >> axis & 1]);
-        for axis in 0..D {
-            let k = near >> axis & 1;
-            index[axis] = hats[axis].index[k];
-            weight *= hats[axis].weight[k];
+impl<const D: usize> Patch<D> for Corner<D> {
+    #[inline(always)]
+    fn scatter<W: Width>(&self, width: W, value: W::Four, field: &mut ViewMut<'_>) {
+        self.hats.scatter(width, value, field);
+    }
+
+    #[inline(always)]
+    fn scatter_affine<W: Width>(
+        &self,
+        width: W,
+        (value, mean): (W::Four, &Vector<D>),
+        slope: &[W::Four; D],
+        field: &mut ViewMut<'_>,
+    ) {
+        self.hats.scatter_affine(width, (value, mean), slope, field);
+    }
+
+    #[inline(always)]
+    fn scatter_flux<W: Width>(&self, width: W, flux: &[W::Four; D], field: &mut ViewMut<'_>) {
+        let mut value = flux[0] * self.outward[0];
+        for axis in 1..D {
+            value += flux[axis] * self.outward[axis];
         }
-        visit(grid.node(&index), weight, place);
+        self.hats.scatter(width, value, field);
+    }
+
+    #[inline(always)]
+    fn gather<W: Width>(&self, width: W, field: &View<'_>) -> W::Four {
+        self.hats.gather(width, field)
+    }
+
+    #[inline(always)]
+    fn gather_moment<W: Width>(
+        &self,
+        width: W,
+        mean: &Vector<D>,
+        field: &View<'_>,
+    ) -> (W::Four, [W::Four; D]) {
+        self.hats.gather_moment(width, mean, field)
+    }
+
+    #[inline(always)]
+    fn gather_gradient<W: Width>(&self, width: W, field: &View<'_>) -> (W::Four, [W::Four; D]) {
+        let sum = self.hats.gather(width, field);
+        (sum, array(sum, |axis| sum * self.outward[axis]))
+    }
+
+    #[inline(always)]
+    fn spread(&self) -> Spread<D> {
+        self.hats.spread()
+    }
+
+    #[inline(always)]
+    fn variance(&self) -> ([f64; D], [f64; D]) {
+        self.hats.variance()
+    }
+
+    #[inline(always)]
+    fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(Seen<'_, D>)) {
+        self.hats.visit(grid, |i| visit(Seen { gradient: &(self.outward * i.weight), ..i }));
     }
 }
 
@@ -105,6 +159,9 @@ impl Basis for Cpdi {
     const DEGREE: u8 = 1;
     const DOMAIN: Domain = Domain::Follows;
     const GRADIENT_OF_WEIGHT: bool = false;
+    const ONE_PATCH: bool = false;
+
+    type Patch<const D: usize> = Corner<D>;
 
     fn count(cells: usize, periodic: bool) -> usize {
         cells + usize::from(!periodic)
@@ -114,29 +171,28 @@ impl Basis for Cpdi {
         index as f64
     }
 
-    #[inline]
-    fn visit<const D: usize>(
+    #[inline(always)]
+    fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        mut visit: impl FnMut(Seen<'_, D>),
+        mut see: impl FnMut(&Corner<D>),
     ) {
         if grid.cell(&particles.x[p]).is_none() {
             return;
         }
-        let own = Vector::from_fn(|axis, _| grid.wrapped(&particles.x[p], axis));
+        let own: [f64; D] = array(0.0, |axis| grid.wrapped(&particles.x[p], axis));
         let (centre, domain) = within(grid, particles, p);
         let corners = 1_usize << D;
         let share = 1.0 / corners as f64;
         let inverse_transposed = cofactor(&domain) * (grid.inverse_h() / det(&domain));
         for corner in 0..corners {
             let side = Vector::from_fn(|axis, _| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 });
-            let (at, outward) = (centre + domain * side, inverse_transposed * side);
-            let hats = std::array::from_fn(|axis| hats(grid, at[axis], axis));
-            products(grid, &hats, |node, weight, place| {
-                let (weight, offset) = (weight * share, (place - own) * grid.h);
-                visit(Seen { node, weight, gradient: &(outward * weight), offset });
-            });
+            let at = centre + domain * side;
+            let mut axes = array(Along::NONE, |axis| hats(grid, at[axis], own[axis], axis));
+            let Along { first, weight, slope, offset, .. } = axes[0];
+            axes[0] = Along::new(first, weight.map(|weight| weight * share), slope, offset);
+            see(&Corner { hats: Product(axes), outward: inverse_transposed * side });
         }
     }
 

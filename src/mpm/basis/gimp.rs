@@ -7,10 +7,15 @@
 //! diagonal of F, so that domains neither part nor overlap. At walls the domain is cut off.
 
 use super::{
-    contract::{Basis, Domain, Seen},
-    tensor::{self, Along},
+    along::Along,
+    contract::{Basis, Domain},
+    product::Product,
 };
-use crate::mpm::{grid::Grid, particles::Particles};
+use crate::mpm::{
+    algebra::array,
+    grid::{Grid, floor},
+    particles::Particles,
+};
 
 /// GIMP with domains of constant size.
 #[derive(Debug, Clone, Copy)]
@@ -20,8 +25,9 @@ pub struct UniformGimp;
 #[derive(Debug, Clone, Copy)]
 pub struct ContiguousGimp;
 
-/// Most functions along an axis: domains up to five cells long.
-const MOST: usize = 8;
+/// Functions along an axis that are seen at once: all of them while the domain is not longer than a
+/// cell.
+const AT_ONCE: usize = 3;
 
 /// Largest half-length of a domain, in cells. A particle that is stretched further is seen with
 /// this one.
@@ -38,51 +44,75 @@ fn integral(z: f64) -> f64 {
     if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
 }
 
-/// The functions of one axis, and where the first of them sits, from the particle (in cells).
-fn along<const D: usize>(grid: &Grid<D>, s: f64, half: f64, axis: usize) -> (Along<MOST>, f64) {
-    let half = half.min(LONGEST);
-    let (mut low, mut high) = (s - half, s + half);
-    if !grid.periodic[axis] {
-        low = low.max(0.0);
-        high = high.min(grid.cells[axis] as f64);
-    }
-    let mut along = Along::EMPTY;
-    let first = libm::floor(low);
-    for k in 0..MOST {
-        let node = first + k as f64;
-        if node >= high + 1.0 || (!grid.periodic[axis] && node > grid.cells[axis] as f64) {
-            break;
-        }
-        along.index[k] = grid.wrap_signed(node, axis);
-        along.weight[k] = (integral(high - node) - integral(low - node)) / (high - low);
-        along.slope[k] = (hat(high - node) - hat(low - node)) / (high - low) * grid.inverse_h();
-        along.count = k + 1;
-    }
-    (along, first - s)
+/// The domain along one axis.
+#[derive(Clone, Copy)]
+struct Extent {
+    /// The particle and the ends of its domain, in cells.
+    at: f64,
+    low: f64,
+    high: f64,
+    /// The first node that it sees, and how many times [`AT_ONCE`] of them.
+    first: f64,
+    groups: usize,
 }
 
-fn visit<const D: usize>(
+impl Extent {
+    const NONE: Self = Self { at: 0.0, low: 0.0, high: 0.0, first: 0.0, groups: 1 };
+
+    #[inline(always)]
+    fn new<const D: usize>(grid: &Grid<D>, at: f64, half: f64, axis: usize) -> Self {
+        let half = half.min(LONGEST);
+        let (mut low, mut high) = (at - half, at + half);
+        if !grid.periodic[axis] {
+            low = low.max(0.0);
+            high = high.min(grid.cells[axis] as f64);
+        }
+        let first = floor(low);
+        let beyond = high - first - (AT_ONCE - 1) as f64;
+        let groups = 1 + if beyond > 0.0 { 1 + (beyond / AT_ONCE as f64) as usize } else { 0 };
+        Self { at, low, high, first, groups }
+    }
+
+    /// The functions of a group. Those beyond the domain and beyond the wall are zero.
+    #[inline(always)]
+    fn along<const D: usize>(&self, grid: &Grid<D>, axis: usize, group: usize) -> Along<AT_ONCE> {
+        let first = self.first + (group * AT_ONCE) as f64;
+        let (share, node) = (1.0 / (self.high - self.low), |k: usize| first + k as f64);
+        let (low, high) = (|k| self.low - node(k), |k| self.high - node(k));
+        Along::new(
+            grid.wrap_signed(first, axis),
+            array(0.0, |k| (integral(high(k)) - integral(low(k))) * share),
+            array(0.0, |k| (hat(high(k)) - hat(low(k))) * share * grid.inverse_h()),
+            array(0.0, |k| (node(k) - self.at) * grid.h),
+        )
+    }
+}
+
+#[inline(always)]
+fn patches<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
     p: usize,
     follows: bool,
-    visit: impl FnMut(Seen<'_, D>),
+    mut see: impl FnMut(&Product<D, AT_ONCE>),
 ) {
     let x = &particles.x[p];
     if grid.cell(x).is_none() {
         return;
     }
-    let half = |axis: usize| {
+    let extents: [Extent; D] = array(Extent::NONE, |axis| {
         let followed = particles.domain.get(p).filter(|_| follows);
         let half = followed.map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)].abs());
-        half * grid.inverse_h()
-    };
-    let (mut axes, mut first) = ([Along::EMPTY; D], [0.0; D]);
-    for axis in 0..D {
-        (axes[axis], first[axis]) = along(grid, grid.wrapped(x, axis), half(axis), axis);
+        Extent::new(grid, grid.wrapped(x, axis), half * grid.inverse_h(), axis)
+    });
+    let groups: usize = extents.iter().map(|extent| extent.groups).product();
+    for mut group in 0..groups {
+        see(&Product(array(Along::NONE, |axis| {
+            let along = extents[axis].along(grid, axis, group % extents[axis].groups);
+            group /= extents[axis].groups;
+            along
+        })));
     }
-    let offset = |axis: usize, k: usize| (first[axis] + k as f64) * grid.h;
-    tensor::visit(grid, &axes, offset, visit);
 }
 
 macro_rules! gimp {
@@ -90,6 +120,10 @@ macro_rules! gimp {
         impl Basis for $name {
             const DEGREE: u8 = 1;
             const DOMAIN: Domain = Domain::$domain;
+
+            const ONE_PATCH: bool = false;
+
+            type Patch<const D: usize> = Product<D, AT_ONCE>;
 
             fn count(cells: usize, periodic: bool) -> usize {
                 cells + usize::from(!periodic)
@@ -99,15 +133,14 @@ macro_rules! gimp {
                 index as f64
             }
 
-            #[inline]
-            fn visit<const D: usize>(
+            #[inline(always)]
+            fn patches<const D: usize>(
                 grid: &Grid<D>,
                 particles: &Particles<D>,
                 p: usize,
-                seen: impl FnMut(Seen<'_, D>),
+                see: impl FnMut(&Product<D, AT_ONCE>),
             ) {
-                let follows = Self::DOMAIN == Domain::Follows;
-                visit(grid, particles, p, follows, seen);
+                patches(grid, particles, p, Self::DOMAIN == Domain::Follows, see);
             }
 
             /// Three nodes along an axis while the domain is not longer than a cell.

@@ -1,7 +1,7 @@
 //! The laws that every registered basis is held to, in 1-D, 2-D and 3-D, inside and at walls, and
 //! on periodic axes.
 
-use super::{Basis, BasisName, Domain, contract, tensor, with_basis};
+use super::{Basis, BasisName, Domain, along, contract, product, with_basis};
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     grid::Grid,
@@ -61,11 +61,13 @@ fn hold<B: Basis, const D: usize>(periodic: bool) {
     for x in points(&grid) {
         let particles = particle(&grid, x);
         let (mut sum, mut slope, mut visits) = (0.0, Vector::<D>::zeros(), 0);
+        let mut mean = Vector::<D>::zeros();
         let (mut position, mut identity) = (Vector::<D>::zeros(), Matrix::<D>::zeros());
         B::visit(&grid, &particles, 0, |i| {
             assert!(i.weight >= 0.0, "no negative weight");
             sum += i.weight;
             slope += i.gradient;
+            mean += i.offset * i.weight;
             visits += 1;
             let node = Vector::from_fn(|axis, _| {
                 let index = grid.index_on_axis(i.node, axis);
@@ -77,6 +79,9 @@ fn hold<B: Basis, const D: usize>(periodic: bool) {
         assert!(visits <= B::support(D), "the work counter counts all that is visited");
         assert_abs_diff_eq!(sum, 1.0, epsilon = 1e-14);
         assert_abs_diff_eq!(slope.norm(), 0.0, epsilon = 1e-12);
+        if B::ONE_PATCH {
+            assert_abs_diff_eq!(mean.norm(), 0.0, epsilon = 1e-15);
+        }
         if !periodic {
             assert_abs_diff_eq!((identity - Matrix::identity()).norm(), 0.0, epsilon = 1e-13);
         }

@@ -5,10 +5,11 @@
 //! (grid crossing).
 
 use super::{
-    contract::{Basis, Domain, Seen},
-    tensor::{self, Along},
+    along::Along,
+    contract::{Basis, Domain},
+    product::Product,
 };
-use crate::mpm::{grid::Grid, particles::Particles};
+use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
 
 /// Piecewise linear basis functions, tensor products of hats.
 #[derive(Debug, Clone, Copy)]
@@ -18,6 +19,8 @@ impl Basis for Linear {
     const DEGREE: u8 = 1;
     const DOMAIN: Domain = Domain::Point;
 
+    type Patch<const D: usize> = Product<D, 2>;
+
     fn count(cells: usize, periodic: bool) -> usize {
         cells + usize::from(!periodic)
     }
@@ -26,29 +29,24 @@ impl Basis for Linear {
         index as f64
     }
 
-    #[inline]
-    fn visit<const D: usize>(
+    #[inline(always)]
+    fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        visit: impl FnMut(Seen<'_, D>),
+        mut see: impl FnMut(&Product<D, 2>),
     ) {
-        let x = &particles.x[p];
-        if let Some(cell) = grid.cell(x) {
-            let axes: [Along<2>; D] = std::array::from_fn(|axis| {
-                let xi = grid.wrapped(x, axis) - cell[axis] as f64;
-                Along {
-                    count: 2,
-                    index: [cell[axis], grid.wrap(cell[axis] + 1, axis)],
-                    weight: [1.0 - xi, xi],
-                    slope: [-grid.inverse_h(), grid.inverse_h()],
-                }
-            });
-            let offset = |axis: usize, r: usize| {
-                (cell[axis] as f64 + r as f64 - grid.wrapped(x, axis)) * grid.h
-            };
-            tensor::visit(grid, &axes, offset, visit);
-        }
+        let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
+        see(&Product(array(Along::NONE, |axis| {
+            let (xi, h, slope) = (xi[axis], grid.h, grid.inverse_h());
+            Along {
+                first: cell[axis],
+                weight: [1.0 - xi, xi],
+                slope: [-slope, slope],
+                offset: [-xi * h, (1.0 - xi) * h],
+                variance: xi * (1.0 - xi) * h * h,
+            }
+        })));
     }
 
     fn support(dimension: usize) -> u64 {

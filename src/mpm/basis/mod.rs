@@ -1,6 +1,7 @@
 //! Basis functions: the family. A member is one file and one line below (and the `mod` that Rust
 //! wants).
 
+mod along;
 mod bspline;
 mod contract;
 mod cpdi;
@@ -8,9 +9,13 @@ mod gimp;
 #[cfg(test)]
 mod laws;
 mod linear;
-mod tensor;
+mod patch;
+mod product;
 
-pub use contract::{Basis, Domain, Seen};
+pub use along::Along;
+pub use contract::{Basis, Domain};
+pub use patch::{Patch, Seen, Spread};
+pub use product::Product;
 
 use super::{algebra::Vector, family::family, grid::Grid};
 

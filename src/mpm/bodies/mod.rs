@@ -76,7 +76,7 @@ impl<const D: usize> Bodies<D> {
         for (k, &stage) in stages.iter().enumerate() {
             let mut first = 0;
             for solver in &mut self.solvers {
-                solver.run(stage, dt).map_err(|failure| among(failure, first))?;
+                solver.run_first(&stages[k..], dt).map_err(|failure| among(failure, first))?;
                 first += solver.particles().len();
             }
             let Some(coupling) = &mut self.coupling else { continue };

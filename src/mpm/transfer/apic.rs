@@ -6,13 +6,16 @@
 //! that of the new position: on the linear basis, whose D changes within a cell, carrying
 //! C = B D^-1 would lose angular momentum.
 
-use super::contract::{Kind, Transfer, add_acceleration, mix_velocity};
+use super::{
+    contract::{Kind, Transfer, add_acceleration, mix_velocity},
+    wanted::Recipe,
+};
 use crate::{
     mpm::{
-        algebra::{Matrix, Vector},
+        algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::{Kernel, Shown},
+        kernel::{Affine, Kernel, Shown},
         moments::Moments,
         particles::Particles,
     },
@@ -24,10 +27,6 @@ use crate::{
 pub struct Apic<const D: usize> {
     /// B_p (m^2/s).
     b: Vec<Matrix<D>>,
-    /// C_p (1/s).
-    c: Vec<Matrix<D>>,
-    /// D_p and its inverse.
-    pub(super) moments: Moments<D>,
 }
 
 impl<const D: usize> Transfer<D> for Apic<D> {
@@ -36,46 +35,35 @@ impl<const D: usize> Transfer<D> for Apic<D> {
     }
 
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
-        self.moments.resize(particles.len());
-        kernel.moments(grid, particles, &mut self.moments);
-        let gradients = particles.grad_v.iter().zip(&self.moments.second);
+        let mut moments = Moments::default();
+        moments.resize(particles.len());
+        kernel.moments(grid, particles, &mut moments);
+        let gradients = particles.grad_v.iter().zip(&moments.second);
         self.b = gradients.map(|(grad_v, second)| grad_v * second).collect();
-        self.c.resize(particles.len(), Matrix::zeros());
     }
 
     fn columns(&self) -> Vec<Column> {
-        let own = [Column::of_particles("B", &self.b), Column::of_particles("C", &self.c)];
-        own.into_iter().chain(self.moments.columns()).collect()
+        vec![Column::of_particles("B", &self.b)]
     }
 
     fn reads_grid_velocity(&self) -> bool {
         true
     }
 
-    fn p2g_mass(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        kernel.p2g_mass(particles, grid);
-        kernel.moments(grid, particles, &mut self.moments);
-        2
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
+        Shown { v: &particles.v, affine: Some(Affine::Moment(&self.b)) }
     }
 
-    fn p2g_momentum(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &Grid<D>,
-        momentum: &mut [Vector<D>],
-    ) -> u64 {
-        for ((c, b), inverse) in self.c.iter_mut().zip(&self.b).zip(&self.moments.inverse) {
-            *c = b * inverse;
-        }
-        let shown = Shown { v: &particles.v, affine: Some((&self.c, &self.moments)) };
-        kernel.p2g_momentum(particles, shown, grid, momentum);
-        1
+    fn needs_moments(&self) -> bool {
+        true
+    }
+
+    fn recipe(&self) -> Option<Recipe> {
+        Some(Recipe { change: false, mix: Some((0.0, 1.0)) })
+    }
+
+    fn moment_column(&mut self) -> Option<&mut [Matrix<D>]> {
+        Some(&mut self.b)
     }
 
     fn g2p_velocity(
@@ -87,8 +75,7 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         particles: &mut Particles<D>,
     ) -> u64 {
         mix_velocity(kernel, grid, (0.0, 1.0), particles);
-        let seen = (&*particles, &self.moments);
-        kernel.g2p_moment(grid, &grid.velocity, seen, (0.0, 1.0), &mut self.b);
+        kernel.g2p_moment(grid, &grid.velocity, particles, &mut self.b);
         2
     }
 
@@ -100,8 +87,13 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         particles: &mut Particles<D>,
     ) -> u64 {
         add_acceleration(kernel, grid, dt, particles);
-        let seen = (&*particles, &self.moments);
-        kernel.g2p_moment(grid, &grid.acceleration, seen, (1.0, dt), &mut self.b);
+        // The column of the material is free until its stage comes.
+        let mut change = std::mem::take(&mut particles.grad_v);
+        kernel.g2p_moment(grid, &grid.acceleration, particles, &mut change);
+        for (b, change) in self.b.iter_mut().zip(&change) {
+            *b += change * dt;
+        }
+        particles.grad_v = change;
         2
     }
 

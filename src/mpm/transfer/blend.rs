@@ -3,7 +3,10 @@
 //! `v_p <- s (v_p + dt sum_i a_i N_i) + (1 - s) sum_i v_i N_i` (Zhu & Bridson 2005; Stomakhin et
 //! al. 2013, with s = 0.95).
 
-use super::contract::{Transfer, add_acceleration, mix_velocity};
+use super::{
+    contract::{Transfer, add_acceleration, mix_velocity},
+    wanted::Recipe,
+};
 use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// FLIP with a small part of PIC.
@@ -22,6 +25,10 @@ impl Blend {
 impl<const D: usize> Transfer<D> for Blend {
     fn reads_grid_velocity(&self) -> bool {
         true
+    }
+
+    fn recipe(&self) -> Option<Recipe> {
+        Some(Recipe { change: true, mix: Some((self.flip, 1.0 - self.flip)) })
     }
 
     fn g2p_velocity(

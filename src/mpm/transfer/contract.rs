@@ -1,11 +1,12 @@
 //! What a transfer is to the rest of the solver.
 
+use super::wanted::{Recipe, Wanted};
 use crate::{
     mpm::{
         algebra::{Matrix, Vector},
         boundary::Boundary,
         grid::Grid,
-        kernel::{Kernel, Shown},
+        kernel::{Divergence, Kernel, Maps, Shown},
         particles::Particles,
     },
     subject::Column,
@@ -48,15 +49,53 @@ pub trait Transfer<const D: usize>: Send + Sync {
     /// Whether [`Transfer::g2p_velocity`] reads the grid's velocities, not its accelerations only.
     fn reads_grid_velocity(&self) -> bool;
 
-    /// P2G: the nodal masses; the first pass after particles have moved.
+    /// The velocity field that particles show to the nodes.
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
+        Shown { v: &particles.v, affine: None }
+    }
+
+    /// What makes a force of their stresses.
+    fn divergence(&self) -> Divergence {
+        Divergence::Gradient
+    }
+
+    /// Whether the field that particles show needs the moments of their weights. These count as a
+    /// pass, once for each place that particles have: the work counter counts what a method asks
+    /// for, not the visits to nodes in which that is done.
+    fn needs_moments(&self) -> bool {
+        false
+    }
+
+    /// P2G: what is `wanted`, in one visit to the nodes if the transfer can. Mass is wanted by the
+    /// first pass after particles have moved.
+    fn p2g(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &mut Grid<D>,
+        wanted: Wanted,
+    ) -> u64 {
+        map(self, kernel, particles, grid, wanted)
+    }
+
+    /// P2G: the nodal masses alone.
     fn p2g_mass(
         &mut self,
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &mut Grid<D>,
     ) -> u64 {
-        kernel.p2g_mass(particles, grid);
-        1
+        self.p2g(kernel, particles, grid, Wanted { mass: true, ..Wanted::default() })
+    }
+
+    /// P2G: the internal force (N) into `grid.force`, alone.
+    fn p2g_internal_force(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        self.p2g(kernel, particles, grid, Wanted { force: true, ..Wanted::default() })
     }
 
     /// P2G: the momentum (kg m/s) of each node into `momentum`.
@@ -67,19 +106,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
         grid: &Grid<D>,
         momentum: &mut [Vector<D>],
     ) -> u64 {
-        let shown = Shown { v: &particles.v, affine: None };
-        kernel.p2g_momentum(particles, shown, grid, momentum);
-        1
-    }
-
-    /// P2G: the internal force (N) into `grid.force`.
-    fn p2g_internal_force(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        kernel.p2g_internal_force(particles, grid);
+        kernel.p2g_momentum(particles, self.shown(particles), grid, momentum);
         1
     }
 
@@ -105,6 +132,17 @@ pub trait Transfer<const D: usize>: Send + Sync {
         particles: &mut Particles<D>,
     ) -> u64;
 
+    /// How [`Transfer::g2p_velocity`] is done in the same visit as other things; None where it takes
+    /// more than a visit.
+    fn recipe(&self) -> Option<Recipe> {
+        None
+    }
+
+    /// The first moments of velocity that a transfer with a recipe takes.
+    fn moment_column(&mut self) -> Option<&mut [Matrix<D>]> {
+        None
+    }
+
     /// G2P: adds the grid's accelerations over `dt` (s) to the particles, with no other change of
     /// their velocities: how a run starts half a step back.
     fn kick(
@@ -116,6 +154,11 @@ pub trait Transfer<const D: usize>: Send + Sync {
     ) -> u64 {
         add_acceleration(kernel, grid, dt, particles);
         1
+    }
+
+    /// Whether [`Transfer::g2p_gradient`] is that of the basis.
+    fn takes_gradient_of_basis(&self) -> bool {
+        true
     }
 
     /// G2P: `grad v_p` (1/s) into `particles.grad_v`.
@@ -154,6 +197,24 @@ pub trait Transfer<const D: usize>: Send + Sync {
     fn moment(&self, _: usize) -> Option<Matrix<D>> {
         None
     }
+}
+
+/// Maps what is `wanted` in one pass.
+pub(super) fn map<const D: usize>(
+    transfer: &(impl Transfer<D> + ?Sized),
+    kernel: &dyn Kernel<D>,
+    particles: &Particles<D>,
+    grid: &mut Grid<D>,
+    wanted: Wanted,
+) -> u64 {
+    let maps = Maps {
+        mass: wanted.mass,
+        momentum: wanted.momentum.then(|| transfer.shown(particles)),
+        force: wanted.force.then(|| transfer.divergence()),
+    };
+    kernel.p2g(particles, &maps, grid);
+    let moments = wanted.mass && wanted.momentum && transfer.needs_moments();
+    [wanted.mass, wanted.momentum, wanted.force, moments].map(u64::from).iter().sum()
 }
 
 /// `v_p += dt sum_i a_i N_i(x_p)`.

@@ -3,7 +3,10 @@
 //! `v_p += dt sum_i a_i N_i(x_p)` (Brackbill & Ruppel 1986; step 3 of the original MPM in Wobbes &
 //! Tielen 2015).
 
-use super::contract::{Transfer, add_acceleration};
+use super::{
+    contract::{Transfer, add_acceleration},
+    wanted::Recipe,
+};
 use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// The transfer of the original MPM.
@@ -13,6 +16,10 @@ pub struct Flip;
 impl<const D: usize> Transfer<D> for Flip {
     fn reads_grid_velocity(&self) -> bool {
         false
+    }
+
+    fn recipe(&self) -> Option<Recipe> {
+        Some(Recipe { change: true, mix: None })
     }
 
     fn g2p_velocity(

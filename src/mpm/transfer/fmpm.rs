@@ -5,7 +5,10 @@
 //! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved so; particles then
 //! take the grid's velocity. FMPM(1) is PIC.
 
-use super::contract::{Kind, Transfer, mix_velocity};
+use super::{
+    contract::{Kind, Transfer, mix_velocity},
+    wanted::Recipe,
+};
 use crate::{
     mpm::{
         algebra::Vector,
@@ -81,6 +84,10 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
             }
         }
         2 * u64::from(self.order - 1)
+    }
+
+    fn recipe(&self) -> Option<Recipe> {
+        Some(Recipe { change: false, mix: Some((0.0, 1.0)) })
     }
 
     fn g2p_velocity(

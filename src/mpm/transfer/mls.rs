@@ -9,10 +9,10 @@ use super::{
 };
 use crate::{
     mpm::{
-        algebra::{Matrix, Vector},
+        algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::Kernel,
+        kernel::{Divergence, Kernel, Shown},
         particles::Particles,
     },
     subject::Column,
@@ -41,33 +41,16 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         true
     }
 
-    fn p2g_mass(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        self.apic.p2g_mass(kernel, particles, grid)
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
+        self.apic.shown(particles)
     }
 
-    fn p2g_momentum(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &Grid<D>,
-        momentum: &mut [Vector<D>],
-    ) -> u64 {
-        self.apic.p2g_momentum(kernel, particles, grid, momentum)
+    fn divergence(&self) -> Divergence {
+        Divergence::Fit
     }
 
-    fn p2g_internal_force(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        kernel.p2g_affine_force(particles, &self.apic.moments, grid);
-        1
+    fn needs_moments(&self) -> bool {
+        true
     }
 
     fn g2p_velocity(
@@ -91,6 +74,10 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         self.apic.kick(kernel, grid, dt, particles)
     }
 
+    fn takes_gradient_of_basis(&self) -> bool {
+        false
+    }
+
     fn g2p_gradient(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -98,11 +85,8 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         particles: &mut Particles<D>,
     ) -> u64 {
         let mut column = std::mem::take(&mut particles.grad_v);
-        let moments = &self.apic.moments;
-        kernel.g2p_moment(grid, &grid.velocity, (particles, moments), (0.0, 1.0), &mut column);
-        for (grad_v, inverse) in column.iter_mut().zip(&moments.inverse) {
-            *grad_v *= inverse;
-        }
+        kernel.g2p_moment(grid, &grid.velocity, particles, &mut column);
+        kernel.divide_by_inertia(grid, particles, &mut column);
         particles.grad_v = column;
         1
     }

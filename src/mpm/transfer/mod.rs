@@ -11,6 +11,8 @@ mod mls;
 mod pic;
 mod tls;
 mod tpic;
+mod visit;
+mod wanted;
 mod xpic;
 
 pub use apic::Apic;
@@ -23,7 +25,10 @@ pub use mls::Mls;
 pub use pic::Pic;
 pub use tls::Tls;
 pub use tpic::Tpic;
+pub use wanted::{Recipe, Wanted};
 pub use xpic::Xpic;
+
+pub(in crate::mpm) use visit::{Also, g2p, rest};
 
 use super::family::objects;
 

@@ -3,7 +3,10 @@
 //! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). Every step filters the velocity once through the
 //! grid, which damps all that varies within a cell.
 
-use super::contract::{Transfer, mix_velocity};
+use super::{
+    contract::{Transfer, mix_velocity},
+    wanted::Recipe,
+};
 use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
 
 /// Particle in cell.
@@ -13,6 +16,10 @@ pub struct Pic;
 impl<const D: usize> Transfer<D> for Pic {
     fn reads_grid_velocity(&self) -> bool {
         true
+    }
+
+    fn recipe(&self) -> Option<Recipe> {
+        Some(Recipe { change: false, mix: Some((0.0, 1.0)) })
     }
 
     fn g2p_velocity(

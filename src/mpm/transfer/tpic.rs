@@ -4,13 +4,16 @@
 //! `v_p + C_p (x_i - x_p)` (Nakamura, Matsumura & Mizutani 2023, CMAME 411). No inertia tensor is
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
-use super::contract::{Kind, Transfer, add_acceleration, mix_velocity};
+use super::{
+    contract::{Kind, Transfer, add_acceleration, map, mix_velocity},
+    wanted::Wanted,
+};
 use crate::{
     mpm::{
-        algebra::{Matrix, Vector},
+        algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::{Kernel, Shown},
+        kernel::{Affine, Kernel, Shown},
         moments::Moments,
         particles::Particles,
     },
@@ -45,27 +48,21 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         true
     }
 
-    fn p2g_mass(
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
+        Shown { v: &particles.v, affine: Some(Affine::Slope(&self.c)) }
+    }
+
+    fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &mut Grid<D>,
+        wanted: Wanted,
     ) -> u64 {
-        kernel.p2g_mass(particles, grid);
-        kernel.moments(grid, particles, &mut self.moments);
-        2
-    }
-
-    fn p2g_momentum(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &Grid<D>,
-        momentum: &mut [Vector<D>],
-    ) -> u64 {
-        let shown = Shown { v: &particles.v, affine: Some((&self.c, &self.moments)) };
-        kernel.p2g_momentum(particles, shown, grid, momentum);
-        1
+        if wanted.mass {
+            kernel.moments(grid, particles, &mut self.moments);
+        }
+        u64::from(wanted.mass) + map(self, kernel, particles, grid, wanted)
     }
 
     fn g2p_velocity(

@@ -6,10 +6,11 @@
 //! negative, and at walls as everywhere; but gradients jump at nodes, as those of hats do.
 
 use super::{
-    contract::{Basis, Domain, Seen},
-    tensor::{self, Along},
+    along::Along,
+    contract::{Basis, Domain},
+    product::Product,
 };
-use crate::mpm::{grid::Grid, particles::Particles};
+use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
 
 /// Quadratic Bernstein polynomials, continuous from cell to cell.
 #[derive(Debug, Clone, Copy)]
@@ -19,6 +20,8 @@ impl Basis for QuadraticBernstein {
     const DEGREE: u8 = 2;
     const DOMAIN: Domain = Domain::Point;
 
+    type Patch<const D: usize> = Product<D, 3>;
+
     fn count(cells: usize, periodic: bool) -> usize {
         2 * cells + usize::from(!periodic)
     }
@@ -27,30 +30,22 @@ impl Basis for QuadraticBernstein {
         0.5 * index as f64
     }
 
-    #[inline]
-    fn visit<const D: usize>(
+    #[inline(always)]
+    fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        visit: impl FnMut(Seen<'_, D>),
+        mut see: impl FnMut(&Product<D, 3>),
     ) {
-        let x = &particles.x[p];
-        let Some(cell) = grid.cell(x) else { return };
-        let axes: [Along<3>; D] = std::array::from_fn(|axis| {
-            let xi = grid.wrapped(x, axis) - cell[axis] as f64;
-            let first = 2 * cell[axis];
+        let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
+        see(&Product(array(Along::NONE, |axis| {
+            let xi = xi[axis];
+            let weight = [(1.0 - xi) * (1.0 - xi), 2.0 * xi * (1.0 - xi), xi * xi];
             let slope = [2.0 * xi - 2.0, 2.0 - 4.0 * xi, 2.0 * xi];
-            Along {
-                count: 3,
-                index: [first, first + 1, grid.wrap(first + 2, axis)],
-                weight: [(1.0 - xi) * (1.0 - xi), 2.0 * xi * (1.0 - xi), xi * xi],
-                slope: slope.map(|slope| slope * grid.inverse_h()),
-            }
-        });
-        let offset = |axis: usize, k: usize| {
-            (cell[axis] as f64 + 0.5 * k as f64 - grid.wrapped(x, axis)) * grid.h
-        };
-        tensor::visit(grid, &axes, offset, visit);
+            let slope = array(0.0, |k| slope[k] * grid.inverse_h());
+            let offset = array(0.0, |k| (0.5 * k as f64 - xi) * grid.h);
+            Along::new(2 * cell[axis], weight, slope, offset)
+        })));
     }
 
     fn support(dimension: usize) -> u64 {

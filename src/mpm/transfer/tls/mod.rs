@@ -13,7 +13,10 @@ use self::{
     fit::Fit,
     spots::{Spot, Spots},
 };
-use super::contract::{Kind, Transfer, add_acceleration};
+use super::{
+    contract::{Kind, Transfer, add_acceleration},
+    wanted::Wanted,
+};
 use crate::{
     mpm::{
         algebra::Vector,
@@ -91,6 +94,29 @@ impl<const D: usize> Transfer<D> for Tls<D> {
 
     fn reads_grid_velocity(&self) -> bool {
         false
+    }
+
+    /// Each map integrates other fields.
+    fn p2g(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &mut Grid<D>,
+        wanted: Wanted,
+    ) -> u64 {
+        let mut passes = 0;
+        if wanted.mass {
+            passes += self.p2g_mass(kernel, particles, grid);
+        }
+        if wanted.momentum {
+            let mut momentum = std::mem::take(&mut grid.velocity);
+            passes += self.p2g_momentum(kernel, particles, grid, &mut momentum);
+            grid.velocity = momentum;
+        }
+        if wanted.force {
+            passes += self.p2g_internal_force(kernel, particles, grid);
+        }
+        passes
     }
 
     fn p2g_mass(

@@ -1,7 +1,8 @@
-//! The particle-node loops of scalars, beside those of vectors and tensors in [`super::loops`].
+//! The particle-node loops of scalars, beside those of vectors and tensors.
 
-use super::{
-    algebra::Vector, basis::Basis, grid::Grid, loops::Loops, particles::Particles, scalars::Scalars,
+use super::Loops;
+use crate::mpm::{
+    algebra::Vector, basis::Basis, grid::Grid, particles::Particles, scalars::Scalars,
 };
 
 impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {

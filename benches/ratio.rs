@@ -1,0 +1,203 @@
+//! The loops against the yardstick: a textbook loop that is generic over nothing.
+//!
+//! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of the
+//! ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are what
+//! can be compared. `best` is the ratio of the shortest times of each, which others disturb least. `cargo bench --bench ratio -- 1e6` takes as many particles. Both are first checked
+//! to give the same numbers.
+
+mod yardstick;
+
+use mpm_verify::mpm::{
+    Affine, BasisName, Grid, Kernel, Maps, Matrix, Particles, Shown, Takes, Vector, kernel,
+};
+use std::{hint::black_box, time::Instant};
+use yardstick::{cubic_3d, linear_1d, quadratic_2d, quadratic_3d};
+
+/// `SplitMix64` (Steele, Lea & Flood 2014), uniform in [-1, 1).
+struct Random(u64);
+
+impl Random {
+    fn signed(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+const H: f64 = 0.5;
+/// Cells between the body and the walls: cubic B-splines are uniform there.
+const MARGIN: usize = 3;
+
+/// What both loops work on.
+struct Scene<const D: usize> {
+    kernel: Box<dyn Kernel<D>>,
+    grid: Grid<D>,
+    particles: Particles<D>,
+    b: Vec<Matrix<D>>,
+}
+
+/// A cube of about `count` particles, 2^D in a cell, anywhere in its share; sorted by cell.
+fn scene<const D: usize>(basis: BasisName, count: f64) -> Scene<D> {
+    let per_cell = f64::from(1 << D);
+    let side = libm::round(libm::pow(count / per_cell, 1.0 / D as f64)).max(1.0) as usize;
+    let kernel = kernel::<D>(basis);
+    let grid = kernel.grid(Vector::zeros(), H, [side + 2 * MARGIN; D], [false; D]);
+    let (from, to) = (H * MARGIN as f64, H * (side + MARGIN) as f64);
+    let block = mpm_verify::mpm::Block {
+        from: Vector::from_element(from),
+        to: Vector::from_element(to),
+        density: 2.0,
+    };
+    let mut particles = Particles::fill(&block, H, 2);
+    let mut random = Random(1);
+    particles.x.sort_by_key(|x| grid.node(&grid.cell(x).expect("inside")));
+    for (x, v) in particles.x.iter_mut().zip(&mut particles.v) {
+        *x += Vector::from_fn(|_, _| 0.24 * H * random.signed());
+        *v = Vector::from_fn(|_, _| random.signed());
+    }
+    let b = particles.x.iter().map(|_| Matrix::from_fn(|_, _| random.signed())).collect();
+    Scene { kernel, grid, particles, b }
+}
+
+fn columns<const D: usize>(of: &[Vector<D>]) -> Vec<[f64; D]> {
+    of.iter().map(|v| std::array::from_fn(|i| v[i])).collect()
+}
+
+fn rows<const D: usize>(of: &[Matrix<D>]) -> Vec<[[f64; D]; D]> {
+    of.iter().map(|m| std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))).collect()
+}
+
+/// Refuses to time loops that differ.
+fn same<'a>(
+    id: &str,
+    found: impl Iterator<Item = &'a f64>,
+    expected: impl Iterator<Item = &'a f64>,
+) {
+    let (found, expected): (Vec<_>, Vec<_>) = (found.collect(), expected.collect());
+    assert_eq!(found.len(), expected.len(), "{id}");
+    let scale = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    for (found, expected) in found.iter().zip(&expected) {
+        let error = (*found - *expected).abs();
+        assert!(error <= 1e-12 * scale, "{id}: {found} is not {expected}, so nothing is timed");
+    }
+}
+
+fn time(run: &mut dyn FnMut()) -> f64 {
+    let start = Instant::now();
+    run();
+    start.elapsed().as_secs_f64()
+}
+
+fn quartiles(mut of: Vec<f64>) -> [f64; 3] {
+    of.sort_by(f64::total_cmp);
+    [of.len() / 4, of.len() / 2, 3 * of.len() / 4].map(|k| of[k])
+}
+
+/// Runs both in turn and prints what they take for a particle.
+fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn FnMut()) {
+    let once = time(plain).max(1e-6);
+    ours();
+    let repeats = ((1.0 / once) as usize).clamp(11, 501);
+    let pairs: Vec<(f64, f64)> = (0..repeats).map(|_| (time(plain), time(ours))).collect();
+    let nanoseconds = 1e9 / particles as f64;
+    let [_, plain, _] = quartiles(pairs.iter().map(|pair| pair.0 * nanoseconds).collect());
+    let [_, ours, _] = quartiles(pairs.iter().map(|pair| pair.1 * nanoseconds).collect());
+    let [low, ratio, high] = quartiles(pairs.iter().map(|pair| pair.0 / pair.1).collect());
+    let least = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).fold(f64::INFINITY, f64::min);
+    let best = least(|pair| pair.0) / least(|pair| pair.1);
+    println!("{id:<28} {plain:>10.2} {ours:>10.2} {ratio:>7.2}  [{low:.2}, {high:.2}] {best:>7.2}");
+}
+
+/// The three pairs of loops with APIC.
+macro_rules! apic {
+    ($plain:ident, $dimension:literal, $basis:ident, $id:literal, $count:expr) => {{
+        const D: usize = $dimension;
+        let Scene { kernel, mut grid, mut particles, mut b } =
+            scene::<D>(BasisName::$basis, $count);
+        let (x, v, rows_of_b) = (columns(&particles.x), columns(&particles.v), rows(&b));
+        let (n, m, total) = (grid.counts, particles.mass.clone(), particles.len());
+        let (mut mass, mut momentum) = (vec![0.0; grid.nodes()], vec![[0.0; D]; grid.nodes()]);
+        let mut plain = || $plain::p2g(H, n, &x, &v, &rows_of_b, &m, &mut mass, &mut momentum);
+        let mut ours = || {
+            let shown = Shown { v: &particles.v, affine: Some(Affine::Moment(&b)) };
+            let maps = Maps { mass: true, momentum: Some(shown), force: None };
+            kernel.p2g(black_box(&particles), &maps, &mut grid);
+        };
+        plain();
+        ours();
+        compare(concat!($id, "/p2g"), total, &mut plain, &mut ours);
+        same(concat!($id, "/p2g mass"), grid.mass.iter(), mass.iter());
+        same($id, grid.velocity.iter().flatten(), momentum.iter().flatten());
+
+        let mut random = Random(2);
+        grid.velocity.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+        let velocity = columns(&grid.velocity);
+        let (mut new_v, mut new_b) = (v.clone(), rows_of_b.clone());
+        let mut ours_v = particles.v.clone();
+        let mut plain = || $plain::g2p(H, n, &x, &velocity, &mut new_v, &mut new_b);
+        let mut ours = || {
+            let (mix, value, moment) = (Some((0.0, 1.0)), Some(&mut *ours_v), Some(&mut *b));
+            let takes = Takes { mix, value, moment, ..Takes::default() };
+            kernel.g2p_all(black_box(&grid), &particles, takes);
+        };
+        plain();
+        ours();
+        compare(concat!($id, "/g2p"), total, &mut plain, &mut ours);
+        same($id, ours_v.iter().flatten(), new_v.iter().flatten());
+        same($id, rows(&b).iter().flatten().flatten(), new_b.iter().flatten().flatten());
+        particles.v = ours_v;
+    }};
+}
+
+fn flip(count: f64) {
+    let Scene { kernel, mut grid, particles, .. } = scene::<1>(BasisName::Linear, count);
+    let flat = |of: &[Vector<1>]| of.iter().map(|v| v[0]).collect::<Vec<f64>>();
+    let (x, v, m, total) =
+        (flat(&particles.x), flat(&particles.v), particles.mass.clone(), particles.len());
+    let (mut mass, mut momentum) = (vec![0.0; grid.nodes()], vec![0.0; grid.nodes()]);
+    let mut plain = || linear_1d::p2g(H, &x, &v, &m, &mut mass, &mut momentum);
+    let mut ours = || {
+        let shown = Shown { v: &particles.v, affine: None };
+        let maps = Maps { mass: true, momentum: Some(shown), force: None };
+        kernel.p2g(black_box(&particles), &maps, &mut grid);
+    };
+    plain();
+    ours();
+    compare("1d/linear/flip/p2g", total, &mut plain, &mut ours);
+    same("1d/linear/flip/p2g mass", grid.mass.iter(), mass.iter());
+    same("1d/linear/flip/p2g", grid.velocity.iter().flatten(), momentum.iter());
+
+    let mut random = Random(2);
+    grid.velocity.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    grid.acceleration.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    let (velocity, acceleration) = (flat(&grid.velocity), flat(&grid.acceleration));
+    let (mut new_v, mut carried) = (v.clone(), v.clone());
+    let (mut ours_v, mut ours_carried) = (particles.v.clone(), particles.v.clone());
+    let fields = (&*velocity, &*acceleration);
+    let mut plain = || linear_1d::g2p((H, 0.125), &x, fields, &mut new_v, &mut carried);
+    let mut ours = || {
+        let (value, carried) = (Some(&mut *ours_v), Some(&mut *ours_carried));
+        let takes = Takes { change: Some(0.125), value, carried, ..Takes::default() };
+        kernel.g2p_all(black_box(&grid), &particles, takes);
+    };
+    plain();
+    ours();
+    compare("1d/linear/flip/g2p", total, &mut plain, &mut ours);
+    same("1d/linear/flip/g2p", ours_v.iter().flatten(), new_v.iter());
+    same("1d/linear/flip/g2p", ours_carried.iter().flatten(), carried.iter());
+}
+
+fn main() {
+    let count = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(1e5);
+    println!("ns per particle, {count:e} particles, sorted by cell, one thread");
+    println!(
+        "{:<28} {:>10} {:>10} {:>7}  quartiles      best",
+        "", "yardstick", "library", "ratio"
+    );
+    apic!(quadratic_3d, 3, QuadraticBSpline, "3d/quadratic/apic", count);
+    apic!(quadratic_2d, 2, QuadraticBSpline, "2d/quadratic/apic", count);
+    apic!(cubic_3d, 3, CubicBSpline, "3d/cubic/apic", count);
+    flip(count);
+}

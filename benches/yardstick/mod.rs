@@ -1,0 +1,18 @@
+//! The yardstick: P2G and G2P as any textbook has them, a straight nested loop over nodes, generic
+//! over nothing.
+//!
+//! The body stays away from walls, so B-splines are uniform and the inertia tensor of APIC is the
+//! constant `h^2/4` (quadratic) or `h^2/3` (cubic). Nothing is unrolled, packed or ordered by hand:
+//! what a loop gains over this one is what its care is worth.
+
+/// Quadratic B-splines in 3-D, APIC.
+pub(crate) mod quadratic_3d;
+
+/// Quadratic B-splines in 2-D, APIC.
+pub(crate) mod quadratic_2d;
+
+/// Cubic B-splines in 3-D, APIC.
+pub(crate) mod cubic_3d;
+
+/// Hats in 1-D, FLIP.
+pub(crate) mod linear_1d;
