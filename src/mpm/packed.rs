@@ -94,16 +94,26 @@ impl Packed {
     }
 
     /// Where each row of nodes of the grid is here, in the order of nodes.
-    fn rows<const D: usize>(&self, grid: &Grid<D>) -> impl Iterator<Item = Range<usize>> + use<D> {
+    fn places<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+    ) -> impl Iterator<Item = Range<usize>> + use<D> {
         let ([across, rows, planes], [_, row, plane]) = (counts(grid), self.strides);
-        let starts = (0..planes).flat_map(move |k| (0..rows).map(move |j| k * plane + j * row));
-        starts.map(move |start| start..start + across)
+        (0..rows * planes).map(move |k| {
+            let start = k % rows * row + k / rows * plane;
+            start..start + across
+        })
+    }
+
+    /// The rows of nodes of the grid, in order.
+    pub(super) fn rows<const D: usize>(&self, grid: &Grid<D>) -> impl Iterator<Item = &[Node]> {
+        self.places(grid).map(|place| &self.nodes[place])
     }
 
     /// Takes over a field of vectors.
     pub(super) fn pack<const D: usize>(&mut self, grid: &Grid<D>, field: &[Vector<D>]) {
         self.clear(grid);
-        for (here, there) in self.rows(grid).zip(field.chunks_exact(grid.counts[0])) {
+        for (here, there) in self.places(grid).zip(field.chunks_exact(grid.counts[0])) {
             for (Node(lanes), value) in self.nodes[here].iter_mut().zip(there) {
                 lanes[..D].copy_from_slice(value.as_slice());
             }
@@ -143,13 +153,6 @@ impl Packed {
             })
         })
     }
-
-    /// Calls `take` for every node of `grid`, in order, with its four numbers.
-    pub(super) fn unpack<const D: usize>(&self, grid: &Grid<D>, mut take: impl FnMut(&[f64; 4])) {
-        for here in self.rows(grid) {
-            self.nodes[here].iter().for_each(|Node(lanes)| take(lanes));
-        }
-    }
 }
 
 #[cfg(test)]
@@ -183,8 +186,7 @@ mod tests {
                 one.clear(&grid);
                 one.view_mut().row::<1>(at)[0].0[3] = 1.0;
                 one.fold(&grid);
-                let mut found = Vec::new();
-                one.unpack(&grid, |lanes| found.push(lanes[3]));
+                let found: Vec<f64> = one.rows(&grid).flatten().map(|node| node.0[3]).collect();
                 let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
                 prop_assert_eq!(found, expected);
             }

@@ -14,8 +14,7 @@ use crate::mpm::{
     packed::{Node, View, ViewMut, number},
 };
 
-/// All products of functions along the axes; at most four ([`MARGIN`](crate::mpm::packed::MARGIN))
-/// along each.
+/// All products of functions along the axes; at most four along each.
 #[derive(Debug, Clone, Copy)]
 pub struct Product<const D: usize, const K: usize>(pub [Along<K>; D]);
 

@@ -20,7 +20,7 @@ use super::{
     grid::Grid,
     kernel::{Kernel, Maps, Shown, Takes},
     moments::{Inertia, Moments},
-    packed::Packed,
+    packed::{Node, Packed},
     particles::Particles,
 };
 use std::{
@@ -62,10 +62,16 @@ impl<B: Basis> Loops<B> {
         grid: &Grid<D>,
     ) -> MutexGuard<'_, Fields> {
         let mut room = self.room();
-        room.iter_mut().for_each(|field| field.clear(grid));
+        let wanted = [maps.mass || maps.momentum.is_some(), maps.force.is_some()];
+        let in_use = |room: &mut Fields, work: fn(&mut Packed, &Grid<D>)| {
+            for (field, _) in room.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
+                work(field, grid);
+            }
+        };
+        in_use(&mut room, Packed::clear);
         let fields = room.each_mut().map(Packed::view_mut);
         four::run(Scatter::<D, B> { grid, particles, maps, fields, basis: PhantomData });
-        room.iter_mut().for_each(|field| field.fold(grid));
+        in_use(&mut room, Packed::fold);
         room
     }
 
@@ -249,10 +255,9 @@ fn fill<const D: usize, T>(
     column: &mut [T],
     value: impl Fn(&[f64; 4]) -> T,
 ) {
-    let mut column = column.iter_mut();
-    field.unpack(grid, |lanes| {
-        if let Some(node) = column.next() {
-            *node = value(lanes);
+    for (row, nodes) in column.chunks_exact_mut(grid.counts[0]).zip(field.rows(grid)) {
+        for (there, Node(lanes)) in row.iter_mut().zip(nodes) {
+            *there = value(lanes);
         }
-    });
+    }
 }
