@@ -43,6 +43,7 @@ mod soundness;
 mod stage;
 mod state;
 mod step;
+mod stress;
 mod totals;
 mod transfer;
 mod visits;

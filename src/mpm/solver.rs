@@ -1,10 +1,9 @@
 //! The solver: every stage of a step, one by one. [`step`](super::step) has their order.
 
 use super::{
-    algebra::{Matrix, Vector},
+    algebra::Vector,
     basis::Domain,
     boundary::Advance,
-    effect::strain,
     frame::FrameName,
     grid::Grid,
     initial,
@@ -14,7 +13,7 @@ use super::{
     transfer::{Transfer, Wanted},
     whereabouts::Whereabouts,
 };
-use crate::subject::{Column, Failure, Profile, Site};
+use crate::subject::{Column, Failure, Profile};
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
@@ -209,30 +208,6 @@ impl<const D: usize> Solver<D> {
         let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
         grid.acceleration = field;
         self.count(passes);
-    }
-
-    fn stress(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { particles, material, frame, effects, .. } = &mut self.setup;
-        if *frame == FrameName::Total {
-            particles.push_gradients_forward();
-        }
-        for (f, grad_v) in particles.def_grad.iter_mut().zip(&particles.grad_v) {
-            *f = (Matrix::identity() + grad_v * dt) * *f;
-        }
-        strain(effects, material.as_mut(), dt, particles);
-        for (p, (vol, vol0)) in
-            self.setup.particles.vol.iter().zip(&self.setup.particles.vol0).enumerate()
-        {
-            let (j, site) = (vol / vol0, Site::Particle(p));
-            if !j.is_finite() {
-                return Err(Failure::NonFinite { quantity: "J", site });
-            }
-            self.min_j = self.min_j.min(j);
-            if j <= 0.0 {
-                return Err(Failure::Inverted { site, j });
-            }
-        }
-        self.setup.particles.strained_finite()
     }
 
     /// Lets effects have their say on velocities that have advanced by `dt` (s).

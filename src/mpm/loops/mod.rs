@@ -11,8 +11,14 @@ mod inertia;
 mod laws;
 mod scalars;
 mod scatter;
+mod unpack;
 
-use self::{gather::Gather, inertia::inertia, scatter::Scatter};
+use self::{
+    gather::Gather,
+    inertia::inertia,
+    scatter::Scatter,
+    unpack::{fill, vector},
+};
 use super::{
     algebra::{Matrix, Vector},
     basis::{Basis, BasisName, Domain, with_basis},
@@ -20,7 +26,7 @@ use super::{
     grid::Grid,
     kernel::{Kernel, Maps, Shown, Takes},
     moments::{Inertia, Moments},
-    packed::{Node, Packed},
+    packed::Packed,
     particles::Particles,
 };
 use std::{
@@ -240,24 +246,5 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
         let counts = std::array::from_fn(|axis| B::count(cells[axis], periodic[axis]));
         Grid::new(origin, h, cells, periodic, counts)
-    }
-}
-
-/// The first D of four numbers.
-fn vector<const D: usize>(lanes: &[f64; 4]) -> Vector<D> {
-    Vector::from_fn(|i, _| lanes[i])
-}
-
-/// Unpacks a field into a column of the grid.
-fn fill<const D: usize, T>(
-    field: &Packed,
-    grid: &Grid<D>,
-    column: &mut [T],
-    value: impl Fn(&[f64; 4]) -> T,
-) {
-    for (row, nodes) in column.chunks_exact_mut(grid.counts[0]).zip(field.rows(grid)) {
-        for (there, Node(lanes)) in row.iter_mut().zip(nodes) {
-            *there = value(lanes);
-        }
     }
 }
