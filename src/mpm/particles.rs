@@ -165,6 +165,11 @@ impl<const D: usize> Particles<D> {
         self.moved.get(p).unwrap_or(&self.x[p])
     }
 
+    /// Current positions (m), to be changed.
+    pub fn positions_mut(&mut self) -> &mut [Vector<D>] {
+        if self.moved.is_empty() { &mut self.x } else { &mut self.moved }
+    }
+
     /// The same, to be changed.
     pub fn position_mut(&mut self, p: usize) -> &mut Vector<D> {
         if self.moved.is_empty() { &mut self.x[p] } else { &mut self.moved[p] }

@@ -229,8 +229,8 @@ impl<const D: usize> Solver<D> {
 
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
-        for (p, v) in self.carried.iter().enumerate() {
-            *particles.position_mut(p) += v * dt;
+        for (x, v) in particles.positions_mut().iter_mut().zip(&self.carried) {
+            *x += v * dt;
         }
         for effect in effects {
             effect.drive_position(dt, particles);

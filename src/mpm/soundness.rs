@@ -46,17 +46,29 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-fn first<T>(quantity: &'static str, column: &[T], sound: fn(&T) -> bool) -> Result<(), Failure> {
+/// Looks for the particle to blame only if there is one: the loop that every step makes has no early
+/// way out, so that several numbers are looked at at a time.
+#[inline(always)]
+fn first<T>(
+    quantity: &'static str,
+    column: &[T],
+    sound: impl Fn(&T) -> bool,
+) -> Result<(), Failure> {
+    if column.iter().fold(true, |all, entry| all & sound(entry)) {
+        return Ok(());
+    }
     match column.iter().position(|entry| !sound(entry)) {
         Some(p) => Err(Failure::NonFinite { quantity, site: Site::Particle(p) }),
         None => Ok(()),
     }
 }
 
+#[inline(always)]
 fn vector<const D: usize>(v: &Vector<D>) -> bool {
-    v.iter().all(|c| c.is_finite())
+    v.iter().fold(true, |all, c| all & c.is_finite())
 }
 
+#[inline(always)]
 fn matrix<const D: usize>(m: &Matrix<D>) -> bool {
-    m.iter().all(|c| c.is_finite())
+    m.iter().fold(true, |all, c| all & c.is_finite())
 }

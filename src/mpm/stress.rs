@@ -1,6 +1,9 @@
 //! The stage of strains and stresses: the same for every basis and transfer.
 
-use super::{algebra::Matrix, effect::strain, frame::FrameName, setup::Setup, solver::Solver};
+use super::{
+    algebra::Matrix, effect::strain, frame::FrameName, particles::Particles, setup::Setup,
+    solver::Solver,
+};
 use crate::subject::{Failure, Site};
 
 impl<const D: usize> Solver<D> {
@@ -14,18 +17,32 @@ impl<const D: usize> Solver<D> {
             *f = (Matrix::identity() + grad_v * dt) * *f;
         }
         strain(effects, material.as_mut(), dt, particles);
-        for (p, (vol, vol0)) in
-            self.setup.particles.vol.iter().zip(&self.setup.particles.vol0).enumerate()
-        {
-            let (j, site) = (vol / vol0, Site::Particle(p));
-            if !j.is_finite() {
-                return Err(Failure::NonFinite { quantity: "J", site });
-            }
-            self.min_j = self.min_j.min(j);
-            if j <= 0.0 {
-                return Err(Failure::Inverted { site, j });
-            }
-        }
+        self.jacobians()?;
         self.setup.particles.strained_finite()
+    }
+
+    /// `J = V / V0` of every particle: the smallest so far is kept.
+    fn jacobians(&mut self) -> Result<(), Failure> {
+        let all = || {
+            let Particles { vol, vol0, .. } = &self.setup.particles;
+            vol.iter().zip(vol0).map(|(vol, vol0)| vol / vol0)
+        };
+        // As in most steps all are sound, the loop has no early way out: it divides several at a time.
+        let (mut sound, mut least) = (true, self.min_j);
+        for j in all() {
+            sound &= j > 0.0 && j < f64::INFINITY;
+            least = if j < least { j } else { least };
+        }
+        let broken = if sound { None } else { all().position(|j| !(j > 0.0 && j.is_finite())) };
+        let Some(p) = broken else {
+            self.min_j = least;
+            return Ok(());
+        };
+        let (j, site) = (all().nth(p).unwrap_or(f64::NAN), Site::Particle(p));
+        if !j.is_finite() {
+            return Err(Failure::NonFinite { quantity: "J", site });
+        }
+        self.min_j = all().take(p + 1).fold(self.min_j, f64::min);
+        Err(Failure::Inverted { site, j })
     }
 }

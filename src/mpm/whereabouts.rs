@@ -40,18 +40,26 @@ impl<const D: usize> Whereabouts<D> {
         grid: &Grid<D>,
         particles: &Particles<D>,
     ) -> Result<(), Failure> {
+        let Self { cells, crossings, left_domain } = self;
         let mut first = Ok(());
-        for (p, cell) in self.cells.iter_mut().enumerate() {
-            let x = particles.position(p);
-            let keeps_cell = !particles.moved.is_empty() && is_finite(x);
-            let now = if keeps_cell { Some(*cell) } else { grid.cell(x) };
-            if let Some(now) = now {
-                self.crossings += u64::from(now != *cell);
-                *cell = now;
-                continue;
+        let mut lost = |p, x: &Vector<D>| {
+            *left_domain += u64::from(is_finite(x));
+            if first.is_ok() {
+                first = Err(nowhere(p, x));
             }
-            self.left_domain += u64::from(is_finite(x));
-            first = first.and_then(|()| Err(nowhere(p, x)));
+        };
+        if !particles.moved.is_empty() {
+            let moved = particles.moved.iter().enumerate();
+            moved.filter(|(_, x)| !is_finite(x)).for_each(|(p, x)| lost(p, x));
+            return first;
+        }
+        for (p, (cell, x)) in cells.iter_mut().zip(&particles.x).enumerate() {
+            let Some((now, _)) = grid.locate(x) else {
+                lost(p, x);
+                continue;
+            };
+            *crossings += u64::from(now != *cell);
+            *cell = now;
         }
         first
     }
