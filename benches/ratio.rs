@@ -5,26 +5,16 @@
 //! can be compared. `best` is the ratio of the shortest times of each, which others disturb least. `cargo bench --bench ratio -- 1e6` takes as many particles. Both are first checked
 //! to give the same numbers.
 
+#[path = "common/random.rs"]
+mod random;
 mod yardstick;
 
 use mpm_verify::mpm::{
     Affine, BasisName, Grid, Kernel, Maps, Matrix, Particles, Shown, Takes, Vector, kernel,
 };
+use random::Random;
 use std::{hint::black_box, time::Instant};
 use yardstick::{cubic_3d, linear_1d, quadratic_2d, quadratic_3d};
-
-/// `SplitMix64` (Steele, Lea & Flood 2014), uniform in [-1, 1).
-struct Random(u64);
-
-impl Random {
-    fn signed(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
 
 const H: f64 = 0.5;
 /// Cells between the body and the walls: cubic B-splines are uniform there.

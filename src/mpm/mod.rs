@@ -78,6 +78,6 @@ pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
-    Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Recipe, Tls, Tpic, Transfer, TransferChoice,
-    TransferName, Wanted, Xpic, transfer,
+    Also, Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Recipe, Tls, Tpic, Transfer, TransferChoice,
+    TransferName, Wanted, Xpic, g2p, transfer,
 };

@@ -28,7 +28,8 @@ pub use tpic::Tpic;
 pub use wanted::{Recipe, Wanted};
 pub use xpic::Xpic;
 
-pub(in crate::mpm) use visit::{Also, g2p, rest};
+pub(in crate::mpm) use visit::rest;
+pub use visit::{Also, g2p};
 
 use super::family::objects;
 

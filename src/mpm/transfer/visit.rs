@@ -11,17 +11,17 @@ use crate::mpm::{
 
 /// What else is taken from the nodes whose velocities particles take.
 #[derive(Debug, Default)]
-pub(in crate::mpm) struct Also<'a, const D: usize> {
+pub struct Also<'a, const D: usize> {
     /// Velocity gradients, into `particles.grad_v`.
-    pub(in crate::mpm) gradient: bool,
+    pub gradient: bool,
     /// How fast the grid carries each particle (m/s).
-    pub(in crate::mpm) carried: Option<&'a mut [Vector<D>]>,
+    pub carried: Option<&'a mut [Vector<D>]>,
 }
 
 /// New particle velocities after a step of `dt` (s), and what else is taken from the same nodes. Each
 /// has the bits that it would have alone. Returns the passes that it stands for, without that of
 /// `carried`.
-pub(in crate::mpm) fn g2p<const D: usize>(
+pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
     (grid, boundary): (&Grid<D>, &[Box<dyn Boundary<D>>]),

@@ -7,6 +7,8 @@
 //!
 //! Suites are found when the tests run: a new file under `verification/` brings its tests along.
 
+mod slowest;
+
 use insta::{Comparator, Settings, Snapshot, assert_snapshot};
 use libtest_mimic::{Arguments, Failed, Trial};
 use mpm_verify::{
@@ -20,6 +22,7 @@ use std::{
     path::{Path, PathBuf},
     process::ExitCode,
     sync::{Arc, OnceLock},
+    time::Instant,
 };
 
 fn main() -> ExitCode {
@@ -28,7 +31,9 @@ fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let trials = files().par_iter().flat_map_iter(|file| trials(file)).collect::<Vec<_>>();
     let trials = if trials.is_empty() { vec![nothing_found()] } else { trials };
-    libtest_mimic::run(&arguments, trials).exit_code()
+    let conclusion = libtest_mimic::run(&arguments, trials);
+    eprint!("{}", slowest::summary());
+    conclusion.exit_code()
 }
 
 fn folder() -> PathBuf {
@@ -66,13 +71,20 @@ fn trials(file: &Path) -> Vec<Trial> {
 
 /// A suite with its outcomes: each case runs once, whichever tests ask for it.
 struct Shared {
+    suite: &'static str,
+    names: Vec<&'static str>,
     runner: Runner<'static>,
     outcomes: Vec<OnceLock<CaseOutcome>>,
 }
 
 impl Shared {
     fn case(&self, index: usize) -> &CaseOutcome {
-        self.outcomes[index].get_or_init(|| self.runner.case(index, &|| ()))
+        self.outcomes[index].get_or_init(|| {
+            let start = Instant::now();
+            let outcome = self.runner.case(index, &|| ());
+            slowest::record(start.elapsed(), &format!("{}::{}", self.suite, self.names[index]));
+            outcome
+        })
     }
 }
 
@@ -81,7 +93,8 @@ fn suite_trials(suite: Suite) -> Vec<Trial> {
     let suite: &'static Suite = Box::leak(Box::new(suite));
     let names = suite.case_names();
     let outcomes = names.iter().map(|_| OnceLock::new()).collect();
-    let shared = Arc::new(Shared { runner: Runner::new(suite), outcomes });
+    let runner = Runner::new(suite);
+    let shared = Arc::new(Shared { suite: &suite.name, names: names.clone(), runner, outcomes });
     let case = |(index, name): (usize, &&str)| {
         let shared = Arc::clone(&shared);
         Trial::test(format!("{}::{name}", suite.name), move || theory(shared.case(index)))

@@ -1,0 +1,119 @@
+//! Time of the particle-node loops: P2G, G2P and the whole step.
+//!
+//! An identifier reads `transfer/3d/quadratic/apic/sorted/1e5/p2g`, and any part of it selects:
+//! `cargo bench --bench transfer -- 3d/quadratic`. `p2g` is mass, momentum and internal force; `g2p`
+//! is velocity, gradient and position; `step` is one step of MUSL; with `-2-threads` behind it, the
+//! same by two. Nothing is timed before its result has been checked.
+//!
+//! The short profile is three bases in the order of cells, one thread; `MPM_BENCH=full` adds every
+//! basis, shuffled particles, 1e6 of them and two threads.
+
+mod check;
+#[path = "../common/random.rs"]
+mod random;
+mod scene;
+
+use check::{check_g2p, check_p2g, checked_solver};
+use criterion::{Bencher, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use mpm_verify::{
+    mpm::{BasisName, TransferName, Vector},
+    subject::Subject,
+};
+use random::Random;
+use rayon::ThreadPoolBuilder;
+use scene::{Method, Order, total};
+use std::{hint::black_box, time::Duration};
+
+/// So short (s) that no particle changes its cell, however often a loop is repeated.
+const DT: f64 = 1e-12;
+
+/// What is benched of a method.
+#[derive(Clone, Copy)]
+struct Scene {
+    method: (BasisName, TransferName),
+    order: Order,
+    count: usize,
+}
+
+fn p2g<const D: usize>(bencher: &mut Bencher, id: &str, scene: Scene) {
+    let (mut method, mut grid, particles) =
+        Method::<D>::new(scene.method, scene.order, scene.count);
+    check_p2g(id, &mut method, grid.clone(), &particles);
+    bencher.iter(|| method.p2g(black_box(&particles), black_box(&mut grid)));
+}
+
+fn g2p<const D: usize>(bencher: &mut Bencher, id: &str, scene: Scene) {
+    let (mut method, mut grid, mut particles) =
+        Method::<D>::new(scene.method, scene.order, scene.count);
+    check_g2p(id, &mut method, grid.clone(), &particles);
+    let mut random = Random(3);
+    grid.velocity.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    grid.acceleration.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    bencher.iter(|| method.g2p(black_box(&grid), DT, black_box(&mut particles)));
+}
+
+fn step<const D: usize>(bencher: &mut Bencher, id: &str, scene: Scene) {
+    let (method, grid, particles) = Method::<D>::new(scene.method, scene.order, scene.count);
+    let mut solver = checked_solver(id, DT, method, grid, particles);
+    bencher.iter(|| solver.step(black_box(DT)).expect("a later step succeeds"));
+    assert_eq!(solver.census().crossings, Some(0), "{id}: the order of particles must last");
+}
+
+fn bench<const D: usize>(criterion: &mut Criterion, scene: Scene, threads: &[usize]) {
+    let Scene { method: (basis, transfer), order, count } = scene;
+    let (names, order) = (format!("{}/{}", basis.name(), transfer.name()), order.name());
+    let id = format!("transfer/{D}d/{names}/{order}/{count:e}");
+    let mut group = criterion.benchmark_group(&id);
+    group.throughput(Throughput::Elements(total::<D>(count) as u64));
+    for &threads in threads {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let suffix = if threads == 1 { String::new() } else { format!("-{threads}-threads") };
+        let loops = [
+            ("p2g", p2g::<D> as fn(&mut Bencher, &str, Scene)),
+            ("g2p", g2p::<D>),
+            ("step", step::<D>),
+        ];
+        for (name, run) in loops {
+            let of = BenchmarkId::from_parameter(format!("{name}{suffix}"));
+            group.bench_function(of, |bencher| pool.install(|| run(bencher, &id, scene)));
+        }
+    }
+    group.finish();
+}
+
+/// In one, two and three dimensions.
+fn bench_all(criterion: &mut Criterion, scene: Scene, threads: &[usize]) {
+    bench::<1>(criterion, scene, threads);
+    bench::<2>(criterion, scene, threads);
+    bench::<3>(criterion, scene, threads);
+}
+
+fn every_method(criterion: &mut Criterion) {
+    let is_full = std::env::var("MPM_BENCH").is_ok_and(|profile| profile == "full");
+    let short = [BasisName::Linear, BasisName::QuadraticBSpline];
+    let bases = if is_full { BasisName::ALL } else { &short };
+    for &basis in bases {
+        for transfer in [TransferName::Flip, TransferName::Apic] {
+            let scene = Scene { method: (basis, transfer), order: Order::Sorted, count: 100_000 };
+            if !is_full {
+                bench_all(criterion, scene, &[1]);
+                continue;
+            }
+            for order in [Order::Sorted, Order::Shuffled] {
+                for count in [100_000, 1_000_000] {
+                    bench_all(criterion, Scene { order, count, ..scene }, &[1, 2]);
+                }
+            }
+        }
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(15)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(1));
+    targets = every_method
+}
+criterion_main!(benches);

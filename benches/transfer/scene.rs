@@ -1,0 +1,104 @@
+//! What is benched: a cube of particles in random motion, and the passes over them.
+
+use crate::random::Random;
+use mpm_verify::mpm::{
+    Also, BasisName, Block, Grid, Kernel, Particles, Transfer, TransferName, Vector, Wanted, g2p,
+    kernel, transfer,
+};
+
+pub(crate) const H: f64 = 1.0;
+pub(crate) const PER_AXIS: usize = 2;
+
+/// In which order the particles of a cube lie in memory.
+#[derive(Clone, Copy)]
+pub(crate) enum Order {
+    /// Cell by cell.
+    Sorted,
+    /// Anyhow.
+    Shuffled,
+}
+
+impl Order {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Sorted => "sorted",
+            Self::Shuffled => "shuffled",
+        }
+    }
+}
+
+/// Fisher-Yates.
+fn shuffle<T>(random: &mut Random, items: &mut [T]) {
+    for last in (1..items.len()).rev() {
+        items.swap(last, (random.next() % (last as u64 + 1)) as usize);
+    }
+}
+
+/// Cells along each side of a cube of about `count` particles.
+fn side<const D: usize>(count: usize) -> usize {
+    let per_cell = PER_AXIS.pow(D as u32) as f64;
+    libm::round(libm::pow(count as f64 / per_cell, 1.0 / D as f64)).max(1.0) as usize
+}
+
+/// Particles in it.
+pub(crate) fn total<const D: usize>(count: usize) -> usize {
+    (PER_AXIS * side::<D>(count)).pow(D as u32)
+}
+
+/// A cube of about `count` particles in random motion, one empty cell inside the walls.
+pub(crate) fn scene<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    count: usize,
+    order: Order,
+) -> (Grid<D>, Particles<D>) {
+    let side = side::<D>(count);
+    let grid = kernel.grid(Vector::zeros(), H, [side + 2; D], [false; D]);
+    let (from, to) = (Vector::from_element(H), Vector::from_element(H * (side + 1) as f64));
+    let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, H, PER_AXIS);
+    match order {
+        Order::Sorted => particles.x.sort_by_key(|x| grid.node(&grid.cell(x).expect("inside"))),
+        Order::Shuffled => shuffle(&mut Random(1), &mut particles.x),
+    }
+    particles.x0.clone_from(&particles.x);
+    let mut random = Random(2);
+    particles.v.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    (grid, particles)
+}
+
+/// What meets in a bench: loops, and a transfer that knows the particles.
+pub(crate) struct Method<const D: usize> {
+    pub(crate) kernel: Box<dyn Kernel<D>>,
+    pub(crate) transfer: Box<dyn Transfer<D>>,
+    /// How fast the grid carries each particle (m/s).
+    carried: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Method<D> {
+    /// The method of these names, and a scene for it.
+    pub(crate) fn new(
+        (basis, name): (BasisName, TransferName),
+        order: Order,
+        count: usize,
+    ) -> (Self, Grid<D>, Particles<D>) {
+        let kernel = kernel::<D>(basis);
+        let (grid, particles) = scene::<D>(&*kernel, count, order);
+        let mut transfer = transfer::<D>(name);
+        transfer.start(&*kernel, &grid, &particles);
+        (Self { kernel, transfer, carried: Vec::new() }, grid, particles)
+    }
+
+    pub(crate) fn p2g(&mut self, particles: &Particles<D>, grid: &mut Grid<D>) {
+        let kernel = &*self.kernel;
+        let all = Wanted { mass: true, momentum: true, force: true };
+        self.transfer.p2g(kernel, particles, grid, all);
+    }
+
+    pub(crate) fn g2p(&mut self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>) {
+        self.carried.resize(particles.len(), Vector::zeros());
+        let also = Also { gradient: true, carried: Some(&mut self.carried) };
+        g2p(&mut *self.transfer, &*self.kernel, (grid, &[]), dt, particles, also);
+        for (x, v) in particles.x.iter_mut().zip(&self.carried) {
+            *x += v * dt;
+        }
+    }
+}
