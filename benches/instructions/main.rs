@@ -2,9 +2,12 @@
 //! `ci/instructions` counts the instructions of a step from two such runs.
 //!
 //! `minimal` is the general solver on a bar without any effect; `by_hand` the same bar in a loop that
-//! can do nothing else. Both are checked to give the same motion before anything is counted.
+//! can do nothing else. Both are checked to give the same motion before anything is counted. Other
+//! scenes are kernels, whose passes are repeated so many times; `kernels` lists them with their
+//! particles, and `processor` tells for which registers the loops are compiled.
 
 mod by_hand;
+mod kernels;
 
 use by_hand::ByHand;
 use mpm_verify::{
@@ -84,6 +87,15 @@ fn agree() -> bool {
     moved.into_iter().all(|(a, b)| (a[0] - b).abs() <= 1e-12 * b.abs())
 }
 
+/// The widest registers that the loops know and this processor has.
+fn registers() -> &'static str {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        return "avx2";
+    }
+    "plain"
+}
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -96,6 +108,15 @@ fn main() -> ExitCode {
         Some(&"by_hand") => {
             let mut bar = by_hand();
             (0..steps).for_each(|_| bar.step(DT).expect("a sound step"));
+        }
+        Some(&"kernels") => {
+            for name in kernels::NAMES {
+                println!("{name} {}", kernels::run(name, 1).unwrap_or_default());
+            }
+        }
+        Some(&"processor") => println!("{}", registers()),
+        Some(name) if kernels::NAMES.contains(name) => {
+            kernels::run(name, steps);
         }
         // `cargo bench` runs every bench: nothing is counted then.
         _ if agree() => println!("the general solver and the loop by hand agree"),
