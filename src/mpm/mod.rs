@@ -32,6 +32,7 @@ mod loops;
 mod mass;
 mod material;
 mod moments;
+mod order;
 mod packed;
 mod particles;
 mod sampling;
