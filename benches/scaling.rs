@@ -1,0 +1,126 @@
+//! Cost against work: time per particle of P2G and G2P, from 1e3 particles on.
+//!
+//! `cargo bench --bench scaling` goes to 1e6 and `MPM_BENCH=full` to 1e7 (some 4 GB); with
+//! `-- FILE.svg` a figure is written besides. Of each size the shortest time counts: others on the machine
+//! make passes longer, never shorter. What is left of the caches' sizes shows as steps. Last come
+//! particles in any order: what they cost as they are, and what a sort before ten steps adds.
+
+#[path = "common/random.rs"]
+mod random;
+#[path = "transfer/scene.rs"]
+mod scene;
+
+use mpm_verify::{
+    mpm::{BasisName, Grid, Particles, TransferName, Vector},
+    report::figure::{Convergence, Mark, Point, Series},
+};
+use random::Random;
+use scene::{Method, Order, total};
+use std::{hint::black_box, time::Instant};
+
+/// Shortest time of one call (s), of at least five and a third of a second.
+fn shortest(mut run: impl FnMut()) -> f64 {
+    let (mut least, mut calls, begin) = (f64::INFINITY, 0, Instant::now());
+    while calls < 5 || begin.elapsed().as_secs_f64() < 0.3 {
+        let start = Instant::now();
+        run();
+        least = least.min(start.elapsed().as_secs_f64());
+        calls += 1;
+    }
+    least
+}
+
+/// Nanoseconds per particle of P2G and of G2P.
+fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [f64; 2] {
+    let (mut method, mut grid, mut particles) = Method::<D>::new(method, Order::Sorted, count);
+    let per_particle = 1e9 / total::<D>(count) as f64;
+    let p2g = shortest(|| method.p2g(black_box(&particles), &mut grid));
+    let mut random = Random(3);
+    grid.velocity.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    grid.acceleration.fill_with(|| Vector::from_fn(|_, _| random.signed()));
+    let g2p = shortest(|| method.g2p(black_box(&grid), 1e-12, &mut particles));
+    [p2g, g2p].map(|time| time * per_particle)
+}
+
+/// Two lines of the figure.
+fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) -> Vec<Series> {
+    let name = |pass| format!("{D}d {} {} {pass}", method.0.name(), method.1.name());
+    let mut lines = ["p2g", "g2p"].map(|pass| Series { name: name(pass), points: Vec::new() });
+    for &count in counts {
+        let times = measure::<D>(method, count);
+        for (line, time) in lines.iter_mut().zip(times) {
+            let h = total::<D>(count) as f64;
+            line.points.push(Point { h, error: time, mark: Mark::Window });
+        }
+    }
+    for line in &lines {
+        let times = line.points.iter().map(|point| point.error);
+        let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(least, most), time| {
+            (least.min(time), most.max(time))
+        });
+        print!("{:<36}", line.name);
+        line.points.iter().for_each(|point| print!(" {:>8.1}", point.error));
+        println!(" {:>9.2}", most / least);
+    }
+    lines.into()
+}
+
+/// Seconds of P2G and G2P of a scene.
+fn both_passes<const D: usize>(
+    (method, grid, particles): &mut (Method<D>, Grid<D>, Particles<D>),
+) -> f64 {
+    let p2g = shortest(|| method.p2g(black_box(particles), grid));
+    p2g + shortest(|| method.g2p(black_box(grid), 1e-12, particles))
+}
+
+/// Particles in any order, beside sorted ones.
+fn unsorted<const D: usize>(name: (BasisName, TransferName), count: usize) {
+    let make = |order: Order| Method::<D>::new(name, order, count);
+    let sorted = both_passes(&mut make(Order::Sorted));
+    let mut scene = make(Order::Shuffled);
+    let shuffled = both_passes(&mut scene);
+    let start = Instant::now();
+    scene.2.sort_by_cell(&scene.1);
+    let sort = start.elapsed().as_secs_f64();
+    let after = both_passes(&mut scene);
+    let names = format!("{D}d {} {}", name.0.name(), name.1.name());
+    println!(
+        "{names}, {count:e} particles: {} {:.2} times {}; sorted first, for ten steps, {:.2} times",
+        Order::Shuffled.name(),
+        shuffled / sorted,
+        Order::Sorted.name(),
+        (sort + 10.0 * after) / (10.0 * sorted)
+    );
+}
+
+fn main() {
+    let is_full = std::env::var("MPM_BENCH").is_ok_and(|profile| profile == "full");
+    let most = if is_full { 10_000_000 } else { 1_000_000 };
+    let counts: Vec<usize> = (0..)
+        .map(|k| [1, 3][k % 2] * 1000 * 10_usize.pow(k as u32 / 2))
+        .take_while(|&count| count <= most)
+        .collect();
+    println!("ns per particle, one thread, sorted by cell, 2 particles to a cell and axis");
+    print!("{:<36}", "particles, about");
+    counts.iter().for_each(|count| print!(" {count:>8.0e}"));
+    println!(" {:>9}", "most/least");
+    let quadratic = (BasisName::QuadraticBSpline, TransferName::Apic);
+    let mut series = lines::<1>((BasisName::Linear, TransferName::Flip), &counts);
+    series.extend(lines::<2>(quadratic, &counts));
+    series.extend(lines::<3>(quadratic, &counts));
+    println!();
+    for count in [100_000, 1_000_000] {
+        unsorted::<2>(quadratic, count);
+        unsorted::<3>(quadratic, count);
+    }
+    let figure = Convergence {
+        title: "Cost of a particle".into(),
+        x_label: "particles".into(),
+        y_label: "time per particle (ns)".into(),
+        series,
+        reference_orders: Vec::new(),
+    };
+    if let Some(file) = std::env::args().find(|word| word.ends_with(".svg")) {
+        std::fs::write(&file, figure.to_svg()).expect("the figure can be written");
+    }
+}
