@@ -5,11 +5,14 @@
 //! make passes longer, never shorter. What is left of the caches' sizes shows as steps. Last come
 //! particles in any order: what they cost as they are, and what a sort before ten steps adds.
 
+#[path = "common/clock.rs"]
+mod clock;
 #[path = "common/random.rs"]
 mod random;
 #[path = "transfer/scene.rs"]
 mod scene;
 
+use clock::shortest;
 use mpm_verify::{
     mpm::{BasisName, Grid, Particles, TransferName, Vector},
     report::figure::{Convergence, Mark, Point, Series},
@@ -17,18 +20,6 @@ use mpm_verify::{
 use random::Random;
 use scene::{Method, Order, total};
 use std::{hint::black_box, time::Instant};
-
-/// Shortest time of one call (s), of at least five and a third of a second.
-fn shortest(mut run: impl FnMut()) -> f64 {
-    let (mut least, mut calls, begin) = (f64::INFINITY, 0, Instant::now());
-    while calls < 5 || begin.elapsed().as_secs_f64() < 0.3 {
-        let start = Instant::now();
-        run();
-        least = least.min(start.elapsed().as_secs_f64());
-        calls += 1;
-    }
-    least
-}
 
 /// Nanoseconds per particle of P2G and of G2P.
 fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [f64; 2] {
@@ -59,7 +50,9 @@ fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) ->
             (least.min(time), most.max(time))
         });
         print!("{:<36}", line.name);
-        line.points.iter().for_each(|point| print!(" {:>8.1}", point.error));
+        for point in &line.points {
+            print!(" {:>8.1}", point.error);
+        }
         println!(" {:>9.2}", most / least);
     }
     lines.into()
@@ -96,13 +89,15 @@ fn unsorted<const D: usize>(name: (BasisName, TransferName), count: usize) {
 fn main() {
     let is_full = std::env::var("MPM_BENCH").is_ok_and(|profile| profile == "full");
     let most = if is_full { 10_000_000 } else { 1_000_000 };
-    let counts: Vec<usize> = (0..)
+    let counts: Vec<usize> = (0..9)
         .map(|k| [1, 3][k % 2] * 1000 * 10_usize.pow(k as u32 / 2))
-        .take_while(|&count| count <= most)
+        .filter(|&count| count <= most)
         .collect();
     println!("ns per particle, one thread, sorted by cell, 2 particles to a cell and axis");
     print!("{:<36}", "particles, about");
-    counts.iter().for_each(|count| print!(" {count:>8.0e}"));
+    for count in &counts {
+        print!(" {count:>8.0e}");
+    }
     println!(" {:>9}", "most/least");
     let quadratic = (BasisName::QuadraticBSpline, TransferName::Apic);
     let mut series = lines::<1>((BasisName::Linear, TransferName::Flip), &counts);
@@ -120,7 +115,9 @@ fn main() {
         series,
         reference_orders: Vec::new(),
     };
-    if let Some(file) = std::env::args().find(|word| word.ends_with(".svg")) {
+    if let Some(file) =
+        std::env::args().find(|word| !word.starts_with('-') && word.contains(".svg"))
+    {
         std::fs::write(&file, figure.to_svg()).expect("the figure can be written");
     }
 }
