@@ -1,12 +1,17 @@
 //! Which cell each particle is in, and how often one has changed its cell.
 
-use super::{algebra::Vector, grid::Grid, particles::Particles};
+use super::{
+    algebra::Vector,
+    grid::{Grid, floor},
+    particles::Particles,
+};
 use crate::subject::{Column, Failure, Site};
 
 /// The cells of all particles, with counters.
 #[derive(Debug)]
 pub(super) struct Whereabouts<const D: usize> {
-    cells: Vec<[usize; D]>,
+    /// Index of the cell along each axis: whole numbers, as which they are compared fastest.
+    cells: Vec<[f64; D]>,
     /// Changes of cell so far.
     pub(super) crossings: u64,
     /// Particles outside the grid now.
@@ -19,7 +24,7 @@ impl<const D: usize> Whereabouts<D> {
     /// # Errors
     /// [`Failure::LeftDomain`] for the first particle that has none.
     pub(super) fn new(grid: &Grid<D>, particles: &Particles<D>) -> Result<Self, Failure> {
-        let find = |(p, x): (usize, &Vector<D>)| grid.cell(x).ok_or_else(|| nowhere(p, x));
+        let find = |(p, x): (usize, &Vector<D>)| cell(grid, x).ok_or_else(|| nowhere(p, x));
         let mut cells = particles.x.iter().enumerate().map(find).collect::<Result<Vec<_>, _>>()?;
         cells.shrink_to_fit();
         Ok(Self { cells, crossings: 0, left_domain: 0 })
@@ -40,29 +45,76 @@ impl<const D: usize> Whereabouts<D> {
         grid: &Grid<D>,
         particles: &Particles<D>,
     ) -> Result<(), Failure> {
-        let Self { cells, crossings, left_domain } = self;
-        let mut first = Ok(());
-        let mut lost = |p, x: &Vector<D>| {
-            *left_domain += u64::from(is_finite(x));
-            if first.is_ok() {
-                first = Err(nowhere(p, x));
-            }
-        };
         if !particles.moved.is_empty() {
             let moved = particles.moved.iter().enumerate();
-            moved.filter(|(_, x)| !is_finite(x)).for_each(|(p, x)| lost(p, x));
-            return first;
+            return self.miss(moved.filter(|(_, x)| !is_finite(x)));
         }
-        for (p, (cell, x)) in cells.iter_mut().zip(&particles.x).enumerate() {
-            let Some((now, _)) = grid.locate(x) else {
-                lost(p, x);
-                continue;
-            };
-            *crossings += u64::from(now != *cell);
-            *cell = now;
+        let is_inside = |x: &Vector<D>| is_inside(grid, x);
+        if grid.periodic.contains(&true) || !all(&particles.x, is_inside) {
+            return self.track_each(grid, &particles.x);
+        }
+        // No way out of the loop, and no call in it: several particles are compared at a time.
+        for (cell, x) in self.cells.iter_mut().zip(&particles.x) {
+            let mut crosses = false;
+            for axis in 0..D {
+                let now = low(grid, x, axis);
+                crosses |= now != cell[axis];
+                cell[axis] = now;
+            }
+            self.crossings += u64::from(crosses);
+        }
+        Ok(())
+    }
+
+    /// The same, where a particle may be outside or beyond the end of a periodic axis.
+    fn track_each(&mut self, grid: &Grid<D>, x: &[Vector<D>]) -> Result<(), Failure> {
+        for (at, x) in self.cells.iter_mut().zip(x) {
+            if let Some(now) = cell(grid, x) {
+                self.crossings += u64::from(now != *at);
+                *at = now;
+            }
+        }
+        self.miss(x.iter().enumerate().filter(|(_, x)| grid.cell(x).is_none()))
+    }
+
+    /// Counts particles that are in no cell, and names the first.
+    fn miss<'a>(
+        &mut self,
+        missing: impl Iterator<Item = (usize, &'a Vector<D>)>,
+    ) -> Result<(), Failure> {
+        let mut first = Ok(());
+        for (p, x) in missing {
+            self.left_domain += u64::from(is_finite(x));
+            first = first.and_then(|()| Err(nowhere(p, x)));
         }
         first
     }
+}
+
+/// Whether `holds` does for all of them: with no early way out, see [`Whereabouts::track`].
+#[inline(always)]
+fn all<const D: usize>(x: &[Vector<D>], holds: impl Fn(&Vector<D>) -> bool) -> bool {
+    x.iter().fold(true, |all, x| all & holds(x))
+}
+
+#[inline(always)]
+fn is_inside<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
+    (0..D).fold(true, |all, axis| {
+        let s = grid.local(x, axis);
+        all & (s >= 0.0) & (s <= grid.cells[axis] as f64)
+    })
+}
+
+/// Index along `axis` of the cell that holds `x`, which is inside.
+#[inline(always)]
+fn low<const D: usize>(grid: &Grid<D>, x: &Vector<D>, axis: usize) -> f64 {
+    let (low, last) = (floor(grid.local(x, axis)), grid.cells[axis] as f64 - 1.0);
+    if low > last { last } else { low }
+}
+
+/// The cell that holds `x`, if one does.
+fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
+    grid.cell(x).map(|cell| cell.map(|index| index as f64))
 }
 
 fn is_finite<const D: usize>(x: &Vector<D>) -> bool {
