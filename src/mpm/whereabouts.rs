@@ -98,6 +98,7 @@ fn all<const D: usize>(x: &[Vector<D>], holds: impl Fn(&Vector<D>) -> bool) -> b
 }
 
 #[inline(always)]
+#[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn is_inside<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
     (0..D).fold(true, |all, axis| {
         let s = grid.local(x, axis);
