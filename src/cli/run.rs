@@ -94,7 +94,11 @@ fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
 
 fn one(suite: &Suite, args: &RunArgs, kept: Option<&Kept>, bar: &ProgressBar) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
-    let outcome = Runner::over(suite, extent(args)).keeping(kept).run(&|| bar.inc(1));
+    let runner = Runner::over(suite, extent(args)).keeping(kept);
+    for warning in runner.warnings() {
+        bar.suspend(|| output::complain(&format!("warning: {warning}")));
+    }
+    let outcome = runner.run(&|| bar.inc(1));
     if args.format == Format::Text && !args.brief {
         bar.suspend(|| output::print(&format!("{}\n", report::text(&outcome))));
     }

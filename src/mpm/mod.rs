@@ -35,6 +35,7 @@ mod moments;
 mod order;
 mod packed;
 mod particles;
+mod safe_step;
 mod sampling;
 mod scalars;
 mod scheme;

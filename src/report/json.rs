@@ -18,7 +18,7 @@
 //!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
 //!             "kinetic_energy": 1e-4, "kinetic_energy_gain": 0.0, "energy": 1e-6},
-//!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "order": null, "failure": null}],
+//!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "safe_step": null, "order": null, "failure": null}],
 //!     "forces": null, "stability": null}]}]}
 //! ```
 //!
@@ -30,7 +30,8 @@
 //! `above` or `below` the range) and the runs that `confirmed` it. `axis` is what was refined (`space`,
 //! `time`, `particles`) and `spacing` that of this axis; where particles are, there is no formal order.
 //! `energy_rate` is d ln E/dt (1/s), and both ends of its 95 % interval; of a law without an energy the drift
-//! of `energy` is `"nan"`. `profile` is what one step takes on the coarsest level, from a subject that says (MPM); `bytes`
+//! of `energy` is `"nan"`. `safe_step` is the longest safe time step (s), where a rule
+//! chose the step or a stated one is longer. `profile` is what one step takes on the coarsest level, from a subject that says (MPM); `bytes`
 //! are those of one entry.
 //! `floor` is what became of the finest level's error with another spacing halved, where that was
 //! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
@@ -157,6 +158,7 @@ fn level(level: &LevelOutcome, compared: bool) -> Value {
         }),
         "energy_rate": run.energy_rate.map(|rate| [rate.value, rate.low, rate.high].map(number)),
         "unrest": run.unrest.map(number),
+        "safe_step": level.safe_step.map(number),
         "order": level.order.map(number),
         "failure": run.failure,
     })

@@ -7,7 +7,8 @@ use crate::verify::{Axis, Convergence, History, LevelOutcome, Quantity};
 pub(super) fn tables(lines: &mut Vec<String>, study: &Convergence) {
     let figures = ["rms", "l1", "l2", "linf", "max rms", "velocity", "judged", "order", "counts"];
     let mut errors = Table::new(&[spacing_heads(study.axis), &figures].concat());
-    let figures = ["particles", "steps", "transfers", "crossings", "outside", "min J", "speed/c"];
+    let figures =
+        ["particles", "steps", "transfers", "crossings", "outside", "min J", "speed/c", "dt/safe"];
     let mut work = Table::new(&[&level_heads(study.axis)[..], &figures].concat());
     for (index, level) in study.levels.iter().enumerate() {
         errors.row(error_row(study, index, level));
@@ -103,6 +104,7 @@ fn work_row(axis: Axis, level: &LevelOutcome) -> Vec<String> {
             Some(_) => "failed".to_owned(),
             None => format!("{unrest:.0e}"),
         })),
+        optional(level.safe_step.map(|stable| format!("{:.3}", level.dt / stable))),
     ];
     level_parts(axis, level).into_iter().chain(figures).collect()
 }

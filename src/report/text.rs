@@ -86,6 +86,17 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
 
 fn convergence(lines: &mut Vec<String>, study: &Convergence) {
     levels::tables(lines, study);
+    let too_long: Vec<String> = study
+        .levels
+        .iter()
+        .filter(|level| level.is_too_long())
+        .map(|level| level.name(study.axis))
+        .collect();
+    if !too_long.is_empty() {
+        lines.push(String::new());
+        let text = "steps are longer than any that is known to be safe";
+        row(lines, "warning", &format!("{}: {text}", too_long.join(", ")));
+    }
     let failure = |level: &LevelOutcome| Some((level.name(study.axis), level.run.failure.clone()?));
     for (level, failure) in study.levels.iter().filter_map(failure) {
         lines.push(String::new());

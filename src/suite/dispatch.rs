@@ -101,6 +101,49 @@ pub(super) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     }
 }
 
+/// The longest step (s) that is predicted to be safe for `method` on one level, from so many rounds of an
+/// iteration: the least over the bodies. One that shares nodes with others is no less stable.
+///
+/// # Errors
+/// One line that says why it cannot be told.
+pub(super) fn safe_step(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+    rounds: u32,
+) -> Result<f64, String> {
+    plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
+        // A given force makes no difference, and is dear to prepare.
+        let body = Body { manufactured: None, ..Body::of(plan, own) };
+        Ok(least.min(safe_step_of(&body, method, level, rounds)?))
+    })
+}
+
+/// The same for one body.
+pub(super) fn safe_step_of(
+    body: &Body<'_>,
+    method: Method,
+    level: LevelPlan,
+    rounds: u32,
+) -> Result<f64, String> {
+    fn of<const D: usize>(
+        body: &Body<'_>,
+        method: Method,
+        level: LevelPlan,
+        rounds: u32,
+    ) -> Result<f64, String> {
+        let solver = solver::<D>(body, method, level)?;
+        let fastest = solver.particles().v.iter().map(Vector::norm).fold(0.0, f64::max);
+        let longest = level.h / (body.own.wave_speed() + fastest);
+        solver.safe_step(longest, rounds).map_err(|failure| failure.to_string())
+    }
+    match body.scene.dimension() {
+        1 => of::<1>(body, method, level, rounds),
+        2 => of::<2>(body, method, level, rounds),
+        _ => of::<3>(body, method, level, rounds),
+    }
+}
+
 /// An MPM subject that can be perturbed: `body` on the cells of `level`.
 ///
 /// # Errors

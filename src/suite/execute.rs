@@ -11,6 +11,7 @@ use super::{
     probe,
     reference::Reference,
     stability, statement,
+    step_rule::Steps,
     truthless::Unknown,
     words::CrossingLevels,
 };
@@ -30,6 +31,7 @@ pub struct Runner<'a> {
     extent: Extent,
     kept: Option<&'a Kept>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
+    steps: Steps,
 }
 
 impl<'a> Runner<'a> {
@@ -47,7 +49,7 @@ impl<'a> Runner<'a> {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
-        Self { suite, extent, kept: None, references }
+        Self { suite, extent, kept: None, references, steps: Steps::default() }
     }
 
     /// Keeps finished levels, and takes those that have been kept.
@@ -130,7 +132,10 @@ impl<'a> Runner<'a> {
             .levels(self.extent)
             .par_iter()
             .map(|level| {
-                let level = self.level(plan, case, truth, *level);
+                let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
+                    let outcome = self.level(plan, case, truth, level)?;
+                    Ok(LevelOutcome { safe_step: limit, ..outcome })
+                });
                 progress();
                 level
             })
@@ -143,6 +148,13 @@ impl<'a> Runner<'a> {
         let again = |level| self.level(plan, case, truth, level);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
         judged(plan, case, expectation, levels, judgement, floor)
+    }
+
+    /// What is to be said before anything runs: steps that are longer than any that is known to be safe.
+    pub fn warnings(&self) -> Vec<String> {
+        let StudyPlan::Convergence(plan) = &self.suite.study else { return Vec::new() };
+        let name = |warning| format!("{}::{warning}", self.suite.name);
+        self.steps.warnings(plan, self.extent).into_iter().map(name).collect()
     }
 
     /// One level of a case against `truth`.
@@ -210,5 +222,6 @@ fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> Leve
         Axis::Particles => level.particle_spacing(plan.scene.dimension()),
     };
     let error = error_of(plan, &run);
-    LevelOutcome { cells, h, spacing, dt, ppc, usable: !excluded, error, order: None, run }
+    let (usable, order, safe_step) = (!excluded, None, None);
+    LevelOutcome { cells, h, spacing, dt, ppc, run, error, usable, order, safe_step }
 }

@@ -12,6 +12,11 @@ impl Scene {
         self.from.len()
     }
 
+    /// Speed (m/s) of the fastest wave in the body at rest.
+    pub fn wave_speed(&self) -> f64 {
+        (self.material.wave_modulus() / self.density).sqrt()
+    }
+
     /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));

@@ -248,6 +248,7 @@ mod tests {
             error,
             usable,
             order: None,
+            safe_step: None,
         }
     }
 

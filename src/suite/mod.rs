@@ -65,6 +65,7 @@ mod size;
 mod stability;
 mod start;
 pub mod statement;
+mod step_rule;
 mod steps;
 mod surface;
 mod thermal;

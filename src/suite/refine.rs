@@ -6,6 +6,7 @@ use super::{
     model::Scene,
     path::Path,
     plan::{LevelPlan, RefinePlan},
+    step_rule,
     words::{ConvergenceWords, RefineWords},
     yaml::{Complaint, NumberText, OneOrMany},
 };
@@ -37,7 +38,13 @@ pub(super) fn plan(
     for entry in &ppc {
         equally_spaced(binder, entry, d)?;
     }
-    let dt = steps(binder, words, axis)?;
+    let at_run = Path::top("run").then("dt");
+    let rule = words.run.dt.as_ref().map(|words| step_rule::share(binder, &at_run, words));
+    let rule = rule.transpose()?.flatten();
+    step_rule::check(binder, &words.methods, rule)?;
+    let stated = words.run.dt.as_ref();
+    let stated = stated.map(|words| step_rule::formula_text(binder, &at_run, words, scene));
+    let dt = steps(binder, words, axis, stated.transpose()?.as_ref())?;
     let count = cells.len().max(ppc.len()).max(dt.len());
     let level = |k: usize| {
         let cells = of_level(&cells, k)?.value;
@@ -54,6 +61,7 @@ pub(super) fn plan(
         levels: (0..count).filter_map(level).collect(),
         usual: count - words.refine.full.as_ref().map_or(0, |full| full.as_slice().len()),
         steps: dt.iter().map(|entry| entry.value.source().to_owned()).collect(),
+        rule,
     };
     Ok((plan, (0..count).filter_map(place).collect()))
 }
@@ -172,10 +180,11 @@ fn steps(
     binder: &Binder<'_>,
     words: &ConvergenceWords,
     axis: Axis,
+    stated: Option<&NumberText>,
 ) -> Result<Vec<Entry<Formula>>, Complaint> {
     let at_run = Path::top("run").then("dt");
     let at_refine = Path::top("refine").then("dt");
-    let texts = match (&words.run.dt, &words.refine.dt) {
+    let texts = match (stated, &words.refine.dt) {
         (Some(_), Some(_)) => {
             let complaint = binder.complain_key(&at_refine, "`run` states the time step already");
             return Err(complaint.with_help("keep one of them"));

@@ -120,7 +120,11 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
     let usual_steps = plan.steps.len().min(plan.usual);
     let (steps, further_steps) = plan.steps.split_at(usual_steps);
     let dt = steps.join(", ");
-    push(rows, "dt", &format!("{dt} s, shortened to divide the time between instants"));
+    let dt = plan.rule.map_or(format!("{dt} s"), |share| {
+        let share = shown(share);
+        format!("{share} of the longest safe step, case by case and level by level")
+    });
+    push(rows, "dt", &format!("{dt}, shortened to divide the time between instants"));
     push(rows, "instants", &format!("{instants}"));
     if plan.has_particles() {
         push(rows, "particles", &format!("{} per cell, equally spaced", ppc(usual)));

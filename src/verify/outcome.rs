@@ -119,6 +119,9 @@ pub struct LevelOutcome {
     pub usable: bool,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
+    /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the step
+    /// is longer.
+    pub safe_step: Option<f64>,
 }
 
 /// One position of the moving particle in an internal-force study.
@@ -159,6 +162,11 @@ impl CaseOutcome {
 }
 
 impl LevelOutcome {
+    /// Whether its step is longer than any that is known to be safe.
+    pub fn is_too_long(&self) -> bool {
+        self.safe_step.is_some_and(|stable| self.dt > stable)
+    }
+
     /// What tells the level from others of its study: `64 cells`, `dt = 1e-3 s`.
     pub fn name(&self, axis: Axis) -> String {
         match (axis, self.ppc) {

@@ -22,6 +22,7 @@ mod samples;
 mod scenes;
 mod sizes;
 mod stability;
+mod steps;
 mod truths;
 mod vortex;
 

@@ -21,7 +21,7 @@ const CASE: [&str; 15] = [
     "stability",
 ];
 
-const LEVEL: [&str; 18] = [
+const LEVEL: [&str; 19] = [
     "cells",
     "h",
     "spacing",
@@ -38,6 +38,7 @@ const LEVEL: [&str; 18] = [
     "drift",
     "energy_rate",
     "unrest",
+    "safe_step",
     "order",
     "failure",
 ];

@@ -6,6 +6,7 @@ mod hostile;
 mod json;
 mod plans;
 mod run;
+mod steps;
 
 use folder::Folder;
 

@@ -12,7 +12,7 @@ use crate::{
         model::Scene,
         path::Path,
         plan::LevelPlan,
-        scene, size,
+        scene, size, step_rule,
         wording::shown,
         words::StabilityWords,
         yaml::{Complaint, NumberText},
@@ -41,6 +41,8 @@ pub(in crate::suite) struct Setting {
     pub(super) level: LevelPlan,
     /// Lengths of the steps (s), which take turns.
     pub(super) dt: Vec<f64>,
+    /// The share of the longest safe step that `dt` is made once particles are there, by a rule.
+    pub(super) rule: Option<f64>,
     pub(super) steps: u64,
     /// Steps of a full run.
     pub(super) full_steps: u64,
@@ -91,8 +93,14 @@ pub(super) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Set
         let message = format!("the time step is {}", shown(dt));
         Err(binder.complain(&at, &message).with_label("expected a positive number"))
     };
-    let dt = length("dt", &words.run.dt)?;
+    let at_dt = run.then("dt");
+    let rule = step_rule::share(binder, &at_dt, &words.run.dt)?;
+    let dt = length("dt", &step_rule::formula_text(binder, &at_dt, &words.run.dt, &scene)?)?;
     let every = turns(binder, words)?;
+    if let (Some(_), Some(_)) = (rule, &words.run.alternate) {
+        let message = "steps of a length chosen by a rule take no turns with others";
+        return Err(binder.complain_key(&run.then("alternate"), message));
+    }
     let mut steps_of = vec![dt; every];
     if let Some(text) = &words.run.alternate {
         steps_of.extend(std::iter::repeat_n(length("alternate", text)?, every));
@@ -111,6 +119,7 @@ pub(super) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Set
         placed: placed(binder, words, &scene, h)?,
         level,
         dt: steps_of,
+        rule,
         steps,
         full_steps: full_steps?,
         frozen: words.run.frozen,

@@ -36,6 +36,9 @@ pub(in crate::suite) fn rows(plan: &StabilityPlan, setting: &Setting) -> Vec<(St
         format!(", in full {}", setting.full_steps)
     };
     push("run", format!("{} steps{full}", setting.steps));
+    if let Some(share) = setting.rule {
+        push("dt", format!("{} of the longest safe step", shown(share)));
+    }
     if let (Some(first), Some(last)) = (setting.dt.first(), setting.dt.last()) {
         let turns = setting.dt.len() / 2;
         if turns > 0 {

@@ -7,7 +7,14 @@ use super::{
 use crate::{
     exact::Random,
     subject::Perturbable,
-    suite::{dispatch::perturbable, method::Method, plan::Extent, setup::Body, start::Initial},
+    suite::{
+        dispatch::{perturbable, safe_step_of},
+        method::Method,
+        plan::Extent,
+        setup::Body,
+        start::Initial,
+        step_rule::ROUNDS,
+    },
     verify::{
         CaseOutcome, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow,
         StabilityStudy, Study, Trial, amplification, spectral_radius, stability_limit, trial,
@@ -112,20 +119,15 @@ impl Job<'_> {
         if self.extent == Extent::Full {
             setting.steps = setting.full_steps;
         }
+        if let Some(share) = setting.rule {
+            let limit = safe_step_of(&body(&setting), self.method, setting.level, ROUNDS)?;
+            setting.dt = vec![share * limit];
+        }
         Ok(setting)
     }
 
     fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
-        let body = Body {
-            scene: &setting.scene,
-            own: &setting.scene,
-            initial: Initial::stated(&setting.scene),
-            manufactured: None,
-            heat: None,
-            keeps_deformation: false,
-            placed: setting.placed.clone(),
-        };
-        let mut subject = perturbable(&body, self.method, setting.level)?;
+        let mut subject = perturbable(&body(setting), self.method, setting.level)?;
         if setting.frozen {
             subject.freeze();
         }
@@ -185,6 +187,19 @@ impl Job<'_> {
         let confirm = |(share, sought)| Ok((share, self.run(&with(sought))?));
         let confirmed = shares.into_iter().map(confirm).collect::<Result<_, String>>()?;
         Ok(Critical { predicted: Some(Prediction { limit, leaves }), confirmed, observed: None })
+    }
+}
+
+/// What a run starts from.
+fn body(setting: &Setting) -> Body<'_> {
+    Body {
+        scene: &setting.scene,
+        own: &setting.scene,
+        initial: Initial::stated(&setting.scene),
+        manufactured: None,
+        heat: None,
+        keeps_deformation: false,
+        placed: setting.placed.clone(),
     }
 }
 

@@ -9,6 +9,7 @@ mod head;
 mod refine;
 mod scene;
 mod stability;
+mod step;
 mod transfer;
 mod truth;
 
@@ -21,6 +22,7 @@ pub(in crate::suite) use scene::{
     OneBodyWords, RoundWords, SceneWords, SetWords, ThermalWords, ViscosityWords,
 };
 pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
+pub(in crate::suite) use step::StepWords;
 pub use truth::EquationName;
 pub(in crate::suite) use truth::{ExactWords, ManufacturedWords};
 

@@ -1,5 +1,6 @@
 //! The words of a refinement plan.
 
+use super::StepWords;
 use crate::suite::yaml::{NumberText, OneOrMany};
 use serde::Deserialize;
 
@@ -8,7 +9,7 @@ use serde::Deserialize;
 pub(in crate::suite) struct RunWords {
     pub(in crate::suite) until: OneOrMany<NumberText>,
     /// Absent where `refine` lists time steps.
-    pub(in crate::suite) dt: Option<NumberText>,
+    pub(in crate::suite) dt: Option<StepWords>,
     pub(in crate::suite) instants: Option<NumberText>,
 }
 

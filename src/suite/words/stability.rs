@@ -1,6 +1,6 @@
 //! The words of a stability study.
 
-use super::{MethodWords, SceneWords, StudyName};
+use super::{MethodWords, SceneWords, StepWords, StudyName};
 use crate::{
     suite::yaml::{NumberText, OneOrMany, Ordered},
     verify::Stability,
@@ -52,7 +52,7 @@ pub(in crate::suite) struct ParticleWords {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::suite) struct StabilityRunWords {
-    pub(in crate::suite) dt: NumberText,
+    pub(in crate::suite) dt: StepWords,
     /// Another length of a step, which takes turns with `dt`.
     pub(in crate::suite) alternate: Option<NumberText>,
     /// Steps of one length before it is the turn of the other.

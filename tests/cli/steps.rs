@@ -1,0 +1,54 @@
+//! Time steps by rule, and the warning of a step that is too long for any.
+
+use super::{BAR, Folder, SOUND};
+use serde_json::Value;
+
+/// The bar without its FEM, with another time step.
+fn bar(dt: &str) -> String {
+    BAR.replace("dt: 1e-3", dt)
+        .replace("  - fem: {element: linear, mass: lumped}\n", "")
+        .replace("order: [1.7, 2.3]", "verdict: failed")
+}
+
+#[test]
+fn a_step_that_is_not_safe_warns_and_is_taken_all_the_same() {
+    // c = 10 m/s: 0.02 s is 0.8 h/c on the coarsest grid and 2.4 h/c on the finest.
+    let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
+    let folder = Folder::new();
+    folder.write("bar.yaml", &text);
+    let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let warnings: Vec<&str> = found.errors.lines().collect();
+    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    let first = "warning: short-bar::mpm-linear-flip-musl, 6 cells: dt = 2.0000e-2 s is ";
+    assert!(warnings[0].starts_with(first), "{warnings:?}");
+    let document: Value = serde_json::from_str(&found.out).expect("one document");
+    let level = &document["suites"][0]["cases"][0]["levels"][3];
+    assert!(level["dt"].as_f64() > level["safe_step"].as_f64());
+    assert!(level["failure"].is_string());
+    let text = folder.call(&["run", "bar.yaml"]).out;
+    assert!(text.contains("6 cells, 8 cells, 12 cells: steps are longer"), "{text}");
+}
+
+#[test]
+fn the_share_is_of_the_same_safe_step() {
+    let steps = |rule: &str| -> Vec<f64> {
+        let folder = Folder::new();
+        let text = bar(&format!("dt: {rule}, instants: 1")).replace("until: 0.05", "until: 100");
+        folder.write("bar.yaml", text.replace("failed", "divergent"));
+        let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
+        assert_eq!(found.errors, "");
+        let document: Value = serde_json::from_str(&found.out).expect("one document");
+        let levels =
+            document["suites"][0]["cases"][0]["levels"].as_array().expect("a list").clone();
+        let share = |level: &Value| {
+            level["dt"].as_f64().expect("dt") / level["safe_step"].as_f64().expect("safe")
+        };
+        levels.iter().map(share).collect()
+    };
+    for (rule, share) in [("auto", 0.5), ("{courant: 0.5}", 0.5), ("{courant: \"1/4\"}", 0.25)] {
+        for found in steps(rule) {
+            assert!(found <= share && found > 0.98 * share, "{rule}: {found}");
+        }
+    }
+}
