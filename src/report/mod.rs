@@ -14,6 +14,7 @@ mod levels;
 mod profile;
 mod stability;
 mod svg;
+mod sweep;
 mod table;
 mod text;
 

@@ -66,9 +66,38 @@ pub(super) fn map(outcome: &SuiteOutcome) -> Option<String> {
         x_label: first.swept.clone(),
         z_label: format!("limit of {sought}"),
         columns: first.rows.iter().map(|row| row.value.to_string()).collect(),
-        rows: studies.iter().map(row).collect(),
+        rows: merged(studies.iter().map(row).collect()),
     };
     Some(map.to_svg())
+}
+
+/// Rows with names without what all begin with, of which neighbours that show the same and are called the
+/// same but for the last word are one: `flip-usf/musl`.
+pub(super) fn merged(rows: Vec<(String, Vec<Field>)>) -> Vec<(String, Vec<Field>)> {
+    let first =
+        |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());
+    let common = rows.first().map(|(name, _)| first(name)).unwrap_or_default();
+    let is_common = rows.iter().all(|(name, _)| first(name) == common);
+    let mut kept: Vec<(String, Vec<Field>)> = Vec::new();
+    for (name, fields) in rows {
+        let name = if is_common { name[common.len()..].trim_start_matches('-') } else { &name };
+        let (stem, last) = name.rsplit_once('-').unwrap_or(("", name));
+        match kept.last_mut() {
+            Some((known, shown)) if shown_alike(shown, &fields) && stem_of(known) == stem => {
+                *known += &format!("/{last}");
+            }
+            _ => kept.push((name.to_owned(), fields)),
+        }
+    }
+    kept
+}
+
+fn stem_of(name: &str) -> &str {
+    name.rsplit_once('-').map_or("", |(stem, _)| stem)
+}
+
+fn shown_alike(a: &[Field], b: &[Field]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.text == b.text)
 }
 
 /// One row for each value of the parameter that is swept.
@@ -151,4 +180,30 @@ fn leaves(prediction: &Prediction) -> Option<String> {
 
 fn short(value: f64) -> String {
     if value.is_nan() { "-".to_owned() } else { scientific(value) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(name: &str, text: &str) -> (String, Vec<Field>) {
+        (name.to_owned(), vec![Field { value: None, text: text.to_owned() }])
+    }
+
+    #[test]
+    fn neighbours_that_show_the_same_are_one_row() {
+        let rows = vec![
+            row("mpm-linear-flip-usl", "1"),
+            row("mpm-linear-flip-usf", "2"),
+            row("mpm-linear-flip-musl", "2"),
+            row("mpm-linear-pic-usf", "2"),
+            row("mpm-linear-pic-usl", "1"),
+        ];
+        let names: Vec<String> = merged(rows).into_iter().map(|(name, _)| name).collect();
+        let expected =
+            ["linear-flip-usl", "linear-flip-usf/musl", "linear-pic-usf", "linear-pic-usl"];
+        assert_eq!(names, expected);
+        assert_eq!(merged(vec![row("bar", "1"), row("rod", "1")]).len(), 1);
+        assert!(merged(Vec::new()).is_empty());
+    }
 }

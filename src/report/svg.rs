@@ -1,7 +1,7 @@
 //! The figures of a suite.
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
-use super::stability;
+use super::{stability, sweep};
 use crate::subject::Totals;
 use crate::verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
 
@@ -26,6 +26,8 @@ pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     figures.extend(forces(outcome));
     let file = || format!("{}.svg", outcome.suite);
     figures.extend(stability::map(outcome).map(|svg| Figure { file: file(), svg }));
+    let named = |(file, svg): (String, String)| Figure { file, svg };
+    figures.extend(sweep::figures(outcome).into_iter().map(named));
     figures
 }
 

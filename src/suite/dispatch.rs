@@ -144,19 +144,32 @@ pub(super) fn safe_step_of(
     }
 }
 
-/// An MPM subject that can be perturbed: `body` on the cells of `level`.
+/// An MPM subject that can be perturbed: `bodies` of one scene on the cells of `level`.
 ///
 /// # Errors
 /// One line that says why there is no such subject.
 pub(super) fn perturbable(
-    body: &Body<'_>,
+    bodies: &[Body<'_>],
     method: Method,
     level: LevelPlan,
 ) -> Result<Box<dyn Perturbable>, String> {
-    match body.scene.dimension() {
-        1 => Ok(Box::new(solver::<1>(body, method, level)?)),
-        2 => Ok(Box::new(solver::<2>(body, method, level)?)),
-        _ => Ok(Box::new(solver::<3>(body, method, level)?)),
+    fn of<const D: usize>(
+        bodies: &[Body<'_>],
+        method: Method,
+        level: LevelPlan,
+    ) -> Result<Box<dyn Perturbable>, String> {
+        if let [one] = bodies {
+            return Ok(Box::new(solver::<D>(one, method, level)?));
+        }
+        let setups: Result<Vec<Setup<D>>, String> =
+            bodies.iter().map(|body| setup(body, method, level)).collect();
+        let contact = bodies.first().and_then(|body| body.scene.contact);
+        Ok(Box::new(Bodies::new(setups?, contact).map_err(|failure| failure.to_string())?))
+    }
+    match bodies.first().map_or(1, |body| body.scene.dimension()) {
+        1 => of::<1>(bodies, method, level),
+        2 => of::<2>(bodies, method, level),
+        _ => of::<3>(bodies, method, level),
     }
 }
 

@@ -81,3 +81,31 @@ use rstest::rstest;
 fn a_stability_study(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SWEPT, edits, words);
 }
+
+/// Two halves in place of the bar.
+const HALVES: [(&str, &str); 2] = [
+    (
+        "  body: {box: {from: [0], to: [4]}}\n",
+        "  bodies:\n    - body: {box: {from: [0], to: [2]}}\n      material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n    - body: {box: {from: [2], to: [4]}}\n      material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n",
+    ),
+    (
+        "  material: {linear_elastic: {young: E, poisson: 0, density: rho}}\n\nparticles",
+        "\nparticles",
+    ),
+];
+
+#[rstest]
+#[case::with_a_further_particle(("extra: [[", "▸extra: [["), "is of one body")]
+#[case::in_contact_and_frozen(
+    ("frozen: true", "▸frozen: true"), "have no linear step"
+)]
+fn a_stability_study_of_several_bodies(#[case] place: (&str, &str), #[case] words: &str) {
+    let mut edits = vec![HALVES[1], HALVES[0], place];
+    if words.contains("linear") {
+        edits.push((", extra: [[\"4 + d\"]]", ""));
+        edits.push(("  grid: ", "  contact: {friction: 0}\n  grid: "));
+        edits.push(("d: 0.5       #", "d: 0.5   #"));
+        edits.push(("dt: \"C*h/c\"", "dt: \"C*h/c*d/d\""));
+    }
+    refused(SWEPT, &edits, &[words]);
+}

@@ -16,6 +16,7 @@ mod failure;
 mod meeting;
 mod profile;
 mod shared;
+mod state;
 
 use super::{setup::Setup, solver::Solver, stage::Stage};
 use crate::subject::{Census, Failure, Profile, Samples, Subject, Totals};

@@ -1,7 +1,7 @@
 //! The map: a table of numbers over coloured fields, a row for each case.
 //!
 //! Numbers are printed in the fields, so that colours only guide the eye; they run from dark to light in
-//! steps of equal lightness and survive grey print.
+//! steps of equal lightness and survive grey print. A gap parts rows whose names begin otherwise.
 
 use super::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE};
 use super::svg::{Element, number};
@@ -35,6 +35,8 @@ const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 const ROW: f64 = 17.0;
 const FIELD: f64 = 62.0;
+/// Between rows whose names begin with another word.
+const GAP: f64 = 5.0;
 /// Height of the bar of colours, with its labels.
 const BAR: f64 = 12.0;
 const BAR_WIDTH: f64 = 240.0;
@@ -66,12 +68,13 @@ fn colour(share: f64) -> (String, &'static str) {
 impl Map {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        let names = self.rows.iter().map(|(name, _)| text::width(name, TEXT));
+        let names = self.rows.iter().map(|(name, _)| name.as_str());
+        let names = names.chain([self.z_label.as_str()]).map(|name| text::width(name, TEXT));
         let left = LEFT + names.fold(0.0, f64::max) + 10.0;
         let width = (left + FIELD * self.columns.len() as f64).max(left + BAR_WIDTH) + LEFT;
         let heading = text::wrap(&self.title, 1.12 * TITLE, width - 2.0 * LEFT, 3);
         let head = TOP + 17.0 * heading.len() as f64 + 34.0;
-        let bottom = head + ROW * self.rows.len() as f64;
+        let (places, bottom) = self.places(head);
         let height = bottom + 62.0;
         let mut svg = Element::new("svg")
             .set("xmlns", "http://www.w3.org/2000/svg")
@@ -96,11 +99,27 @@ impl Map {
             svg.add(&Element::text(at, "middle", column));
         }
         let range = self.range();
-        for (i, (name, fields)) in self.rows.iter().enumerate() {
-            svg.add(&row(name, fields, (left, head + ROW * i as f64), range));
+        for ((name, fields), y) in self.rows.iter().zip(places) {
+            svg.add(&row(name, fields, (left, y), range));
         }
         svg.add(&self.bar((left, bottom + 16.0), range));
         svg.render() + "\n"
+    }
+
+    /// Where rows lie that start at `y`, and where they end.
+    fn places(&self, mut y: f64) -> (Vec<f64>, f64) {
+        let mut places = Vec::new();
+        let mut group = None;
+        for (name, _) in &self.rows {
+            let first = name.split('-').next();
+            if group.is_some_and(|known| known != first) {
+                y += GAP;
+            }
+            group = Some(first);
+            places.push(y);
+            y += ROW;
+        }
+        (places, y)
     }
 
     /// The smallest and the largest finite value.
@@ -127,9 +146,10 @@ impl Map {
         let labels = [(0.0, "start", low), (0.5, "middle", 0.5 * (low + high)), (1.0, "end", high)];
         for (share, anchor, value) in labels {
             let at = (x + share * BAR_WIDTH, y + BAR + 15.0);
-            group.add(&Element::text(at, anchor, &format!("{value:.2}")));
+            let digits = if high.abs() < 0.995 { 4 } else { 2 };
+            group.add(&Element::text(at, anchor, &format!("{value:.digits$}")));
         }
-        group.add(&Element::text((x + BAR_WIDTH + 14.0, y + BAR - 2.0), "start", &self.z_label));
+        group.add(&Element::text((x - 8.0, y + BAR - 2.0), "end", &self.z_label));
         group
     }
 }

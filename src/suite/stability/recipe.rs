@@ -157,6 +157,10 @@ fn placed(
     h: f64,
 ) -> Result<Placed, Complaint> {
     let (path, d) = (Path::top("particles"), scene.dimension());
+    if !(scene.bodies.is_empty() || words.particles.extra.is_empty()) {
+        let message = "a further particle is of one body, and the scene has several";
+        return Err(binder.complain_key(&path.then("extra"), message));
+    }
     let shift = words.particles.shift.as_ref();
     let shift = shift.map(|texts| binder.point(&path.then("shift"), texts, d)).transpose()?;
     let mut extra = Vec::new();
@@ -188,7 +192,7 @@ fn perturbation(binder: &Binder<'_>, words: &StabilityWords) -> Result<f64, Comp
 }
 
 fn scales(binder: &Binder<'_>, words: &StabilityWords, scene: &Scene) -> Result<Scales, Complaint> {
-    let modulus = scene.material.wave_modulus();
+    let modulus = scene.each().iter().map(|body| body.material.wave_modulus()).fold(0.0, f64::max);
     let path = Path::top("run");
     let bound = |key: &str, text: &Option<NumberText>, default: f64| {
         let at = path.then(key);
@@ -204,7 +208,7 @@ fn scales(binder: &Binder<'_>, words: &StabilityWords, scene: &Scene) -> Result<
         );
         return Err(binder.complain_key(&path, &message));
     }
-    let speed = (modulus / scene.density).sqrt();
+    let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred })
 }
@@ -218,7 +222,14 @@ fn at_rest(binder: &Binder<'_>, scene: &Scene) -> Result<(), Complaint> {
         || !scene.sets.is_empty();
     let driven =
         scene.faces.iter().any(|f| matches!(f.hold, crate::suite::hold::Hold::Velocity(_)));
-    let moves = !scene.initial_displacement.is_empty() || !scene.initial_velocity.is_empty();
+    let moves = scene
+        .each()
+        .iter()
+        .any(|body| !body.initial_displacement.is_empty() || !body.initial_velocity.is_empty());
+    if scene.contact.is_some() {
+        let message = "bodies that touch and part have no linear step";
+        return Err(binder.complain_key(&Path::top("run").then("frozen"), message));
+    }
     if !(loaded || driven || moves) {
         return Ok(());
     }

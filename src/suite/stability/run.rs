@@ -120,14 +120,21 @@ impl Job<'_> {
             setting.steps = setting.full_steps;
         }
         if let Some(share) = setting.rule {
-            let limit = safe_step_of(&body(&setting), self.method, setting.level, ROUNDS)?;
+            let limit = bodies(&setting).iter().try_fold(f64::INFINITY, |least, body| {
+                Ok::<f64, String>(least.min(safe_step_of(
+                    body,
+                    self.method,
+                    setting.level,
+                    ROUNDS,
+                )?))
+            })?;
             setting.dt = vec![share * limit];
         }
         Ok(setting)
     }
 
     fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
-        let mut subject = perturbable(&body(setting), self.method, setting.level)?;
+        let mut subject = perturbable(&bodies(setting), self.method, setting.level)?;
         if setting.frozen {
             subject.freeze();
         }
@@ -191,16 +198,17 @@ impl Job<'_> {
 }
 
 /// What a run starts from.
-fn body(setting: &Setting) -> Body<'_> {
-    Body {
+fn bodies(setting: &Setting) -> Vec<Body<'_>> {
+    let body = |own| Body {
         scene: &setting.scene,
-        own: &setting.scene,
-        initial: Initial::stated(&setting.scene),
+        own,
+        initial: Initial::stated(own),
         manufactured: None,
         heat: None,
         keeps_deformation: false,
         placed: setting.placed.clone(),
-    }
+    };
+    setting.scene.each().iter().map(body).collect()
 }
 
 /// Adds a random number to each number of the state, so that no mode is left out.

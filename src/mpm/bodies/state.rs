@@ -1,0 +1,38 @@
+//! The state of several bodies as a row of numbers: that of one after the other.
+
+use super::Bodies;
+use crate::subject::Perturbable;
+
+impl<const D: usize> Perturbable for Bodies<D> {
+    fn freeze(&mut self) {
+        self.solvers.iter_mut().for_each(Perturbable::freeze);
+    }
+
+    fn state(&self, state: &mut Vec<f64>) {
+        joined(state, self.solvers.iter(), Perturbable::state);
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        let (mut rest, mut own) = (state, Vec::new());
+        for solver in &mut self.solvers {
+            solver.state(&mut own);
+            let (mine, others) = rest.split_at(own.len().min(rest.len()));
+            solver.set_state(mine);
+            rest = others;
+        }
+    }
+
+    fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>) {
+        joined(sizes, self.solvers.iter(), |solver, own| solver.sizes(speed, modulus, own));
+    }
+}
+
+/// What each gives of its own, one after the other.
+fn joined<T>(all: &mut Vec<f64>, each: impl Iterator<Item = T>, give: impl Fn(T, &mut Vec<f64>)) {
+    all.clear();
+    let mut own = Vec::new();
+    for one in each {
+        give(one, &mut own);
+        all.extend_from_slice(&own);
+    }
+}
