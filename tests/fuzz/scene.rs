@@ -111,6 +111,7 @@ impl Scene {
     /// is what a failure says.
     pub(crate) fn holds<const D: usize>(&self, what: &str, particles: Particles<D>) {
         let count = particles.len();
+        self.predicts(what, particles.clone());
         if let Err(failure) = self.run(particles) {
             let named = match failure {
                 Failure::NonFinite { site: Site::Particle(p), .. }
@@ -121,6 +122,15 @@ impl Scene {
                 _ => false,
             };
             assert!(named, "{what}: {failure:?} of {self:?}");
+        }
+    }
+
+    /// The longest safe step of whatever state is a number in the range asked for, or a failure.
+    fn predicts<const D: usize>(&self, what: &str, particles: Particles<D>) {
+        const LONGEST: f64 = 0.1;
+        let Ok(solver) = self.solver(particles) else { return };
+        if let Ok(safe) = solver.safe_step(LONGEST, 3) {
+            assert!((0.0..=LONGEST).contains(&safe), "{what}: safe step {safe} of {self:?}");
         }
     }
 
