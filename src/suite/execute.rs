@@ -14,6 +14,7 @@ use super::{
     step_rule::Steps,
     truthless::Unknown,
     words::CrossingLevels,
+    yardstick::yardstick,
 };
 use crate::{
     exact::{Problem, Truth},
@@ -147,7 +148,8 @@ impl<'a> Runner<'a> {
         let judgement = judge_levels(plan, case, expectation, &levels);
         let again = |level| self.level(plan, case, truth, level);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
-        judged(plan, case, expectation, levels, judgement, floor)
+        let yardstick = yardstick(plan, case, truth);
+        judged(plan, case, expectation, levels, judgement, floor, yardstick)
     }
 
     /// What is to be said before anything runs: steps that are longer than any that is known to be safe.

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::verify::{
     self, Axis, CaseOutcome, Claim, Convergence, Drift, Expectation, Floor, Interval, Judgement,
-    LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, judge, larger,
+    LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, Yardstick, judge, larger,
 };
 
 /// The error that `plan` judges.
@@ -34,6 +34,7 @@ pub(super) fn judged(
     mut levels: Vec<LevelOutcome>,
     judgement: Judgement,
     floor: Option<Floor>,
+    yardstick: Yardstick,
 ) -> CaseOutcome {
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
@@ -64,6 +65,7 @@ pub(super) fn judged(
             norm: plan.norm.name(),
             of: plan.of,
             scale: plan.scale,
+            yardstick,
             compared: case.against != Against::Nothing,
             bounded: expectation.verdict.is_none(),
             drifts: expectation.limits.drifts(),

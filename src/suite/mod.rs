@@ -75,6 +75,7 @@ mod viscosity;
 mod wording;
 mod words;
 pub mod yaml;
+mod yardstick;
 
 pub use execute::{Progress, Runner};
 pub use hold::Hold;

@@ -13,6 +13,7 @@
 //! | [`judge`](judge()) | the questions, and the verdict |
 //! | [`floor`](Floor) | whose error a floor is |
 //! | [`richardson`](Richardson) | order and limit from three values |
+//! | [`cost`](Ranking) | what accuracy costs, in transfers or seconds |
 //! | [`stability`](StabilityStudy) | runs watched for growth, the step as a matrix, limits by bisection |
 //! | [`expectation`](Expectation), [`limits`](Limits) | what must come out |
 //!
@@ -25,6 +26,7 @@ mod beta;
 mod claim;
 mod clock;
 mod conservation;
+mod cost;
 mod expectation;
 mod figures;
 mod fit;
@@ -48,11 +50,16 @@ mod student;
 mod tests;
 mod verdict;
 mod window;
+mod yardstick;
 
 pub use axis::Axis;
 pub use claim::Claim;
 pub use clock::{Clock, MOST_STEPS};
 pub use conservation::{Conserved, Drift};
+pub use cost::{
+    Agreement, Contender, End, Exponent, Part, Ranked, Ranking, Reach, TARGETS, Tried,
+    pareto_front, rankings,
+};
 pub use expectation::{Bounds, Expectation, Seen};
 pub use fit::Interval;
 pub use floor::{Floor, FloorCause, Probe};
@@ -74,3 +81,4 @@ pub use stability::{
 };
 pub use student::two_sided_95;
 pub use verdict::{UnknownVerdict, Verdict};
+pub use yardstick::{Yardstick, largest_exact};

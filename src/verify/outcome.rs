@@ -3,7 +3,7 @@
 use super::{
     axis::Axis, conservation::Conserved, figures::figures, floor::Floor, judge::Judgement,
     observer::History, quantity::Quantity, richardson::Richardson, run::Run,
-    stability::StabilityStudy, verdict::Verdict,
+    stability::StabilityStudy, verdict::Verdict, yardstick::Yardstick,
 };
 use crate::subject::Profile;
 
@@ -76,6 +76,8 @@ pub struct Convergence {
     pub of: Quantity,
     /// What it was divided by, if anything.
     pub scale: Option<f64>,
+    /// What makes its errors and its work comparable with those of other cases.
+    pub yardstick: Yardstick,
     /// Whether there is a truth that errors are taken against.
     pub compared: bool,
     /// Whether bounds on figures are all that binds the case: then no order is asked for, and

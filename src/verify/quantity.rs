@@ -47,7 +47,7 @@ impl Quantity {
     }
 
     /// Numbers at each label in `d` dimensions.
-    fn components(self, d: usize) -> usize {
+    pub(super) fn components(self, d: usize) -> usize {
         match self {
             Self::Displacement | Self::Velocity => d,
             Self::Stress | Self::DeformationGradient => d * d,
@@ -68,7 +68,7 @@ impl Quantity {
     }
 
     /// The exact value at one label; whether the truth knows it.
-    fn exact(self, truth: &dyn Truth, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+    pub(super) fn exact(self, truth: &dyn Truth, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         match self {
             Self::Displacement => truth.displacement(label, t, into),
             Self::Velocity => truth.velocity(label, t, into),

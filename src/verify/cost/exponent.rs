@@ -1,0 +1,98 @@
+//! What one more digit costs: work ~ error^exponent, beside what theory says.
+//!
+//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 where cells are refined and
+//! time steps follow h, D where they stay, 1 where time steps alone are refined.
+//!
+//! The line is fitted to `ln error` over `ln work`, since work is counted and has no noise, and then
+//! turned: the exponent is one over its slope, and so are the ends of the interval (the fiducial limits
+//! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
+
+use super::{part::Part, tried::Tried};
+use crate::verify::fit::{Interval, Line, Point};
+
+/// Fewest points with an interval.
+const FEWEST: usize = 3;
+
+/// Noise-free series have intervals of no width.
+const ROUNDING: f64 = 1e-9;
+
+/// Work that grows as theory says but for this share does not explain a departure.
+const SAME: f64 = 0.02;
+
+/// The marginal cost of accuracy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exponent {
+    /// What was observed, with its 95 % confidence interval.
+    pub observed: Interval,
+    /// What theory says.
+    pub theory: f64,
+    /// The observed order of the error over the same levels, and the formal one.
+    pub order: (f64, f64),
+    /// The observed growth of work over the same levels, and that of the refinement plan.
+    pub growth: (f64, f64),
+}
+
+/// Whether an exponent is that of theory; if not, what differs most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Agreement {
+    /// Theory is within the interval.
+    Agrees,
+    /// The error has another order.
+    Order,
+    /// The work grows otherwise.
+    Growth,
+}
+
+impl Exponent {
+    /// The exponent over the levels of `part` that are asymptotic, or over all of it where these are
+    /// fewer than three; `order` and `growth` are those of theory. None without three levels, or where
+    /// the error is not certain to fall.
+    pub fn of(tried: &[Tried], part: &Part, order: f64, growth: f64) -> Option<Self> {
+        let levels = &tried[part.levels.clone()];
+        let asymptotic: Vec<Tried> = levels.iter().filter(|one| one.asymptotic).copied().collect();
+        let levels = if asymptotic.len() >= FEWEST { &asymptotic[..] } else { levels };
+        if levels.len() < FEWEST {
+            return None;
+        }
+        let slope = |x: fn(&Tried) -> f64, y: fn(&Tried) -> f64| {
+            let point = |(level, one): (usize, &Tried)| Point {
+                level,
+                x: libm::log(x(one)),
+                y: libm::log(y(one)),
+            };
+            Line::through(&levels.iter().enumerate().map(point).collect::<Vec<_>>())
+        };
+        let fall = slope(|one| one.work, |one| one.error)?.order();
+        if !(fall.high < 0.0) {
+            return None;
+        }
+        let errors = slope(|one| one.spacing, |one| one.error)?.slope;
+        let works = slope(|one| one.spacing, |one| one.work)?.slope;
+        Some(Self {
+            // Of a falling slope the steep end is the cheap one.
+            observed: Interval {
+                value: 1.0 / fall.value,
+                low: 1.0 / fall.high,
+                high: 1.0 / fall.low,
+            },
+            theory: -growth / order,
+            order: (errors, order),
+            growth: (-works, growth),
+        })
+    }
+
+    /// Whether theory is within the interval, and if not, why.
+    pub fn agreement(&self) -> Agreement {
+        let Interval { low, high, .. } = self.observed;
+        let spare = ROUNDING * self.theory.abs();
+        if low - spare <= self.theory && self.theory <= high + spare {
+            return Agreement::Agrees;
+        }
+        let off = |(observed, expected): (f64, f64)| libm::log(observed / expected).abs();
+        if off(self.growth) > off(self.order).max(SAME) {
+            Agreement::Growth
+        } else {
+            Agreement::Order
+        }
+    }
+}

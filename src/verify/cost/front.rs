@@ -1,0 +1,22 @@
+//! The Pareto front: settings that no other one beats in both error and work.
+
+use super::tried::Tried;
+
+/// Indices of what is on the front, from the least work to the least error. Of equals the first counts.
+pub fn pareto_front(tried: &[Tried]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..tried.len()).filter(|k| tried[*k].counts()).collect();
+    let key = |k: usize| (tried[k].work, tried[k].error);
+    order.sort_by(|a, b| {
+        let ((work_a, error_a), (work_b, error_b)) = (key(*a), key(*b));
+        work_a.total_cmp(&work_b).then(error_a.total_cmp(&error_b)).then(a.cmp(b))
+    });
+    let mut least = f64::INFINITY;
+    order.retain(|k| {
+        let better = tried[*k].error < least;
+        if better {
+            least = tried[*k].error;
+        }
+        better
+    });
+    order
+}

@@ -1,0 +1,32 @@
+//! What accuracy costs: which method reaches an error for the least work.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`tried`](Tried) | what one level gave and took |
+//! | [`part`](Part) | the levels over which a method converges |
+//! | [`reach`](Reach) | the work at which an error is reached |
+//! | [`exponent`](Exponent) | what one more digit costs, beside theory |
+//! | [`front`](pareto_front()) | what nothing else beats |
+//! | [`ranking`](Ranking) | all of it for the methods of one problem |
+//!
+//! Work is any number that adds up: particle-node transfers, which are the same everywhere, or
+//! seconds. Nothing is extrapolated: an error that no level reaches is not reached.
+
+mod exponent;
+mod front;
+mod part;
+mod ranking;
+mod reach;
+#[cfg(test)]
+mod tests;
+mod tried;
+
+pub use exponent::{Agreement, Exponent};
+pub use front::pareto_front;
+pub use part::{End, Part};
+pub use ranking::{Contender, Ranked, Ranking, rankings};
+pub use reach::Reach;
+pub use tried::Tried;
+
+/// The errors, over the size of the solution, that tables ask for.
+pub const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];

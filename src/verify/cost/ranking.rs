@@ -1,0 +1,176 @@
+//! The methods of one problem, the cheapest first.
+
+use super::{
+    TARGETS,
+    exponent::Exponent,
+    front::pareto_front,
+    part::{End, Part},
+    reach::Reach,
+    tried::Tried,
+};
+use crate::verify::outcome::{CaseOutcome, Convergence, LevelOutcome};
+use std::cmp::Ordering;
+
+/// A method with its levels, coarse to fine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contender {
+    /// Its name.
+    pub name: String,
+    /// What was run.
+    pub tried: Vec<Tried>,
+    /// The order of the error in theory.
+    pub formal_order: f64,
+    /// The growth of the work in theory, see [`Yardstick`](crate::verify::Yardstick).
+    pub growth: f64,
+}
+
+/// A method and what accuracy costs with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranked {
+    /// The method.
+    pub contender: Contender,
+    /// Where it converges.
+    pub part: Part,
+    /// Where it reaches each of the targets.
+    pub reaches: Vec<Reach>,
+    /// How many times the least work at each target it takes; none where it does not reach it.
+    pub times: Vec<Option<f64>>,
+    /// Least error of the converging part, or of all levels where there is none.
+    pub best: Option<f64>,
+    /// What one more digit costs.
+    pub exponent: Option<Exponent>,
+    /// Its levels on the front.
+    pub front: Vec<usize>,
+}
+
+/// The methods of one problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranking {
+    /// The problem, in words.
+    pub problem: String,
+    /// What errors were divided by.
+    pub size: f64,
+    /// The errors that were asked for, coarse to fine.
+    pub targets: Vec<f64>,
+    /// The methods: by the work at the finest target, then at the next coarser one.
+    pub rows: Vec<Ranked>,
+}
+
+impl Ranking {
+    /// Ranks `contenders` by what they take for each of `targets`.
+    pub fn new(problem: String, size: f64, targets: &[f64], contenders: Vec<Contender>) -> Self {
+        let all: Vec<(usize, usize, Tried)> = contenders
+            .iter()
+            .enumerate()
+            .flat_map(|(c, one)| one.tried.iter().enumerate().map(move |(k, t)| (c, k, *t)))
+            .collect();
+        let every: Vec<Tried> = all.iter().map(|(_, _, tried)| *tried).collect();
+        let front: Vec<(usize, usize)> =
+            pareto_front(&every).into_iter().map(|i| (all[i].0, all[i].1)).collect();
+        let rank = |(c, contender): (usize, Contender)| {
+            let of_front = front.iter().filter(|(owner, _)| *owner == c);
+            let mut levels: Vec<usize> = of_front.map(|(_, level)| *level).collect();
+            levels.sort_unstable();
+            ranked(contender, targets, levels)
+        };
+        let mut rows: Vec<Ranked> = contenders.into_iter().enumerate().map(rank).collect();
+        for k in 0..targets.len() {
+            let works = rows.iter().filter_map(|row| row.reaches[k].work());
+            let least = works.fold(f64::INFINITY, f64::min);
+            rows.iter_mut().for_each(|row| {
+                row.times[k] = row.reaches[k].work().map(|work| work / least);
+            });
+        }
+        rows.sort_by(|a, b| order(&a.reaches, &b.reaches));
+        Self { problem, size, targets: targets.to_vec(), rows }
+    }
+}
+
+fn ranked(contender: Contender, targets: &[f64], front: Vec<usize>) -> Ranked {
+    let tried = &contender.tried;
+    let part = Part::of(tried);
+    let reaches: Vec<Reach> = targets.iter().map(|t| Reach::of(tried, &part, *t)).collect();
+    let converging = if part.levels.is_empty() { 0..tried.len() } else { part.levels.clone() };
+    let counted = tried[converging].iter().filter(|one| one.counts());
+    Ranked {
+        best: counted.map(|one| one.error).reduce(f64::min),
+        exponent: Exponent::of(tried, &part, contender.formal_order, contender.growth),
+        times: vec![None; targets.len()],
+        reaches,
+        front,
+        part,
+        contender,
+    }
+}
+
+impl Ranked {
+    /// Why it does not reach the finest target; none if it does.
+    pub fn obstacle(&self) -> Option<End> {
+        let reached = self.reaches.last().is_some_and(|reach| reach.work().is_some());
+        (!reached).then_some(self.part.end)
+    }
+}
+
+/// By the work at the finest target that either reaches.
+fn order(a: &[Reach], b: &[Reach]) -> Ordering {
+    let pairs = a.iter().zip(b).rev();
+    let compare = |(a, b): (&Reach, &Reach)| match (a.work(), b.work()) {
+        (Some(a), Some(b)) => a.total_cmp(&b),
+        (Some(_), None) => Ordering::Less,
+        (None, Some(_)) => Ordering::Greater,
+        (None, None) => Ordering::Equal,
+    };
+    pairs.map(compare).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+}
+
+/// Rankings of the cases of a suite that can be compared, one for each problem; `work` tells what a
+/// level took. Cases that were compared with nothing are left out, and problems without a size or of
+/// fewer than three levels.
+pub fn rankings(
+    cases: &[CaseOutcome],
+    work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
+) -> Vec<Ranking> {
+    let mut problems: Vec<(&str, f64, Vec<Contender>)> = Vec::new();
+    for case in cases {
+        let Some(study) = case.convergence().filter(|study| study.compared) else { continue };
+        let size = study.yardstick.size;
+        if !(size > 0.0) || study.levels.len() < 3 {
+            continue;
+        }
+        let one = contender(case, study, &work);
+        let problem = study.yardstick.problem.as_str();
+        match problems
+            .iter_mut()
+            .find(|(known, known_size, _)| *known == problem && *known_size == size)
+        {
+            Some((_, _, known)) => known.push(one),
+            None => problems.push((problem, size, vec![one])),
+        }
+    }
+    let rank = |(problem, size, contenders): (&str, f64, Vec<Contender>)| {
+        Ranking::new(problem.to_owned(), size, &TARGETS, contenders)
+    };
+    problems.into_iter().map(rank).collect()
+}
+
+fn contender(
+    case: &CaseOutcome,
+    study: &Convergence,
+    work: &impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
+) -> Contender {
+    let window = study.judgement.window.as_deref().unwrap_or_default();
+    let tried = |(k, level): (usize, &LevelOutcome)| Tried {
+        spacing: level.spacing,
+        error: level.error / study.yardstick.size,
+        work: work(case, k, level),
+        usable: level.usable,
+        asymptotic: window.contains(&k),
+        failed: level.run.failure.is_some(),
+    };
+    Contender {
+        name: case.case.clone(),
+        tried: study.levels.iter().enumerate().map(tried).collect(),
+        formal_order: study.formal_order,
+        growth: study.yardstick.growth,
+    }
+}

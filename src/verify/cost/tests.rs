@@ -1,0 +1,226 @@
+//! Series whose answers are known.
+
+use super::{Agreement, Contender, End, Exponent, Part, Ranking, Reach, TARGETS, Tried};
+use approx::assert_relative_eq;
+use proptest::prelude::*;
+use rstest::rstest;
+
+fn level(spacing: f64, error: f64, work: f64) -> Tried {
+    Tried { spacing, error, work, usable: true, asymptotic: true, failed: false }
+}
+
+/// error = h^p, work = h^-g, with h = 1/2, 1/4, ...
+fn power(p: f64, g: f64, levels: i32) -> Vec<Tried> {
+    let one = |k: i32| {
+        let h = libm::exp2(-f64::from(k));
+        level(h, libm::pow(h, p), libm::pow(h, -g))
+    };
+    (1..=levels).map(one).collect()
+}
+
+fn errors(errors: &[f64]) -> Vec<Tried> {
+    let one = |(k, e): (usize, &f64)| level(libm::exp2(-(k as f64)), *e, libm::exp2(k as f64));
+    errors.iter().enumerate().map(one).collect()
+}
+
+#[rstest]
+#[case::falls(&[1.0, 0.25, 0.06, 0.015], 0..4, End::Levels)]
+#[case::floor(&[1.0, 0.25, 0.06, 0.06, 0.055], 0..3, End::Floor)]
+#[case::sways_on_a_floor(&[1.0, 0.25, 0.06, 0.07, 0.05], 0..3, End::Floor)]
+#[case::grows(&[1.0, 0.25, 0.06, 0.25, 1.0], 0..3, End::Grows)]
+#[case::late(&[1.0, 2.0, 0.5, 0.12, 0.03], 1..5, End::Levels)]
+#[case::the_larger_fall(&[1.0, 0.9, 0.8, 1.5, 0.3, 0.1], 3..6, End::Levels)]
+#[case::nan(&[1.0, 0.25, 0.06, f64::NAN], 0..3, End::Failed)]
+#[case::all_nan(&[f64::NAN; 4], 0..0, End::NoTrend)]
+#[case::two_levels(&[1.0, 0.1], 0..0, End::NoTrend)]
+#[case::up_and_down(&[1.0, 2.0, 1.0, 2.0], 0..0, End::NoTrend)]
+#[case::nothing(&[], 0..0, End::NoTrend)]
+fn parts(#[case] series: &[f64], #[case] levels: std::ops::Range<usize>, #[case] end: End) {
+    assert_eq!(Part::of(&errors(series)), Part { levels, end });
+}
+
+#[test]
+fn a_level_that_failed_or_does_not_count_ends_the_part() {
+    let mut tried = errors(&[1.0, 0.25, 0.06, 0.015]);
+    tried[3].usable = false;
+    assert_eq!(Part::of(&tried), Part { levels: 0..3, end: End::Crossings });
+    tried[3].failed = true;
+    assert_eq!(Part::of(&tried), Part { levels: 0..3, end: End::Failed });
+    tried[1].failed = true;
+    assert_eq!(Part::of(&tried), Part { levels: 0..0, end: End::Failed });
+}
+
+fn reach(tried: &[Tried], target: f64) -> Reach {
+    Reach::of(tried, &Part::of(tried), target)
+}
+
+#[test]
+fn between_levels_a_power_law_is_itself() {
+    let found = reach(&power(2.0, 3.0, 6), 1e-2);
+    assert_relative_eq!(found.work().unwrap(), libm::pow(1e-2, -1.5), max_relative = 1e-12);
+    assert_relative_eq!(found.spacing().unwrap(), 0.1, max_relative = 1e-12);
+    assert!(matches!(found, Reach::At { .. }));
+}
+
+#[rstest]
+#[case::beyond_the_finest(&[1.0, 0.25, 0.06], 0.05, None)]
+#[case::on_the_finest(&[1.0, 0.25, 0.06], 0.06, Some(4.0))]
+#[case::on_the_coarsest(&[1.0, 0.25, 0.06], 1.0, Some(1.0))]
+#[case::everywhere(&[1e-15, 2e-15, 0.0, 1e-15], 1e-4, Some(1.0))]
+#[case::an_accident(&[1.0, 1e-9, 0.5, 0.6], 1e-2, None)]
+#[case::before_a_floor(&[1.0, 0.25, 0.06, 0.06, 0.0599], 0.25, Some(2.0))]
+#[case::below_a_floor(&[1.0, 0.25, 0.06, 0.06, 0.0599], 0.05995, None)]
+#[case::nan(&[f64::NAN, f64::NAN, f64::NAN, f64::NAN], 1.0, None)]
+#[case::nan_last(&[1e-5, 1e-6, f64::NAN], 1e-2, Some(1.0))]
+fn targets(#[case] series: &[f64], #[case] target: f64, #[case] work: Option<f64>) {
+    assert_eq!(reach(&errors(series), target).work(), work);
+}
+
+/// Levels that break may not be passed over because the coarsest one was good.
+#[test]
+fn what_breaks_is_not_reached_already() {
+    let mut tried = errors(&[1e-5, 1e-6, 1e-7]);
+    tried[1].failed = true;
+    assert_eq!(reach(&tried, 1e-2), Reach::Never);
+}
+
+#[rstest]
+#[case::as_theory(2.0, 3.0, 2.0, 3.0, Agreement::Agrees)]
+#[case::lower_order(1.5, 3.0, 2.0, 3.0, Agreement::Order)]
+#[case::steps_stay(2.0, 2.0, 2.0, 3.0, Agreement::Growth)]
+fn exponents(
+    #[case] p: f64,
+    #[case] g: f64,
+    #[case] order: f64,
+    #[case] growth: f64,
+    #[case] wanted: Agreement,
+) {
+    let tried = power(p, g, 5);
+    let found = Exponent::of(&tried, &Part::of(&tried), order, growth).unwrap();
+    assert_relative_eq!(found.observed.value, -g / p, max_relative = 1e-12);
+    assert_relative_eq!(found.theory, -growth / order, max_relative = 1e-15);
+    assert_relative_eq!(found.order.0, p, max_relative = 1e-12);
+    assert_relative_eq!(found.growth.0, g, max_relative = 1e-12);
+    assert_eq!(found.agreement(), wanted);
+}
+
+#[test]
+fn noise_widens_the_interval_about_the_exponent() {
+    let mut tried = power(2.0, 3.0, 6);
+    for (k, one) in tried.iter_mut().enumerate() {
+        one.error *= if k % 2 == 0 { 1.2 } else { 1.0 / 1.2 };
+    }
+    let found = Exponent::of(&tried, &Part::of(&tried), 2.0, 3.0).unwrap();
+    assert!(found.observed.low < -1.55 && found.observed.high > -1.45, "{:?}", found.observed);
+    assert_eq!(found.agreement(), Agreement::Agrees);
+}
+
+#[test]
+fn levels_outside_the_window_do_not_make_the_exponent() {
+    let mut tried = power(2.0, 3.0, 6);
+    tried[0].error *= 10.0;
+    tried[0].asymptotic = false;
+    let found = Exponent::of(&tried, &Part::of(&tried), 2.0, 3.0).unwrap();
+    assert_relative_eq!(found.observed.value, -1.5, max_relative = 1e-12);
+}
+
+fn contender(name: &str, tried: Vec<Tried>) -> Contender {
+    Contender { name: name.to_owned(), tried, formal_order: 2.0, growth: 2.0 }
+}
+
+fn names(ranking: &Ranking) -> Vec<&str> {
+    ranking.rows.iter().map(|row| row.contender.name.as_str()).collect()
+}
+
+#[test]
+fn the_finest_target_decides_and_who_reaches_less_comes_last() {
+    let scaled = |factor: f64, levels: i32| {
+        let dearer = |one: Tried| Tried { work: factor * one.work, ..one };
+        power(2.0, 2.0, levels).into_iter().map(dearer).collect::<Vec<_>>()
+    };
+    let contenders = vec![
+        contender("short", scaled(0.1, 4)),
+        contender("dear", scaled(3.0, 8)),
+        contender("cheap", scaled(1.0, 8)),
+        contender("broken", errors(&[f64::NAN, 1.0, f64::NAN])),
+    ];
+    let ranking = Ranking::new(String::new(), 1.0, &TARGETS, contenders);
+    assert_eq!(names(&ranking), ["cheap", "dear", "short", "broken"]);
+    let [cheap, dear, short, broken] = &ranking.rows[..] else { panic!("four rows") };
+    assert_relative_eq!(dear.times[2].unwrap(), 3.0, max_relative = 1e-12);
+    assert_relative_eq!(cheap.times[1].unwrap(), 1.0, max_relative = 1e-12);
+    assert_eq!((short.times[2], short.obstacle()), (None, Some(End::Levels)));
+    assert_eq!((cheap.obstacle(), broken.obstacle()), (None, Some(End::NoTrend)));
+    assert_eq!((short.front.len(), dear.front.len(), broken.front.len()), (4, 0, 0));
+}
+
+fn series() -> impl Strategy<Value = Vec<Tried>> {
+    let number = prop_oneof![4 => 1e-9..1.0_f64, 1 => Just(f64::NAN), 1 => Just(0.0)];
+    let one = (number, 1e-3..1e9_f64, any::<bool>(), 0..8_u8);
+    prop::collection::vec(one, 0..9).prop_map(|all| {
+        let level = |(k, (error, work, usable, chance)): (usize, (f64, f64, bool, u8))| Tried {
+            usable: usable || chance > 2,
+            failed: chance == 0,
+            ..level(libm::exp2(-(k as f64)), error, work)
+        };
+        all.into_iter().enumerate().map(level).collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
+
+    /// Whatever was run, what is said to be reached was: some level that counts has at most this error,
+    /// and the work lies between those of levels.
+    #[test]
+    fn nothing_is_extrapolated(tried in series(), target in 1e-9..1.0_f64) {
+        if let Some(work) = reach(&tried, target).work() {
+            prop_assert!(tried.iter().any(|one| one.counts() && one.error <= target));
+            let works = || tried.iter().filter(|one| one.counts()).map(|one| one.work);
+            let (least, most) = (works().fold(f64::INFINITY, f64::min), works().fold(0.0, f64::max));
+            prop_assert!(least * (1.0 - 1e-12) <= work && work <= most * (1.0 + 1e-12));
+        }
+    }
+
+    /// A finer target is not reached where a coarser one is not.
+    #[test]
+    fn a_coarser_target_is_reached_first(tried in series(), target in 1e-9..1e-1_f64) {
+        let fine = reach(&tried, target);
+        let coarse = reach(&tried, 10.0 * target);
+        prop_assert!(fine.work().is_none() || coarse.work().is_some());
+        if let (Some(fine), Some(coarse)) = (fine.spacing(), coarse.spacing()) {
+            prop_assert!(fine <= coarse * (1.0 + 1e-12));
+        }
+    }
+
+    /// No level beats one on the front, and every level that counts is beaten or equalled by one.
+    #[test]
+    fn the_front_is_the_front(tried in series()) {
+        let front = super::pareto_front(&tried);
+        let beats = |a: &Tried, b: &Tried| {
+            a.work <= b.work && a.error <= b.error && (a.work, a.error) != (b.work, b.error)
+        };
+        let counted = || tried.iter().filter(|one| one.counts());
+        for k in &front {
+            prop_assert!(!counted().any(|one| beats(one, &tried[*k])));
+        }
+        for one in counted() {
+            let covered = |k: &usize| tried[*k].work <= one.work && tried[*k].error <= one.error;
+            prop_assert!(front.iter().any(covered));
+        }
+    }
+
+    /// No unit of work or spacing changes an answer.
+    #[test]
+    fn units_do_not_matter(tried in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
+        let other: Vec<Tried> = tried
+            .iter()
+            .map(|one| Tried { work: unit * one.work, spacing: one.spacing / 8.0, ..*one })
+            .collect();
+        prop_assert_eq!(Part::of(&tried), Part::of(&other));
+        match (reach(&tried, target).work(), reach(&other, target).work()) {
+            (Some(a), Some(b)) => prop_assert!((unit * a / b - 1.0).abs() < 1e-9),
+            (a, b) => prop_assert_eq!(a, b),
+        }
+    }
+}
