@@ -25,6 +25,9 @@ pub(super) enum Command {
     /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
     /// memory), and what is expected
     Explain(ExplainArgs),
+    /// Measure what accuracy costs: error against work and seconds, the cheapest method for an error,
+    /// and the most accurate setting within a budget
+    Cost(CostArgs),
 }
 
 #[derive(Debug, Args)]
@@ -76,4 +79,47 @@ pub(super) enum Format {
     Text,
     /// One JSON document
     Json,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CostArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Vary more than what suites refine, and say which split is best
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "WHAT")]
+    pub(super) over: Vec<Vary>,
+    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`, `500ms`,
+    /// `2min`
+    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with_all = ["over", "figures"])]
+    pub(super) budget: Option<f64>,
+    /// Print one JSON document
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Write work-precision diagrams into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(super) figures: Option<PathBuf>,
+    /// Measure the finer levels too that suites list under `full`
+    #[arg(long)]
+    pub(super) full: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Vary {
+    /// Particles per cell: half and twice as many along each axis
+    Ppc,
+    /// Time steps: half and twice as long
+    Dt,
+    /// Basis functions: all that go with the rest of the method
+    Basis,
+}
+
+/// A time with its unit, in seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
+    let known = units.iter().find_map(|(unit, size)| {
+        let number: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
+        Some(number * size)
+    });
+    let usable = known.filter(|time| *time > 0.0 && time.is_finite());
+    usable.ok_or_else(|| "expected a time with its unit, such as `10s` or `500ms`".to_owned())
 }

@@ -1,6 +1,7 @@
-//! `mpm-verify`: run, list, check and explain suites.
+//! `mpm-verify`: run, list, check and explain suites, and what they cost.
 
 mod args;
+mod cost;
 mod explain;
 mod output;
 mod run;
@@ -21,6 +22,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::List(args)) => show::list(&args.targets),
         Some(Command::Check(args)) => show::check(&args.targets),
         Some(Command::Explain(args)) => explain::explain(&args),
+        Some(Command::Cost(args)) => cost::cost(&args),
     };
     ExitCode::from(code)
 }

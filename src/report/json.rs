@@ -19,8 +19,17 @@
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
 //!             "kinetic_energy": 1e-4, "kinetic_energy_gain": 0.0, "energy": 1e-6},
 //!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "safe_step": null, "order": null, "failure": null}],
-//!     "forces": null, "stability": null}]}]}
+//!     "forces": null, "stability": null}],
+//!   "cost": [{"problem": "until t = 0.5 s, against the exact solution", "size": 0.05, "work": "transfers",
+//!     "targets": [0.01, 0.001, 0.0001], "methods": [{"case": "...",
+//!       "reached": [{"work": 130000.0, "at_most": false, "times": 1.0}, null, null],
+//!       "best": 5e-3, "not_reached": "floor", "front": [0, 1],
+//!       "exponent": {"value": -1.0, "low": -1.1, "high": -0.9, "theory": -1.0, "agrees": true}}]}]}]}
 //! ```
+//!
+//! `cost` ranks the methods of each problem of the suite, the cheapest first: errors are over `size`, `reached`
+//! has the work at each of the `targets` and how many `times` the least that is, `front` the levels that no
+//! other one beats, and `exponent` is k in work ~ error^k.
 //!
 //! `null` stands where a thing does not exist; numbers that are not finite are the strings
 //! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
@@ -37,7 +46,9 @@
 //! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
 //! or removed without a new major version.
 
-use super::{json_number::number, json_stability as stability};
+use super::{
+    cost::by_transfers, json_cost as cost, json_number::number, json_stability as stability,
+};
 use crate::subject::{Column, Holder, Profile};
 use crate::verify::{
     Axis, CaseOutcome, Conserved, Floor, FloorCause, ForceRow, Interval, LevelOutcome, Probe,
@@ -56,6 +67,7 @@ fn suite(outcome: &SuiteOutcome) -> Value {
         "suite": outcome.suite,
         "passed": outcome.passed(),
         "cases": outcome.cases.iter().map(case).collect::<Vec<_>>(),
+        "cost": cost::rankings(&by_transfers(outcome), "transfers"),
     })
 }
 

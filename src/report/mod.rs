@@ -5,12 +5,17 @@
 //! - [`svg()`]: figures, drawn by the layer in [`figure`].
 //! - [`drift`]: comparison of two texts, number by number.
 
+mod cost;
+mod cost_figure;
 pub mod drift;
 pub mod figure;
 mod json;
+mod json_cost;
 mod json_number;
+mod json_priced;
 mod json_stability;
 mod levels;
+mod priced;
 mod profile;
 mod stability;
 mod svg;
@@ -18,7 +23,11 @@ mod sweep;
 mod table;
 mod text;
 
+pub use cost::cost;
+pub use cost_figure::cost_figures;
 pub use json::json;
+pub use json_priced::priced_json;
+pub use priced::{bid, priced};
 pub use profile::{difference, profile};
 pub use svg::{Figure, svg};
 pub use text::{case, summary, text};

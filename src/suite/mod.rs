@@ -52,6 +52,7 @@ mod model;
 mod nature;
 mod path;
 mod plan;
+pub mod pricing;
 mod probe;
 pub mod profiles;
 mod reference;

@@ -68,7 +68,7 @@ pub(super) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
 }
 
-fn nodes(scene: &Scene, h: f64) -> f64 {
+pub(super) fn nodes(scene: &Scene, h: f64) -> f64 {
     (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
 }
 

@@ -57,8 +57,8 @@ pub use claim::Claim;
 pub use clock::{Clock, MOST_STEPS};
 pub use conservation::{Conserved, Drift};
 pub use cost::{
-    Agreement, Contender, End, Exponent, Part, Ranked, Ranking, Reach, TARGETS, Tried,
-    pareto_front, rankings,
+    Agreement, Bid, Contender, End, Exponent, Load, Machine, Model, Part, Priced, Ranked, Ranking,
+    Reach, TARGETS, Timing, Tried, pareto_front, rankings,
 };
 pub use expectation::{Bounds, Expectation, Seen};
 pub use fit::Interval;

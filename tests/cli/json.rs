@@ -73,7 +73,7 @@ fn every_key_is_there_and_no_other() {
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
     has(&document, &["suites"]);
     for suite in list(&document["suites"]) {
-        has(suite, &["suite", "passed", "cases"]);
+        has(suite, &["suite", "passed", "cases", "cost"]);
         for case in list(&suite["cases"]) {
             has(case, &CASE);
             for level in list(&case["levels"]) {
@@ -176,4 +176,29 @@ fn a_bad_file_leaves_one_document_of_the_good_ones() {
     let document = document(&folder, &["bad.yaml", "grid-crossing"], BAD_INPUT);
     let suites = list(&document["suites"]);
     assert_eq!((suites.len(), &suites[0]["suite"]), (1, &"grid-crossing".into()));
+}
+
+/// The ranking by transfers, with the keys that the documentation promises.
+#[test]
+fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
+    let [bar, forces] = list(&document["suites"]) else { panic!("two suites") };
+    assert!(list(&forces["cost"]).is_empty());
+    let [cost] = list(&bar["cost"]) else { panic!("one problem") };
+    has(cost, &["problem", "size", "work", "targets", "methods"]);
+    assert_eq!((&cost["work"], &cost["targets"][1]), (&"transfers".into(), &1e-3.into()));
+    let methods = list(&cost["methods"]);
+    assert_eq!(methods.len(), 2);
+    for method in methods {
+        has(method, &["case", "reached", "best", "not_reached", "front", "exponent"]);
+        has(&method["exponent"], &["value", "low", "high", "theory", "agrees"]);
+        assert_eq!(list(&method["reached"]).len(), 3);
+        let best = method["best"].as_f64().expect("an error");
+        for (target, reached) in [1e-2, 1e-3, 1e-4].iter().zip(list(&method["reached"])) {
+            assert_eq!(reached.is_null(), best > *target, "{method}");
+        }
+    }
+    assert_eq!(methods[0]["reached"][0]["times"], 1.0);
 }

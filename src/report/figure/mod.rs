@@ -1,6 +1,7 @@
 //! Figures as standalone SVG documents.
 //!
-//! Three kinds are drawn: the [`Convergence`] plot (error against cell size, both axes logarithmic),
+//! Four kinds are drawn: the [`Convergence`] plot (error against cell size, both axes logarithmic), the
+//! [`WorkPrecision`] diagram (error against work),
 //! the [`History`] plot (curves over linear axes) and the [`Map`] (numbers over colours). All are pure functions of
 //! their input, so that a figure can be compared byte by byte: every coordinate is printed with
 //! two decimals and every transcendental comes from `libm`.
@@ -27,6 +28,7 @@
 //! ```
 
 mod convergence;
+mod dark;
 mod history;
 mod label;
 mod legend;
@@ -43,6 +45,7 @@ mod text;
 mod thinning;
 mod ticks;
 mod triangle;
+mod work;
 
 #[cfg(test)]
 mod tests;
@@ -52,3 +55,4 @@ pub use history::{Curve, History};
 pub use levels::{Mark, Point};
 pub use map::{Field, Map};
 pub use series::Series;
+pub use work::WorkPrecision;

@@ -4,7 +4,7 @@ use super::legend::{Entry, KEY};
 use super::levels::{Level, Mark, Point, levels};
 use super::marker::{self, Fill};
 use super::plot::Plot;
-use super::style::{HEIGHT, Look, NEUTRAL, Shape, look};
+use super::style::{CONTEXT, HEIGHT, Look, NEUTRAL, Shape, look};
 use super::svg::{Element, Pt};
 
 /// The errors of one quantity over all levels.
@@ -28,6 +28,7 @@ const MARKS: [(Mark, &str); 4] = [
 pub(super) struct Line<'a> {
     name: &'a str,
     look: Look,
+    grey: bool,
     levels: Vec<Level>,
 }
 
@@ -73,6 +74,11 @@ pub(super) fn entries(lines: &[Line]) -> Vec<Entry> {
     series.chain(marks.map(|&(mark, text)| Entry::new(key(mark), text))).collect()
 }
 
+/// The key of failed levels, where no named series has any.
+pub(super) fn failed_entry() -> Entry {
+    Entry::new(key(Mark::Failed), MARKS[3].1)
+}
+
 fn key(mark: Mark) -> Element {
     let at = (KEY / 2.0, 0.0);
     match mark {
@@ -97,7 +103,18 @@ fn fill(mark: Mark) -> Fill {
 impl<'a> Line<'a> {
     /// The series at `index` in the order of the figure.
     pub(super) fn new((index, series): (usize, &'a Series)) -> Self {
-        Self { name: &series.name, look: look(index), levels: levels(&series.points) }
+        Self { name: &series.name, look: look(index), grey: false, levels: levels(&series.points) }
+    }
+
+    /// A series that is there for comparison: a thin line without markers.
+    pub(super) fn in_grey(series: &'a Series) -> Self {
+        let look = Look { colour: CONTEXT, ..look(0) };
+        Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
+    }
+
+    /// Whether a level failed.
+    pub(super) fn has_failed(&self) -> bool {
+        self.levels.iter().any(|level| level.mark == Mark::Failed)
     }
 
     /// Number of levels which are drawn.
@@ -128,6 +145,12 @@ impl<'a> Line<'a> {
         let path = self.path(plot);
         let mut group = Element::new("g");
         group.add(&Element::new("title").content(self.name));
+        if self.grey {
+            let points: Vec<Pt> = path.iter().map(|(at, _)| *at).collect();
+            let line = Element::through("polyline", &points).set("fill", "none");
+            group.add(&line.set("stroke", self.look.colour).at("stroke-width", 1.2));
+            return group;
+        }
         for ends in path.windows(2) {
             let line = Element::line(ends[0].0, ends[1].0).set("stroke", self.look.colour);
             let solid = ends[0].1 == Mark::Window && ends[1].1 == Mark::Window;

@@ -25,6 +25,11 @@ pub(super) const EXACT: &str = "#bdbdbd";
 /// What belongs to no series: keys of the marks, slope triangles.
 pub(super) const NEUTRAL: &str = "#4d4d4d";
 
+/// What no other method beats: a band below all lines.
+pub(super) const FRONT: &str = "#fbe9a6";
+/// Methods that are there for comparison only.
+pub(super) const CONTEXT: &str = "#b8b8b8";
+
 /// Outline of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {

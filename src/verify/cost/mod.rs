@@ -8,24 +8,33 @@
 //! | [`exponent`](Exponent) | what one more digit costs, beside theory |
 //! | [`front`](pareto_front()) | what nothing else beats |
 //! | [`ranking`](Ranking) | all of it for the methods of one problem |
+//! | [`timing`](Timing) | seconds that were measured |
+//! | [`model`](Model) | seconds that are predicted |
+//! | [`priced`](Priced) | a suite whose levels have been timed |
 //!
 //! Work is any number that adds up: particle-node transfers, which are the same everywhere, or
 //! seconds. Nothing is extrapolated: an error that no level reaches is not reached.
 
 mod exponent;
 mod front;
+mod model;
 mod part;
+mod priced;
 mod ranking;
 mod reach;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod tried;
 
 pub use exponent::{Agreement, Exponent};
 pub use front::pareto_front;
+pub use model::{Load, Model};
 pub use part::{End, Part};
+pub use priced::{Bid, Priced};
 pub use ranking::{Contender, Ranked, Ranking, rankings};
 pub use reach::Reach;
+pub use timing::{Machine, Timing};
 pub use tried::Tried;
 
 /// The errors, over the size of the solution, that tables ask for.

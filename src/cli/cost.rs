@@ -1,0 +1,130 @@
+//! `mpm-verify cost`: what accuracy costs, measured on this machine.
+
+use super::{
+    args::{CostArgs, Vary},
+    output, select,
+    status::{BAD_INPUT, FAILED, PASSED},
+};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::{
+    report,
+    suite::{
+        Extent, StudyPlan, Suite,
+        pricing::{Over, bid, price, variants},
+    },
+    verify::{Bid, Priced},
+};
+use std::{fs, path::Path};
+
+/// Prices suites one after the other; nothing else of the harness runs while one is timed.
+pub(super) fn cost(args: &CostArgs) -> u8 {
+    if let Some(folder) = &args.figures
+        && let Err(error) = fs::create_dir_all(folder)
+    {
+        output::complain(&format!("error: --figures {}: {error}", folder.display()));
+        return BAD_INPUT;
+    }
+    let (suites, refused): (Vec<_>, Vec<_>) =
+        select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
+    let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
+    let found = match args.budget {
+        Some(budget) => bids(&suites, budget, args),
+        None => prices(&suites, args),
+    };
+    for complaint in refused.iter().filter_map(|refused| refused.as_ref().err()) {
+        output::complain(&complaint.to_string());
+    }
+    if refused.is_empty() { found } else { BAD_INPUT }
+}
+
+/// The most accurate setting of each suite within the budget.
+fn bids(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
+    let mut found: Vec<(String, Bid)> = Vec::new();
+    let mut code = PASSED;
+    for suite in suites {
+        match bid(suite, budget) {
+            Ok(one) => {
+                if !args.json {
+                    output::print(&format!("{}\n", report::bid(&suite.name, &one)));
+                }
+                found.push((suite.name.clone(), one));
+            }
+            Err(reason) => {
+                output::complain(&format!("error: --budget: {}: {reason}", suite.name));
+                code = FAILED;
+            }
+        }
+    }
+    if args.json {
+        output::print(&report::priced_json(&[], &found));
+    }
+    code
+}
+
+/// Errors and seconds of every level of each convergence suite; others have no error to pay for.
+fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
+    let over: Vec<Over> = args.over.iter().map(|what| varied(*what)).collect();
+    let mut all: Vec<Priced> = Vec::new();
+    let mut code = PASSED;
+    for suite in suites.iter().filter(|suite| matches!(suite.study, StudyPlan::Convergence(_))) {
+        let priced = one(suite, &over, args);
+        if !args.json {
+            output::print(&format!("{}\n", report::priced(&priced, !over.is_empty())));
+        }
+        if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &priced)) {
+            output::complain(&error);
+            code = BAD_INPUT;
+        }
+        all.push(priced);
+    }
+    if args.json {
+        output::print(&report::priced_json(&all, &[]));
+    }
+    code
+}
+
+fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> Priced {
+    let extent = if args.full { Extent::Full } else { Extent::Usual };
+    let variants = variants(suite, over);
+    let levels: usize = std::iter::once(suite)
+        .chain(&variants)
+        .filter_map(|suite| match &suite.study {
+            StudyPlan::Convergence(plan) => {
+                Some(plan.cases.len() * plan.refine.levels(extent).len())
+            }
+            _ => None,
+        })
+        .sum();
+    // Each is run for its error, and timed.
+    let bar = ProgressBar::with_draw_target(Some(2 * levels as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
+        bar.set_style(style);
+    }
+    bar.set_message(suite.name.clone());
+    let priced = price(suite, &variants, extent, &|| bar.inc(1));
+    bar.finish_and_clear();
+    priced
+}
+
+fn varied(what: Vary) -> Over {
+    match what {
+        Vary::Ppc => Over::Ppc,
+        Vary::Dt => Over::Dt,
+        Vary::Basis => Over::Basis,
+    }
+}
+
+fn draw(folder: &Path, priced: &Priced) -> Result<(), String> {
+    let (suite, title) = (&priced.outcome.suite, &priced.outcome.title);
+    let seconds = "seconds of the steps, one thread";
+    let transfers = "particle-node transfers";
+    let mut figures = report::cost_figures(suite, title, &priced.by_seconds(), seconds, "seconds");
+    let counted = priced.by_transfers();
+    figures.extend(report::cost_figures(suite, title, &counted, transfers, "transfers"));
+    for figure in figures {
+        let path = folder.join(&figure.file);
+        fs::write(&path, figure.svg)
+            .map_err(|error| format!("error: --figures {}: {error}", path.display()))?;
+    }
+    Ok(())
+}
