@@ -1,5 +1,6 @@
 //! The command line as its user meets it: what is printed where, and with which exit status.
 
+mod cost;
 mod explain;
 mod folder;
 mod hostile;
@@ -125,7 +126,7 @@ fn every_suite_that_is_built_in_is_sound() {
 
 #[test]
 fn a_misspelt_name_is_answered_with_the_right_one() {
-    for command in ["list", "check", "explain", "run"] {
+    for command in ["list", "check", "explain", "run", "cost"] {
         let found = Folder::new().call(&[command, "odometer"]);
         assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
         assert!(found.errors.contains("there is no suite called `odometer`"), "{}", found.errors);
@@ -144,7 +145,7 @@ fn a_name_like_no_other_is_answered_with_where_they_are() {
 fn a_folder_without_a_suite_is_an_error() {
     let folder = Folder::new();
     folder.write("empty/notes.txt", "nothing");
-    for command in ["list", "check", "explain", "run"] {
+    for command in ["list", "check", "explain", "run", "cost"] {
         let found = folder.call(&[command, "empty"]);
         assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
         assert!(found.errors.contains("this folder holds no suite"), "{}", found.errors);

@@ -5,10 +5,12 @@
 
 mod budget;
 mod candidate;
+mod goal;
 mod machine;
 mod measure;
 mod variants;
 
 pub use budget::bid;
+pub use goal::{Goal, goals};
 pub use measure::price;
 pub use variants::{Over, variants};

@@ -7,6 +7,7 @@ use xml::{well_formed, without_bad_numbers};
 
 mod overlap;
 mod samples;
+mod work;
 mod xml;
 
 #[rstest]

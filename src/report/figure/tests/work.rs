@@ -1,0 +1,78 @@
+//! The work-precision diagram.
+
+use super::{
+    WorkPrecision, any_value, marks, samples,
+    xml::{well_formed, without_bad_numbers},
+};
+use crate::report::figure::{Mark, Point, Series};
+use proptest::prelude::*;
+
+fn diagram() -> WorkPrecision {
+    let convergence = samples::three_series();
+    let mut others = convergence.series.clone();
+    others[0].points[0].error = f64::NAN;
+    WorkPrecision {
+        title: convergence.title,
+        x_label: "particle-node transfers".to_owned(),
+        y_label: convergence.y_label,
+        series: convergence.series,
+        others,
+        front: vec![(0.01, 0.1), (0.1, 0.02)],
+    }
+}
+
+fn band(svg: &str) -> usize {
+    // The front in the frame, and its key.
+    svg.matches("stroke-width=\"11.00\"").count()
+}
+
+#[test]
+fn the_front_the_others_and_their_failures_are_explained() {
+    let svg = diagram().to_svg();
+    assert_eq!(well_formed(&svg), Ok(()));
+    assert!(without_bad_numbers(&svg));
+    assert_eq!(band(&svg), 2);
+    for words in ["Pareto front", "3 others", "failed or not finite", "prefers-color-scheme: dark"]
+    {
+        assert_eq!(svg.matches(words).count(), 1, "{words}");
+    }
+    assert_eq!(svg, diagram().to_svg());
+}
+
+#[test]
+fn without_others_and_front_there_are_no_keys_of_them() {
+    let svg = WorkPrecision { others: Vec::new(), front: Vec::new(), ..diagram() }.to_svg();
+    assert!(!svg.contains("others") && !svg.contains("Pareto") && band(&svg) == 0);
+}
+
+#[test]
+fn a_failure_of_a_method_without_a_name_is_explained_too() {
+    let sound = Series {
+        name: "sound".to_owned(),
+        points: vec![Point { h: 1.0, error: 0.1, mark: Mark::Window }],
+    };
+    let failed = Series {
+        name: "failed".to_owned(),
+        points: vec![Point { h: 2.0, error: f64::NAN, mark: Mark::Failed }],
+    };
+    let figure = WorkPrecision { series: vec![sound], others: vec![failed], ..diagram() };
+    assert!(figure.to_svg().contains("failed or not finite"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(100) })]
+
+    #[test]
+    fn no_input_can_make_it_fail(
+        points in prop::collection::vec((any_value(), any_value(), marks()), 0..9),
+        front in prop::collection::vec((any_value(), any_value()), 0..4),
+    ) {
+        let points: Vec<Point> =
+            points.into_iter().map(|(h, error, mark)| Point { h, error, mark }).collect();
+        let one = Series { name: "one".to_owned(), points };
+        let (series, others) = (vec![one.clone(), one.clone()], vec![one]);
+        let svg = WorkPrecision { series, others, front, ..diagram() }.to_svg();
+        prop_assert_eq!(well_formed(&svg), Ok(()));
+        prop_assert!(without_bad_numbers(&svg));
+    }
+}

@@ -1,0 +1,159 @@
+//! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here is
+//! what does not.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use serde_json::Value;
+
+fn document(folder: &Folder, arguments: &[&str]) -> Value {
+    let found = folder.call(&[&["cost", "--json"], arguments].concat());
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    serde_json::from_str(&found.out).expect("one document")
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("a list")
+}
+
+#[test]
+fn the_report_has_levels_a_model_and_both_rankings() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let found = folder.call(&["cost", "bar.yaml"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    for words in [
+        "short-bar: Short bar\n",
+        "  machine           ",
+        "ns/transfer",
+        "cost model, ns",
+        "work              seconds, between neighbouring levels",
+        "work              particle-node transfers, between",
+        "work ~ error^k",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    let rows = |name: &str| found.out.lines().filter(|line| line.contains(name)).count();
+    // Four levels, a model, and two rows in each of two rankings.
+    assert_eq!(rows("mpm-linear-flip-musl"), 9);
+    assert!(!found.out.contains("best split"), "{}", found.out);
+}
+
+#[test]
+fn every_level_has_its_seconds_and_its_work() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml"]);
+    let [suite] = list(&document["suites"]) else { panic!("one suite") };
+    assert!(suite["machine"]["cores"].as_u64() >= Some(1));
+    assert_eq!(list(&suite["cases"]).len(), 2);
+    for case in list(&suite["cases"]) {
+        let model = &case["model"];
+        let parts = ["transfer", "particle", "node", "step"].map(|key| model[key].as_f64());
+        assert!(parts.iter().all(|part| *part >= Some(0.0)), "{model}");
+        assert!(parts.iter().any(|part| *part > Some(0.0)), "{model}");
+        assert_eq!(list(&case["levels"]).len(), 4);
+        for level in list(&case["levels"]) {
+            let seconds = &level["seconds"];
+            let [low, median, high] =
+                ["low", "median", "high"].map(|key| seconds[key].as_f64().expect("seconds"));
+            assert!(0.0 < low && low <= median && median <= high, "{seconds}");
+            assert!(seconds["repeats"].as_u64() >= Some(5), "{seconds}");
+            assert!(level["transfers"].as_u64() > Some(0));
+        }
+    }
+    let works: Vec<&Value> = list(&suite["cost"]).iter().map(|one| &one["work"]).collect();
+    assert_eq!(works, ["seconds", "transfers"]);
+}
+
+/// Three settings of particles times three of steps; the FEM has no particles.
+#[test]
+fn what_is_varied_has_cases_of_its_own() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml", "--over", "ppc,dt"]);
+    let cases = list(&document["suites"][0]["cases"]);
+    let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();
+    assert_eq!(names.len(), 9 + 3, "{names:?}");
+    for name in ["mpm-linear-flip-musl-ppc-8-dt-x0.5", "fem-linear-lumped-dt-x2"] {
+        assert!(names.contains(&name), "no {name} among {names:?}");
+    }
+    let split = folder.call(&["cost", "bar.yaml", "--over", "ppc"]);
+    assert!(split.out.contains("best split for"), "{}", split.out);
+}
+
+/// With steps far above its limit a method breaks; its levels are rows.
+#[test]
+fn what_breaks_is_a_row() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR.replace("dt: 1e-3", "dt: 9e-3"));
+    let found = folder.call(&["cost", "bar.yaml", "--over", "dt", "--figures", "figures"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let broken = found.out.lines().filter(|line| line.split_whitespace().any(|w| w == "failed"));
+    assert!(broken.count() > 0, "{}", found.out);
+    let figure = folder.read("figures/short-bar-work-transfers.svg");
+    assert!(figure.contains("failed or not finite"));
+    assert!(folder.files("figures").contains(&"short-bar-work-seconds.svg".to_owned()));
+}
+
+#[test]
+fn other_bases_are_those_that_go_with_the_method() {
+    let folder = Folder::new();
+    let tls = BAR.replace("transfer: flip", "transfer: tls");
+    folder.write("bar.yaml", tls);
+    let document = document(&folder, &["bar.yaml", "--over", "basis"]);
+    let cases = list(&document["suites"][0]["cases"]);
+    let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();
+    assert!(names.contains(&"mpm-quadratic-bspline-tls-musl"), "{names:?}");
+    assert!(!names.iter().any(|name| name.contains("gimp")), "{names:?}");
+}
+
+#[test]
+fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let document = document(&folder, &["bar.yaml", "--budget", "30ms"]);
+    let bid = &document["suites"][0]["bid"];
+    let pair = |key: &str| {
+        ["predicted", "measured"].map(|which| bid[key][which].as_f64().expect("a number"))
+    };
+    let ([predicted, measured], errors) = (pair("seconds"), pair("error"));
+    assert!(predicted <= 0.03 && measured > 0.0, "{bid}");
+    assert!(errors.iter().all(|error| *error > 0.0), "{bid}");
+    // Four levels of which the finest has 12 cells take a fraction of this.
+    assert!(bid["cells"].as_u64() > Some(12) && bid["beyond"] == true, "{bid}");
+    assert_eq!(bid["failure"], Value::Null);
+    let text = folder.call(&["cost", "bar.yaml", "--budget", "30ms"]).out;
+    for words in ["predicted within 0.03 s", "predicted  measured", "share of budget", "model  "] {
+        assert!(text.contains(words), "no `{words}` in\n{text}");
+    }
+}
+
+#[test]
+fn what_cannot_be_bought_says_so() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let poor = folder.call(&["cost", "bar.yaml", "--budget", "1e-9s"]);
+    assert_eq!(poor.code, FAILED);
+    assert!(poor.errors.contains("nothing is predicted to be done in"), "{}", poor.errors);
+    let time = folder.call(&["cost", "heat-temporal-order", "--budget", "1s"]);
+    assert_eq!(time.code, FAILED);
+    assert!(time.errors.contains("does not refine its cells"), "{}", time.errors);
+}
+
+#[test]
+fn words_that_are_not_known_are_answered() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    for (arguments, words) in [
+        (&["--over", "pcc"][..], "'ppc'"),
+        (&["--budget", "10"], "such as `10s`"),
+        (&["--budget", "-1s"], "such as `10s`"),
+        (&["--budget", "nans"], "such as `10s`"),
+        (&["--budget", "1s", "--over", "dt"], "cannot be used with"),
+        (&["--figures", "bar.yaml/x"], "--figures bar.yaml/x: "),
+    ] {
+        let arguments = [&["cost", "bar.yaml"], arguments].concat();
+        let found = folder.call(&arguments);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""), "{arguments:?}");
+        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    }
+}
