@@ -1,4 +1,4 @@
-//! Rankings by cost as JSON, see [`super::json`].
+//! Rankings by cost as JSON, see [`super::json()`].
 
 use super::json_number::number;
 use crate::verify::{Agreement, End, Exponent, Ranked, Ranking, Reach};

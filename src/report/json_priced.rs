@@ -17,7 +17,7 @@
 
 use super::{json_cost::rankings, json_number::number};
 use crate::subject::{Column, Holder, Profile};
-use crate::verify::{Bid, CaseOutcome, End, LevelOutcome, Load, Machine, Model, Priced, Timing};
+use crate::verify::{Bid, CaseOutcome, LevelOutcome, Load, Machine, Model, Priced, Timing};
 use serde_json::{Value, json};
 
 /// The document, indented, with a newline at its end. A suite has either been priced or bid for.
@@ -121,7 +121,7 @@ fn bid(bid: &Bid) -> Value {
         "seconds": pair(bid.seconds),
         "error": pair(bid.error),
         "beyond": bid.beyond,
-        "end": bid.end.map(End::words),
+        "limit": bid.limit,
         "failure": bid.failure,
         "model": model(&bid.model),
         "fitted": bid.fitted,

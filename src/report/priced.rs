@@ -154,8 +154,8 @@ pub fn bid(suite: &str, bid: &Bid) -> String {
     text += &format!("\n{}\n", lines(&table.flush_left(&[0]).lines()));
     text += &row("share of budget", &format!("{:.0} %", 100.0 * seconds[1] / budget));
     text += &row("model", &model(&bid.model, bid.fitted));
-    if let Some(end) = bid.end {
-        text += &row("nothing finer", &format!("the method goes no further: {}", end.words()));
+    if let Some(limit) = bid.limit {
+        text += &row("nothing finer", limit);
     }
     if let Some(failure) = &bid.failure {
         text += &row("failure", failure);

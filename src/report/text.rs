@@ -4,7 +4,7 @@
 //! depends on the machine.
 
 use super::{
-    levels,
+    cost, levels,
     profile::profile,
     stability,
     table::{Table, optional, scientific},
@@ -29,6 +29,10 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     for case in &outcome.cases {
         lines.push(String::new());
         case_lines(&mut lines, case);
+    }
+    for ranking in cost::by_transfers(outcome) {
+        lines.push(String::new());
+        lines.extend(cost::cost(&ranking, cost::TRANSFERS).lines().map(str::to_owned));
     }
     lines.join("\n") + "\n"
 }

@@ -80,11 +80,14 @@ fn what_is_varied_has_cases_of_its_own() {
     assert!(split.out.contains("best split for"), "{}", split.out);
 }
 
-/// With steps far above its limit a method breaks; its levels are rows.
+/// With steps of twice its limit a method breaks; its levels are rows.
 #[test]
 fn what_breaks_is_a_row() {
     let folder = Folder::new();
-    folder.write("bar.yaml", BAR.replace("dt: 1e-3", "dt: 9e-3"));
+    folder.write(
+        "bar.yaml",
+        BAR.replace("until: 0.05, dt: 1e-3", "until: 4, dt: \"0.08*h\", instants: 1"),
+    );
     let found = folder.call(&["cost", "bar.yaml", "--over", "dt", "--figures", "figures"]);
     assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
     let broken = found.out.lines().filter(|line| line.split_whitespace().any(|w| w == "failed"));
@@ -146,7 +149,7 @@ fn words_that_are_not_known_are_answered() {
     for (arguments, words) in [
         (&["--over", "pcc"][..], "'ppc'"),
         (&["--budget", "10"], "such as `10s`"),
-        (&["--budget", "-1s"], "such as `10s`"),
+        (&["--budget=-1s"], "such as `10s`"),
         (&["--budget", "nans"], "such as `10s`"),
         (&["--budget", "1s", "--over", "dt"], "cannot be used with"),
         (&["--figures", "bar.yaml/x"], "--figures bar.yaml/x: "),

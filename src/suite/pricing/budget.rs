@@ -125,8 +125,7 @@ impl Candidate<'_> {
             seconds: [predicted, took],
             error: [self.error(level.h).unwrap_or(f64::NAN), found.error / size],
             beyond: level.h < self.finest().h * (1.0 - 1e-9),
-            end: (!self.goes_on() && level.cells == self.finest().cells)
-                .then_some(self.ranked.part.end),
+            limit: self.limit(level),
             failure: found.run.failure.clone(),
             model: *model,
             fitted,

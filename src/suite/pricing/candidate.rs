@@ -13,6 +13,9 @@ use crate::{
     },
 };
 
+/// How many times finer than all levels that have run an order is trusted.
+const FINER: u64 = 8;
+
 /// A method that may be chosen.
 pub(super) struct Candidate<'a> {
     pub(super) plan: &'a ConvergencePlan,
@@ -59,6 +62,8 @@ impl Candidate<'_> {
         let h = last.h * last.cells as f64 / cells as f64;
         let rule = libm::log(before.dt / last.dt) / libm::log(before.h / last.h);
         let rule = if rule.is_finite() { rule } else { 0.0 };
+        // A step that stays as it is would be beyond its Courant limit sooner or later.
+        let rule = if h < last.h { rule.max(1.0) } else { rule };
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }
 
@@ -94,10 +99,28 @@ impl Candidate<'_> {
         self.study.verdict() == Verdict::Converging && self.ranked.part.end == End::Levels
     }
 
+    /// Cells of the finest level that is considered.
+    fn most_cells(&self) -> u64 {
+        let finest = self.finest().cells;
+        if self.goes_on() { finest.saturating_mul(FINER) } else { finest }
+    }
+
+    /// Why a level is the finest that is considered, if it is.
+    pub(super) fn limit(&self, level: LevelPlan) -> Option<&'static str> {
+        let next = level.cells.saturating_add(self.stride);
+        let last = next > self.most_cells();
+        let why = if self.goes_on() {
+            "no order is trusted further"
+        } else {
+            self.ranked.part.end.words()
+        };
+        last.then_some(why)
+    }
+
     /// The finest level that is predicted to be done in time. Beyond the levels that have run only where
     /// the method converges on all of them.
     pub(super) fn finest_within(&self, model: &Model, budget: f64) -> Option<LevelPlan> {
-        let most = if self.goes_on() { u64::MAX / 4 } else { self.finest().cells };
+        let most = self.most_cells();
         let first = self.study.levels[self.ranked.part.levels.start].cells;
         let fits = |cells: u64| {
             let level = self.level(cells);

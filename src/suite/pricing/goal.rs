@@ -22,7 +22,7 @@ pub struct Goal<'a> {
 /// For every method of the suite's first problem the cheapest level that it lists, of those over which
 /// the method converges, whose error over the size of the solution is at most `target`; the cheapest
 /// method first. Methods that do not reach it are left out.
-pub fn goals<'a>(suite: &'a Suite, target: f64) -> Vec<Goal<'a>> {
+pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let StudyPlan::Convergence(plan) = &suite.study else { return Vec::new() };
     let transfers =
         |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.census.transfers as f64;

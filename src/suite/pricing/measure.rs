@@ -14,7 +14,7 @@ use crate::{
         plan::{Extent, LevelPlan},
         size::nodes,
     },
-    verify::{CaseOutcome, Clock, LevelOutcome, Load, Priced, SuiteOutcome, Timing},
+    verify::{CaseOutcome, Clock, LevelOutcome, Load, Priced, Timing},
 };
 
 /// Fewest repeats, and the time (s) that they must fill.
@@ -96,7 +96,7 @@ pub fn price(
         }
     }
     let outcome = Runner::over(suite, extent).outcome(cases);
-    Priced { outcome: SuiteOutcome { ..outcome }, levels, machine: observed.seen() }
+    Priced { outcome, levels, machine: observed.seen() }
 }
 
 fn index(plan: &ConvergencePlan, case: &Case) -> usize {
@@ -113,15 +113,10 @@ fn time(jobs: &mut [Job<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sy
         observed.look();
         open.retain(|k| {
             let job = &mut jobs[*k];
-            match seconds(job.plan, job.case, job.level) {
-                Ok(seconds) => job.seconds.push(seconds),
-                // What cannot be set up has no time, now or later.
-                Err(_) => {
-                    progress();
-                    return false;
-                }
-            }
-            let done = job.is_done();
+            let found = seconds(job.plan, job.case, job.level);
+            job.seconds.extend(found.iter());
+            // What cannot be set up has no time, now or later.
+            let done = found.is_err() || job.is_done();
             if done {
                 progress();
             }

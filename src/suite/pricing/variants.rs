@@ -72,7 +72,7 @@ fn varied(plan: &ConvergencePlan, dt: f64, (times, over): (u64, u64)) -> Option<
             None => None,
             Some(ppc) => {
                 let n = per_axis(ppc, d)? as u64 * times;
-                if n % over != 0 {
+                if !n.is_multiple_of(over) {
                     return None;
                 }
                 Some((n / over).pow(d as u32))

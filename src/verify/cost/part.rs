@@ -73,13 +73,11 @@ impl Part {
             }
             start = end;
         }
-        match best {
-            Some((_, levels)) => Self { end: end(tried, levels.end), levels },
-            None => {
-                let broke = tried.iter().any(|one| one.failed);
-                Self { levels: 0..0, end: if broke { End::Failed } else { End::NoTrend } }
-            }
+        if let Some((_, levels)) = best {
+            return Self { end: end(tried, levels.end), levels };
         }
+        let broke = tried.iter().any(|one| one.failed);
+        Self { levels: 0..0, end: if broke { End::Failed } else { End::NoTrend } }
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::{
     model::{Load, Model},
-    part::End,
     ranking::{Ranking, rankings},
     timing::{Machine, Timing},
 };
@@ -74,7 +73,7 @@ pub struct Bid {
     /// Whether the setting is finer than all levels that the suite lists.
     pub beyond: bool,
     /// Why nothing finer was considered, if that is not for the budget.
-    pub end: Option<End>,
+    pub limit: Option<&'static str>,
     /// Why the run ended early, if it did.
     pub failure: Option<String>,
     /// The model that predicted.

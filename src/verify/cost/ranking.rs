@@ -77,9 +77,9 @@ impl Ranking {
         for k in 0..targets.len() {
             let works = rows.iter().filter_map(|row| row.reaches[k].work());
             let least = works.fold(f64::INFINITY, f64::min);
-            rows.iter_mut().for_each(|row| {
+            for row in &mut rows {
                 row.times[k] = row.reaches[k].work().map(|work| work / least);
-            });
+            }
         }
         rows.sort_by(|a, b| order(&a.reaches, &b.reaches));
         Self { problem, size, targets: targets.to_vec(), rows }
