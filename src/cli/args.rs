@@ -1,6 +1,7 @@
 //! The words of the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use mpm_verify::report::compare;
 use std::path::PathBuf;
 
 /// Verifies Material Point Method solvers: suites of benchmarks, observed orders, verdicts.
@@ -28,6 +29,9 @@ pub(super) enum Command {
     /// Measure what accuracy costs: error against work and seconds, the cheapest method for an error,
     /// and the most accurate setting within a budget
     Cost(CostArgs),
+    /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
+    /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
+    Compare(CompareArgs),
 }
 
 #[derive(Debug, Args)]
@@ -45,6 +49,30 @@ pub(super) struct ExplainArgs {
     /// Say what a step would no longer take without this effect of the scene
     #[arg(long, value_name = "EFFECT")]
     pub(super) without: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// JSON of the run before: `mpm-verify run --format json`, or `report.json` of `run --out`
+    #[arg(value_name = "OLD.json")]
+    pub(super) old: PathBuf,
+    /// JSON of the run after
+    #[arg(value_name = "NEW.json")]
+    pub(super) new: PathBuf,
+    /// What to print
+    #[arg(long, value_enum, default_value_t = Page::Text)]
+    pub(super) format: Page,
+    /// Largest relative change of a figure that counts as none
+    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE)]
+    pub(super) tolerance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Page {
+    /// Aligned tables
+    Text,
+    /// A comment for a pull request
+    Markdown,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,7 @@
-//! `mpm-verify`: run, list, check and explain suites, and what they cost.
+//! `mpm-verify`: run, list, check and explain suites, compare runs, and what accuracy costs.
 
 mod args;
+mod compare;
 mod cost;
 mod explain;
 mod output;
@@ -23,6 +24,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Check(args)) => show::check(&args.targets),
         Some(Command::Explain(args)) => explain::explain(&args),
         Some(Command::Cost(args)) => cost::cost(&args),
+        Some(Command::Compare(args)) => compare::compare(&args),
     };
     ExitCode::from(code)
 }

@@ -1,9 +1,9 @@
 //! What the exit status says.
 
-/// Everything came as expected.
+/// Everything came as expected; in a comparison, nothing got worse.
 pub(super) const PASSED: u8 = 0;
 
-/// Some expectation was not met.
+/// Some expectation was not met; in a comparison, something got worse.
 pub(super) const FAILED: u8 = 1;
 
 /// Something that was given could not be used.

@@ -5,6 +5,7 @@
 //! ```json
 //! {"suites": [{"suite": "...", "passed": true, "cases": [{
 //!     "case": "...", "subject": "mpm", "axis": "space", "formal_order": 2.0,
+//!     "judge": {"of": "displacement", "norm": "rms", "scale": null},
 //!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
 //!     "verdict": "converging", "expected": "...", "passed": true,
 //!     "reason": "...", "unmet": [],
@@ -51,8 +52,8 @@ use super::{
 };
 use crate::subject::{Column, Holder, Profile};
 use crate::verify::{
-    Axis, CaseOutcome, Conserved, Floor, FloorCause, ForceRow, Interval, LevelOutcome, Probe,
-    Study, SuiteOutcome,
+    Axis, CaseOutcome, Conserved, Convergence, Floor, FloorCause, ForceRow, Interval, LevelOutcome,
+    Probe, Study, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
@@ -82,6 +83,7 @@ fn case(outcome: &CaseOutcome) -> Value {
         "formal_order": study
             .filter(|study| study.axis != Axis::Particles)
             .map(|study| number(study.formal_order)),
+        "judge": study.filter(|study| study.compared).map(judge),
         "observed_order": study.and_then(|study| study.judgement.order).map(interval),
         "verdict": outcome.verdict,
         "expected": outcome.expected,
@@ -100,6 +102,11 @@ fn case(outcome: &CaseOutcome) -> Value {
             _ => Value::Null,
         },
     })
+}
+
+/// What the judged errors are errors of, and what they are divided by.
+fn judge(study: &Convergence) -> Value {
+    json!({"of": study.of.name(), "norm": study.norm, "scale": study.scale.map(number)})
 }
 
 fn interval(order: Interval) -> Value {

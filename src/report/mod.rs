@@ -4,9 +4,11 @@
 //! - [`json()`]: one document, an interface.
 //! - [`svg()`]: figures, drawn by the layer in [`figure`].
 //! - [`drift`]: comparison of two texts, number by number.
+//! - [`mod@compare`]: two JSON documents side by side, what moved first.
 
 mod cost;
 mod cost_figure;
+pub mod compare;
 pub mod drift;
 pub mod figure;
 mod json;

@@ -1,13 +1,14 @@
 //! `--format json`: one document, with the keys that the documentation promises.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
-use serde_json::Value;
+use serde_json::{Value, json};
 
-const CASE: [&str; 15] = [
+const CASE: [&str; 16] = [
     "case",
     "subject",
     "axis",
     "formal_order",
+    "judge",
     "observed_order",
     "verdict",
     "expected",
@@ -112,6 +113,8 @@ fn a_case_that_converges_has_its_figures() {
     assert_eq!((&case["formal_order"], &case["forces"]), (&2.0.into(), &Value::Null));
     let order = |key: &str| case["observed_order"][key].as_f64().expect("a number");
     has(&case["observed_order"], &["value", "low", "high"]);
+    let judge = json!({"of": "displacement", "norm": "rms", "scale": null});
+    assert_eq!(case["judge"], judge);
     assert!(order("low") <= order("value") && order("value") <= order("high"));
     let levels = list(&case["levels"]);
     let cells: Vec<u64> = levels.iter().filter_map(|level| level["cells"].as_u64()).collect();

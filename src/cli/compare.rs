@@ -1,0 +1,61 @@
+//! `mpm-verify compare`.
+
+use super::{
+    args::{CompareArgs, Page},
+    output,
+    status::{BAD_INPUT, FAILED, PASSED},
+};
+use mpm_verify::{
+    report::compare::{self, Document, Unreadable},
+    suite::yaml::Complaint,
+};
+use std::{fs, ops::Range, path::Path};
+
+/// Prints what moved between two runs. Both files are read first: who has two bad ones learns of both.
+pub(super) fn compare(args: &CompareArgs) -> u8 {
+    let tolerance = args.tolerance;
+    if !(tolerance.is_finite() && tolerance >= 0.0) {
+        let message = "expected a share of at least 0, such as 0.001";
+        output::complain(&format!("error: --tolerance {tolerance}: {message}"));
+        return BAD_INPUT;
+    }
+    let (old, new) = match (document(&args.old), document(&args.new)) {
+        (Ok(old), Ok(new)) => (old, new),
+        (old, new) => {
+            for complaint in [old.err(), new.err()].into_iter().flatten() {
+                output::complain(&complaint.to_string());
+            }
+            return BAD_INPUT;
+        }
+    };
+    let found = compare::compare(&old, &new, tolerance);
+    output::print(&match args.format {
+        Page::Text => compare::text(&found),
+        Page::Markdown => compare::markdown(&found),
+    });
+    if found.is_worse() { FAILED } else { PASSED }
+}
+
+fn document(path: &Path) -> Result<Document, Complaint> {
+    let file = path.display().to_string();
+    let text = fs::read_to_string(path).map_err(|error| {
+        let message = format!("this file cannot be read: {error}");
+        Complaint::about(&file, &message)
+    })?;
+    Document::read(&text).map_err(|unreadable| {
+        let Unreadable { message, place } = unreadable;
+        let complaint = match place {
+            Some(place) => Complaint::at(&file, &text, bytes(&text, place), &message),
+            None => Complaint::about(&file, &message),
+        };
+        let help = "expected the document that `mpm-verify run --format json` prints";
+        complaint.with_help(help)
+    })
+}
+
+/// The byte at a line and a column, which is counted in bytes.
+fn bytes(text: &str, (line, column): (usize, usize)) -> Range<usize> {
+    let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+    let at = (start + column - 1).min(text.len());
+    at..at + 1
+}

@@ -1,0 +1,149 @@
+//! What is read of a document that [`json()`](crate::report::json()) has written.
+//!
+//! Keys that are not asked for may be there: documents of later versions have more. Keys that were
+//! added since the first version may be missing.
+
+use super::number::Number;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+
+/// The results of a run, as far as they are compared.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Document {
+    pub(super) suites: Vec<Suite>,
+}
+
+/// Why a text is no such document, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unreadable {
+    /// What is wrong.
+    pub message: String,
+    /// Line and column, both from one, where there is a place.
+    pub place: Option<(usize, usize)>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Suite {
+    #[serde(rename = "suite")]
+    pub(super) name: String,
+    pub(super) cases: Vec<Case>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Case {
+    #[serde(rename = "case")]
+    pub(super) name: String,
+    pub(super) verdict: String,
+    pub(super) passed: bool,
+    #[serde(default)]
+    pub(super) unmet: Vec<String>,
+    pub(super) judge: Option<Judge>,
+    pub(super) axis: Option<String>,
+    pub(super) observed_order: Option<Order>,
+    pub(super) levels: Vec<Level>,
+    pub(super) stability: Option<Stability>,
+}
+
+/// What is judged: errors of different things are not compared.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Judge {
+    pub(super) of: String,
+    pub(super) norm: String,
+    pub(super) scale: Option<Number>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct Order {
+    pub(super) value: Number,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Level {
+    pub(super) cells: u64,
+    pub(super) h: Number,
+    pub(super) spacing: Number,
+    pub(super) ppc: Option<u64>,
+    pub(super) transfers: u64,
+    pub(super) judged: Option<Number>,
+    pub(super) failure: Option<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Stability {
+    pub(super) swept: String,
+    pub(super) sought: Option<String>,
+    pub(super) rows: Vec<StabilityRow>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct StabilityRow {
+    pub(super) value: Number,
+    pub(super) run: Option<Run>,
+    pub(super) predicted: Option<Limit>,
+    pub(super) observed: Option<Limit>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Run {
+    pub(super) verdict: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Limit {
+    At(Number),
+    Above(Number),
+    Below(Number),
+}
+
+impl Document {
+    /// Reads a document.
+    ///
+    /// # Errors
+    /// If the text is no JSON, if a key is missing or holds something else, or if a case is there
+    /// twice, which leaves open what is to be compared with what.
+    pub fn read(text: &str) -> Result<Self, Unreadable> {
+        let document: Self = serde_json::from_str(text).map_err(|error| {
+            let (line, column) = (error.line(), error.column());
+            let whole = error.to_string();
+            let place = format!(" at line {line} column {column}");
+            let message = whole.strip_suffix(&place).unwrap_or(&whole).to_owned();
+            Unreadable { message, place: (line > 0).then_some((line, column.max(1))) }
+        })?;
+        let mut seen = BTreeSet::new();
+        let twice = document
+            .cases()
+            .map(|(suite, case)| name(suite, case))
+            .find(|name| !seen.insert(name.clone()));
+        match twice {
+            None => Ok(document),
+            Some(twice) => {
+                let message = format!("the case `{twice}` is there twice");
+                Err(Unreadable { message, place: None })
+            }
+        }
+    }
+
+    /// Every case with its suite.
+    pub(super) fn cases(&self) -> impl Iterator<Item = (&Suite, &Case)> {
+        self.suites.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)))
+    }
+}
+
+/// `SUITE::CASE`.
+pub(super) fn name(suite: &Suite, case: &Case) -> String {
+    format!("{}::{}", suite.name, case.name)
+}
+
+impl Level {
+    /// The judged error, unless the level failed or has none that is finite.
+    pub(super) fn error(&self) -> Option<f64> {
+        let Number(error) = self.judged?;
+        (self.failure.is_none() && error.is_finite()).then_some(error)
+    }
+
+    /// Whether the level has broken, or its error is not finite.
+    pub(super) fn is_broken(&self) -> bool {
+        self.failure.is_some() || self.judged.is_some_and(|Number(error)| !error.is_finite())
+    }
+}

@@ -1,0 +1,167 @@
+//! What a comparison finds.
+
+use super::equal_error::EqualError;
+
+/// What happened to a case, the most important first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rank {
+    /// It met its expectations and no longer does.
+    Broken,
+    /// Its verdict is a worse one, which its suite expects or expected before.
+    WorseVerdict,
+    /// Its verdict is another one, neither better nor worse.
+    OtherVerdict,
+    /// Its verdict is a better one, or it meets its expectations again.
+    BetterVerdict,
+    /// An error is larger, or a level has begun to fail.
+    LessAccurate,
+    /// A limit of stability is lower.
+    LessStable,
+    /// The same error takes more transfers; where that cannot be told, the same level does.
+    Dearer,
+    /// It is more accurate, more stable or cheaper.
+    Better,
+    /// It is judged or refined otherwise, so that there is nothing to compare.
+    Otherwise,
+    /// It was not there before.
+    New,
+    /// It is not there any more.
+    Gone,
+}
+
+impl Rank {
+    /// Every rank, in order.
+    pub const ALL: [Self; 11] = [
+        Self::Broken,
+        Self::WorseVerdict,
+        Self::OtherVerdict,
+        Self::BetterVerdict,
+        Self::LessAccurate,
+        Self::LessStable,
+        Self::Dearer,
+        Self::Better,
+        Self::Otherwise,
+        Self::New,
+        Self::Gone,
+    ];
+
+    /// In plain words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Broken => "no longer as expected",
+            Self::WorseVerdict => "worse verdict",
+            Self::OtherVerdict => "other verdict",
+            Self::BetterVerdict => "better verdict",
+            Self::LessAccurate => "less accurate",
+            Self::LessStable => "less stable",
+            Self::Dearer => "dearer",
+            Self::Better => "better",
+            Self::Otherwise => "judged or refined otherwise",
+            Self::New => "new",
+            Self::Gone => "gone",
+        }
+    }
+
+    /// Whether that is for the worse.
+    pub const fn is_worse(self) -> bool {
+        matches!(
+            self,
+            Self::Broken
+                | Self::WorseVerdict
+                | Self::LessAccurate
+                | Self::LessStable
+                | Self::Dearer
+        )
+    }
+}
+
+/// Two runs side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// What moved, the most important first.
+    pub(super) moved: Vec<Moved>,
+    /// Cases of both runs that are the same.
+    pub(super) unchanged: usize,
+    /// Largest relative change of a figure that counts as none.
+    pub(super) tolerance: f64,
+}
+
+/// A case that moved.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Moved {
+    /// `SUITE::CASE`.
+    pub(super) name: String,
+    pub(super) rank: Rank,
+    /// Verdicts, old and new.
+    pub(super) verdict: [Option<String>; 2],
+    /// Observed orders.
+    pub(super) order: [Option<f64>; 2],
+    pub(super) error: Option<ErrorMove>,
+    /// Transfers on the same level, new over old.
+    pub(super) work: Option<f64>,
+    /// Transfers for the same error.
+    pub(super) equal: Option<EqualError>,
+    /// What no column says.
+    pub(super) notes: Vec<String>,
+    /// Within a rank, the larger comes first.
+    pub(super) weight: f64,
+}
+
+/// An error that moved.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ErrorMove {
+    /// None where the level broke.
+    pub(super) old: Option<f64>,
+    /// None where the level breaks.
+    pub(super) new: Option<f64>,
+    pub(super) worse: bool,
+    /// On which level.
+    pub(super) level: String,
+}
+
+impl ErrorMove {
+    /// New over old.
+    pub(super) fn ratio(&self) -> Option<f64> {
+        Some(self.new? / self.old?)
+    }
+
+    /// How much it moved, in either direction; endless where a level breaks.
+    pub(super) fn weight(&self) -> f64 {
+        self.ratio().map_or(f64::INFINITY, |ratio| libm::log(ratio).abs())
+    }
+}
+
+impl Comparison {
+    /// Cases with this rank.
+    pub fn count(&self, rank: Rank) -> usize {
+        self.of(rank).count()
+    }
+
+    /// Cases that are the same in both runs.
+    pub fn unchanged(&self) -> usize {
+        self.unchanged
+    }
+
+    /// Whether anything got worse.
+    pub fn is_worse(&self) -> bool {
+        self.moved.iter().any(|moved| moved.rank.is_worse())
+    }
+
+    /// What moved with this rank.
+    pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
+        self.moved.iter().filter(move |moved| moved.rank == rank)
+    }
+
+    /// What happened in one line: `2 less accurate, 1 new, 816 unchanged`.
+    pub(super) fn headline(&self) -> String {
+        let counts = Rank::ALL.into_iter().map(|rank| (self.count(rank), rank.words()));
+        let counts = counts.chain([(self.unchanged, "unchanged")]).filter(|(count, _)| *count > 0);
+        let parts: Vec<String> = counts.map(|(count, words)| format!("{count} {words}")).collect();
+        if parts.is_empty() { "no cases".to_owned() } else { parts.join(", ") }
+    }
+}
+
+/// Whether a ratio differs from one by more than the tolerance, whichever side is the larger. NaN does.
+pub(super) fn ratio_moved(ratio: f64, tolerance: f64) -> bool {
+    !(ratio <= 1.0 + tolerance && 1.0 / ratio <= 1.0 + tolerance)
+}

@@ -1,0 +1,173 @@
+//! Cases of two runs, paired, ranked and sorted.
+
+use super::{
+    accuracy,
+    document::{Case, Document, name},
+    equal_error,
+    moved::{Comparison, Moved, Rank, ratio_moved},
+    stability::{self, StabilityMove},
+};
+use std::collections::BTreeMap;
+
+/// See [`compare`](super::compare()).
+pub(super) fn compare(old: &Document, new: &Document, tolerance: f64) -> Comparison {
+    let mut before: BTreeMap<String, &Case> =
+        old.cases().map(|(suite, case)| (name(suite, case), case)).collect();
+    let mut moved = Vec::new();
+    let mut unchanged = 0;
+    for (suite, case) in new.cases() {
+        let name = name(suite, case);
+        match before.remove(&name) {
+            None => moved.push(lone(name, Rank::New, case)),
+            Some(old) => match pair(name, old, case, tolerance) {
+                Some(found) => moved.push(found),
+                None => unchanged += 1,
+            },
+        }
+    }
+    moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
+    moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
+    Comparison { moved, unchanged, tolerance }
+}
+
+/// A case of one run only.
+fn lone(name: String, rank: Rank, case: &Case) -> Moved {
+    let word = Some(shown(case));
+    let order = case.observed_order.map(|order| order.value.0);
+    let (verdict, order) = match rank {
+        Rank::New => ([None, word], [None, order]),
+        _ => ([word, None], [order, None]),
+    };
+    Moved {
+        name,
+        rank,
+        verdict,
+        order,
+        error: None,
+        work: None,
+        equal: None,
+        notes: Vec::new(),
+        weight: 0.0,
+    }
+}
+
+/// The verdict, and whether it is not what the suite expects.
+fn shown(case: &Case) -> String {
+    if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
+}
+
+/// How a case moved, if it did.
+fn pair(name: String, old: &Case, new: &Case, tolerance: f64) -> Option<Moved> {
+    let comparable = old.judge == new.judge || old.judge.is_none() || new.judge.is_none();
+    let common = accuracy::common(old, new);
+    let pairs = if comparable { &common[..] } else { &[] };
+    let axis = new.axis.as_deref();
+    let error =
+        accuracy::error(pairs, axis, tolerance).filter(|_| !accuracy::is_rounding(old, new));
+    let work = accuracy::work(pairs, tolerance);
+    let refined = common.len() < old.levels.len().max(new.levels.len());
+    let work = work.filter(|work| ratio_moved(*work, tolerance));
+    let equal = (comparable && (error.is_some() || work.is_some() || refined))
+        .then(|| equal_error::compare(&accuracy::points(old), &accuracy::points(new)))
+        .flatten();
+    let studies = old.stability.as_ref().zip(new.stability.as_ref());
+    let rows = studies.map(|(old, new)| stability::compare(old, new, tolerance));
+    let rows = rows.unwrap_or_default();
+    let mut found = Moved {
+        name,
+        rank: Rank::Otherwise,
+        verdict: [Some(shown(old)), Some(shown(new))],
+        order: [old, new].map(|case| case.observed_order.map(|order| order.value.0)),
+        error,
+        work,
+        equal,
+        notes: Vec::new(),
+        weight: 0.0,
+    };
+    let otherwise = otherwise(old, new, comparable, refined, &rows);
+    (found.rank, found.weight) = verdict_rank(old, new, &rows)
+        .or_else(|| figure_rank(&found, &rows, tolerance))
+        .or_else(|| (!otherwise.is_empty()).then_some((Rank::Otherwise, 0.0)))?;
+    if found.rank == Rank::Broken {
+        found.notes.extend(new.unmet.iter().cloned());
+    }
+    found.notes.extend(otherwise);
+    found.notes.extend(rows.verdicts);
+    found.notes.extend(rows.limits);
+    Some(found)
+}
+
+/// What is not the same problem any more, in words.
+fn otherwise(
+    old: &Case,
+    new: &Case,
+    comparable: bool,
+    refined: bool,
+    rows: &StabilityMove,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !comparable {
+        let of = |case: &Case| {
+            case.judge.as_ref().map_or_else(String::new, |judge| {
+                let scale = judge.scale.map(|scale| format!(" over {}", scale.0));
+                format!("{} of {}{}", judge.norm, judge.of, scale.unwrap_or_default())
+            })
+        };
+        notes.push(format!("judged: {} -> {}", of(old), of(new)));
+    }
+    if refined {
+        let (a, b) = (old.levels.len(), new.levels.len());
+        let common = accuracy::common(old, new).len();
+        notes.push(format!("levels: {a} -> {b}, {common} in common"));
+    }
+    if rows.lone > 0 || old.stability.is_some() != new.stability.is_some() {
+        notes.push("rows of one run only are not compared".to_owned());
+    }
+    notes
+}
+
+/// The rank of a verdict that changed.
+fn verdict_rank(old: &Case, new: &Case, rows: &StabilityMove) -> Option<(Rank, f64)> {
+    let rank = match (old.passed, new.passed) {
+        (true, false) => Rank::Broken,
+        (false, true) => Rank::BetterVerdict,
+        _ => match rows.verdict {
+            [true, _] => Rank::WorseVerdict,
+            [false, true] => Rank::BetterVerdict,
+            [false, false] if old.verdict == new.verdict => return None,
+            [false, false] => match severity(&new.verdict).cmp(&severity(&old.verdict)) {
+                std::cmp::Ordering::Greater => Rank::WorseVerdict,
+                std::cmp::Ordering::Less => Rank::BetterVerdict,
+                std::cmp::Ordering::Equal => Rank::OtherVerdict,
+            },
+        },
+    };
+    Some((rank, 0.0))
+}
+
+/// The larger, the worse; words that are not known stand in the middle.
+fn severity(verdict: &str) -> u8 {
+    match verdict {
+        "converging" | "within bounds" | "agrees" | "smooth" => 0,
+        "divergent" | "out of bounds" => 2,
+        "failed" => 3,
+        _ => 1,
+    }
+}
+
+/// The rank of figures that moved under the same verdict, and how much they did.
+fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
+    let error = found.error.as_ref();
+    let work = found.equal.map(|equal| equal.ratio).or(found.work);
+    let work = work.filter(|work| ratio_moved(*work, tolerance));
+    let size = work.map_or(0.0, |work| libm::log(work).abs());
+    match (error, work) {
+        (Some(error), _) if error.worse => Some((Rank::LessAccurate, error.weight())),
+        _ if rows.limit[0] => Some((Rank::LessStable, rows.weight)),
+        (_, Some(work)) if !(work < 1.0) => Some((Rank::Dearer, size)),
+        (Some(error), _) => Some((Rank::Better, error.weight())),
+        (None, Some(_)) => Some((Rank::Better, size)),
+        (None, None) if rows.limit[1] => Some((Rank::Better, rows.weight)),
+        (None, None) => None,
+    }
+}

@@ -1,0 +1,109 @@
+//! Stability studies of two runs, row by row.
+
+use super::{
+    document::{Limit, Stability, StabilityRow},
+    moved::ratio_moved,
+    number::Number,
+};
+
+/// How a stability study moved.
+#[derive(Debug, Default)]
+pub(super) struct StabilityMove {
+    /// Rows whose verdict changed, each in words.
+    pub(super) verdicts: Vec<String>,
+    /// Whether one of these is worse, and whether one is better.
+    pub(super) verdict: [bool; 2],
+    /// Rows whose limit moved, each in words.
+    pub(super) limits: Vec<String>,
+    /// Whether one of these is lower, and whether one is higher.
+    pub(super) limit: [bool; 2],
+    /// Largest logarithm of a ratio of limits.
+    pub(super) weight: f64,
+    /// Rows of one run only.
+    pub(super) lone: usize,
+}
+
+/// Rows with the same value of the parameter that is swept are the same row.
+pub(super) fn compare(old: &Stability, new: &Stability, tolerance: f64) -> StabilityMove {
+    let mut found = StabilityMove::default();
+    if (&old.swept, &old.sought) != (&new.swept, &new.sought) {
+        found.lone = old.rows.len() + new.rows.len();
+        return found;
+    }
+    let bits = |row: &StabilityRow| row.value.0.to_bits();
+    let pairs: Vec<_> = old
+        .rows
+        .iter()
+        .filter_map(|a| Some((a, new.rows.iter().find(|b| bits(a) == bits(b))?)))
+        .collect();
+    found.lone = (old.rows.len() - pairs.len()) + new.rows.len().saturating_sub(pairs.len());
+    for (a, b) in pairs {
+        let place = format!("{} = {}", old.swept, a.value.0);
+        found.trial(&place, a, b);
+        found.limit(&place, limit(a), limit(b), tolerance);
+    }
+    found
+}
+
+fn limit(row: &StabilityRow) -> Option<Limit> {
+    row.predicted.or(row.observed)
+}
+
+impl StabilityMove {
+    fn trial(&mut self, place: &str, old: &StabilityRow, new: &StabilityRow) {
+        let word = |row: &StabilityRow| row.run.as_ref().map(|run| run.verdict.clone());
+        let (a, b) = (word(old), word(new));
+        if a == b {
+            return;
+        }
+        let [a, b] = [a, b].map(|word| word.unwrap_or_else(|| "refused".to_owned()));
+        self.verdict[0] |= severity(&b) > severity(&a);
+        self.verdict[1] |= severity(&b) < severity(&a);
+        self.verdicts.push(format!("{place}: {a} -> {b}").replace('_', " "));
+    }
+
+    fn limit(&mut self, place: &str, old: Option<Limit>, new: Option<Limit>, tolerance: f64) {
+        let (a, b) = (bound(old), bound(new));
+        let same_side = side(old) == side(new);
+        if same_side && (a.to_bits() == b.to_bits() || !ratio_moved(b / a, tolerance)) {
+            return;
+        }
+        self.limit[0] |= !(b >= a);
+        self.limit[1] |= b > a;
+        let weight = libm::log(b / a).abs();
+        self.weight = self.weight.max(if weight.is_nan() { f64::INFINITY } else { weight });
+        self.limits.push(format!("{place}: limit {} -> {}", shown(old), shown(new)));
+    }
+}
+
+/// The larger, the worse.
+fn severity(word: &str) -> usize {
+    let known = ["stable", "bounded_growth", "unstable", "failed", "refused"];
+    known.iter().position(|known| *known == word).unwrap_or(known.len())
+}
+
+/// The number by which limits are ordered: none is the worst.
+fn bound(limit: Option<Limit>) -> f64 {
+    match limit {
+        None => 0.0,
+        Some(Limit::At(Number(x)) | Limit::Above(Number(x)) | Limit::Below(Number(x))) => x,
+    }
+}
+
+fn side(limit: Option<Limit>) -> u8 {
+    match limit {
+        None => 0,
+        Some(Limit::Below(_)) => 1,
+        Some(Limit::At(_)) => 2,
+        Some(Limit::Above(_)) => 3,
+    }
+}
+
+fn shown(limit: Option<Limit>) -> String {
+    match limit {
+        None => "none".to_owned(),
+        Some(Limit::At(Number(x))) => format!("{x:.4}"),
+        Some(Limit::Above(Number(x))) => format!("> {x}"),
+        Some(Limit::Below(Number(x))) => format!("< {x}"),
+    }
+}

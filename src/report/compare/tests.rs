@@ -1,0 +1,356 @@
+use super::*;
+use proptest::prelude::*;
+use rstest::rstest;
+use serde_json::{Value, json};
+
+/// A case that converges over four levels of `error = c h^2`, `transfers = w/h^2`.
+fn case(name: &str, c: f64, w: f64) -> Value {
+    let level = |cells: u32| {
+        let h = 1.0 / f64::from(cells);
+        json!({"cells": cells, "h": h, "spacing": h, "ppc": 4, "judged": c * h * h,
+            "transfers": (w / (h * h)) as u64, "failure": null})
+    };
+    json!({"case": name, "verdict": "converging", "passed": true, "axis": "space",
+        "judge": {"of": "displacement", "norm": "rms", "scale": null},
+        "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
+        "levels": [level(10), level(20), level(40), level(80)],
+        "unmet": [], "stability": null, "forces": null})
+}
+
+/// A case of a stability study: verdicts, or limits, for two values.
+fn sweep(runs: &[Value; 2], predicted: &[Value; 2]) -> Value {
+    let row = |k: usize, value: f64| {
+        json!({"value": value, "run": runs[k],
+        "predicted": predicted[k], "observed": null})
+    };
+    json!({"case": "a", "verdict": "swept", "passed": true, "axis": null, "judge": null,
+        "observed_order": null, "levels": [],
+        "stability": {"swept": "d", "sought": null, "rows": [row(0, 0.1), row(1, 0.5)]}})
+}
+
+fn document(cases: &[Value]) -> Document {
+    let text = json!({"suites": [{"suite": "bar", "cases": cases}]}).to_string();
+    Document::read(&text).expect("a document")
+}
+
+fn run(verdict: &str) -> Value {
+    json!({ "verdict": verdict })
+}
+
+/// The only case, before and after `change`.
+fn after(before: &Value, change: impl Fn(&mut Value)) -> Comparison {
+    let mut case = before.clone();
+    change(&mut case);
+    compare(&document(std::slice::from_ref(before)), &document(&[case]), TOLERANCE)
+}
+
+fn rank(found: &Comparison) -> Option<Rank> {
+    Rank::ALL.into_iter().find(|rank| found.count(*rank) > 0)
+}
+
+fn set(path: &str, value: Value) -> impl Fn(&mut Value) {
+    move |case| *case.pointer_mut(path).expect("a key") = value.clone()
+}
+
+#[rstest]
+#[case::nothing("/axis", json!("space"), None)]
+#[case::another_reason("/passed", json!(true), None)]
+#[case::unmet("/passed", json!(false), Some(Rank::Broken))]
+#[case::divergent("/verdict", json!("divergent"), Some(Rank::WorseVerdict))]
+#[case::failed_level("/levels/3/failure", json!("inverted"), Some(Rank::LessAccurate))]
+#[case::nan("/levels/3/judged", json!("nan"), Some(Rank::LessAccurate))]
+#[case::infinite("/levels/0/judged", json!("inf"), Some(Rank::LessAccurate))]
+#[case::larger_error("/levels/3/judged", json!(3e-4), Some(Rank::LessAccurate))]
+#[case::smaller_error("/levels/3/judged", json!(1e-4), Some(Rank::Better))]
+#[case::coarse_level("/levels/0/judged", json!(0.02), Some(Rank::LessAccurate))]
+#[case::within_tolerance("/levels/3/judged", json!(1.5625e-4 * 1.0005), None)]
+#[case::more_work("/levels/3/transfers", json!(12_000), Some(Rank::Dearer))]
+#[case::less_work("/levels/3/transfers", json!(3000), Some(Rank::Better))]
+#[case::another_norm("/judge/norm", json!("linf"), Some(Rank::Otherwise))]
+#[case::another_scale("/judge/scale", json!(2.0), Some(Rank::Otherwise))]
+#[case::no_judge("/judge", json!(null), None)]
+#[case::another_grid("/levels/3/cells", json!(90), Some(Rank::Otherwise))]
+fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option<Rank>) {
+    let found = after(&case("a", 1.0, 1.0), set(path, value));
+    assert_eq!(rank(&found), expected, "{}", text(&found));
+    assert_eq!(found.unchanged(), usize::from(expected.is_none()));
+    assert_eq!(found.is_worse(), expected.is_some_and(Rank::is_worse));
+}
+
+/// NaN before and after is the same failure; a number in its place is an improvement.
+#[test]
+fn what_failed_before_is_not_worse_now() {
+    let broken = {
+        let mut case = case("a", 1.0, 1.0);
+        set("/levels/3/judged", json!("nan"))(&mut case);
+        case
+    };
+    assert_eq!(rank(&after(&broken, |_| ())), None);
+    assert_eq!(rank(&after(&broken, set("/levels/3/judged", json!("inf")))), None);
+    assert_eq!(rank(&after(&broken, set("/levels/3/judged", json!(1e-4)))), Some(Rank::Better));
+}
+
+/// Figures that are right are not overlooked for those that moved elsewhere.
+#[test]
+fn a_new_failure_outweighs_a_better_finest_level() {
+    let found = after(&case("a", 1.0, 1.0), |case| {
+        set("/levels/1/failure", json!("inverted"))(case);
+        set("/levels/3/judged", json!(1e-5))(case);
+    });
+    assert_eq!(rank(&found), Some(Rank::LessAccurate));
+    assert!(text(&found).contains("2.500e-3 -> failed"), "{}", text(&found));
+}
+
+#[rstest]
+#[case::twice_as_dear(1.0, 1.8, Rank::Dearer, "1.80 x at 2e-4")]
+#[case::worse_and_as_dear(2.0, 1.0, Rank::LessAccurate, "2.00 x at 5e-4")]
+#[case::better_at_the_same_price(0.5, 2.0, Rank::Better, "1.00 x at 2e-4")]
+#[case::better_and_dearer_still(0.5, 4.0, Rank::Better, "2.00 x at 2e-4")]
+fn work_is_compared_at_equal_error(
+    #[case] c: f64,
+    #[case] w: f64,
+    #[case] expected: Rank,
+    #[case] shown: &str,
+) {
+    let found =
+        compare(&document(&[case("a", 1.0, 1.0)]), &document(&[case("a", c, w)]), TOLERANCE);
+    let page = text(&found);
+    assert!(page.contains(shown), "{page}");
+    // Better on the same grid, and yet dearer for the same error.
+    let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::Dearer } else { expected };
+    assert_eq!(rank(&found), Some(expected), "{page}");
+}
+
+#[test]
+fn other_grids_are_compared_at_equal_error() {
+    let found = after(&case("a", 1.0, 1.0), |case| {
+        for (k, cells) in [15, 30, 60, 120].into_iter().enumerate() {
+            let h = 1.0 / f64::from(cells);
+            for (key, value) in [
+                ("cells", json!(cells)),
+                ("spacing", json!(h)),
+                ("judged", json!(h * h)),
+                ("transfers", json!(3 * cells * cells)),
+            ] {
+                set(&format!("/levels/{k}/{key}"), value)(case);
+            }
+        }
+    });
+    assert_eq!(rank(&found), Some(Rank::Dearer), "{}", text(&found));
+    assert!(text(&found).contains("levels: 4 -> 4, 0 in common"), "{}", text(&found));
+    assert!(text(&found).contains("3.00 x at 2e-4"), "{}", text(&found));
+}
+
+/// A rigid translation is exact to rounding; other roundings are no other accuracy.
+#[rstest]
+#[case::rounding(1e-13, 3e-13, None)]
+#[case::rounding_is_lost(1e-13, 1e-9, Some(Rank::LessAccurate))]
+#[case::from_zero(0.0, 1e-14, None)]
+#[case::to_something(0.0, 1e-3, Some(Rank::LessAccurate))]
+fn rounding(#[case] old: f64, #[case] new: f64, #[case] expected: Option<Rank>) {
+    let mut before = case("a", 1.0, 1.0);
+    set("/observed_order", Value::Null)(&mut before);
+    set("/levels", json!([before["levels"][0]]))(&mut before);
+    set("/levels/0/judged", json!(old))(&mut before);
+    assert_eq!(rank(&after(&before, set("/levels/0/judged", json!(new)))), expected);
+}
+
+/// What has an order is no rounding, however small it is.
+#[test]
+fn a_small_error_with_an_order_counts() {
+    let small = case("a", 1e-12, 1.0);
+    let found = after(&small, set("/levels/3/judged", json!(3e-16)));
+    assert_eq!(rank(&found), Some(Rank::LessAccurate));
+}
+
+#[rstest]
+#[case::same(["stable", "unstable"], ["stable", "unstable"], None)]
+#[case::worse(["stable", "stable"], ["stable", "unstable"], Some(Rank::WorseVerdict))]
+#[case::mixed(["stable", "unstable"], ["failed", "stable"], Some(Rank::WorseVerdict))]
+#[case::better(["failed", "unstable"], ["unstable", "bounded_growth"], Some(Rank::BetterVerdict))]
+fn verdicts_of_a_sweep(
+    #[case] old: [&str; 2],
+    #[case] new: [&str; 2],
+    #[case] expected: Option<Rank>,
+) {
+    let study = |words: [&str; 2]| sweep(&words.map(run), &[Value::Null, Value::Null]);
+    let new = study(new);
+    assert_eq!(rank(&after(&study(old), |case| *case = new.clone())), expected);
+}
+
+#[rstest]
+#[case::same(json!({"at": 1.0}), json!({"at": 1.0}), None)]
+#[case::lower(json!({"at": 1.0}), json!({"at": 0.9}), Some(Rank::LessStable))]
+#[case::higher(json!({"at": 1.0}), json!({"at": 1.1}), Some(Rank::Better))]
+#[case::beyond(json!({"at": 1.0}), json!({"above": 4.0}), Some(Rank::Better))]
+#[case::none_left(json!({"at": 1.0}), json!({"below": 0.01}), Some(Rank::LessStable))]
+#[case::lost(json!({"at": 1.0}), json!(null), Some(Rank::LessStable))]
+#[case::nan(json!({"at": 1.0}), json!({"at": "nan"}), Some(Rank::LessStable))]
+#[case::rounding(json!({"at": 1.0}), json!({"at": 1.0001}), None)]
+fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: Option<Rank>) {
+    let study =
+        |limit: &Value| sweep(&[Value::Null, Value::Null], &[limit.clone(), json!({"at": 2})]);
+    let new = study(&new);
+    assert_eq!(rank(&after(&study(&old), |case| *case = new.clone())), expected);
+}
+
+/// The most important first, whatever the order of the suites; within a rank, the largest change.
+#[test]
+fn what_moved_is_sorted_by_importance() {
+    let names = ["gone", "cheap", "dear", "dearer", "worse", "worst", "verdict", "unmet"];
+    let before: Vec<Value> = names.iter().map(|name| case(name, 1.0, 1.0)).collect();
+    let mut after = before[1..].to_vec();
+    after[0] = case("cheap", 1.0, 0.5);
+    after[1] = case("dear", 1.0, 1.5);
+    after[2] = case("dearer", 1.0, 3.0);
+    after[3] = case("worse", 1.5, 1.0);
+    after[4] = case("worst", 9.0, 1.0);
+    set("/verdict", json!("at floor"))(&mut after[5]);
+    set("/passed", json!(false))(&mut after[6]);
+    set("/unmet", json!(["an order of 2 was expected"]))(&mut after[6]);
+    after.insert(0, case("added", 1.0, 1.0));
+    let found = compare(&document(&before), &document(&after), TOLERANCE);
+    let page = text(&found);
+    let heads = "worse: 1 no longer as expected, 1 worse verdict, 2 less accurate, 2 dearer, \
+                 1 better, 1 new, 1 gone";
+    assert_eq!(page.lines().next(), Some(heads));
+    let order = ["unmet", "verdict", "worst", "worse", "dearer", "dear", "cheap", "added", "gone"];
+    let row = |name: &str| page.find(&format!("\n  bar::{name} ")).expect(name);
+    assert!(order.windows(2).all(|pair| row(pair[0]) < row(pair[1])), "{page}");
+    assert!(page.contains("    bar::unmet: an order of 2 was expected"), "{page}");
+}
+
+#[rstest]
+#[case::not_json("nonsense", "expected ident", Some((1, 2)))]
+#[case::cut("{\"suites\": [", "EOF while parsing a list", Some((1, 12)))]
+#[case::empty("", "EOF while parsing a value", Some((1, 1)))]
+#[case::another_document("{\"levels\": []}", "missing field `suites`", Some((1, 14)))]
+#[case::a_word_for_a_list("{\n \"suites\": 3}", "expected a sequence", Some((2, 12)))]
+#[case::no_cases("{\"suites\": [\n {\"suite\": \"a\"}]}", "missing field `cases`", Some((2, 15)))]
+#[case::nested(&format!("{{\"x\": {}", "[".repeat(100_000)), "EOF while parsing a list", Some((1, 100_006)))]
+fn what_is_no_document(
+    #[case] text: &str,
+    #[case] words: &str,
+    #[case] place: Option<(usize, usize)>,
+) {
+    let error = Document::read(text).expect_err("no document");
+    assert!(error.message.contains(words), "{error:?}");
+    assert_eq!(error.place, place, "{error:?}");
+}
+
+#[test]
+fn a_case_that_is_there_twice_is_refused() {
+    let twice =
+        json!({"suites": [{"suite": "bar", "cases": [case("a", 1.0, 1.0), case("a", 2.0, 1.0)]}]});
+    let error = Document::read(&twice.to_string()).expect_err("no document");
+    assert_eq!(error.message, "the case `bar::a` is there twice");
+}
+
+/// Names and verdicts come from a file: they may be no markup, end no table and mention nobody.
+#[test]
+fn markdown_is_escaped() {
+    let hostile = "a|b`c`\n<img src=x onerror=alert(1)> @someone ![x](http://y) **bold**";
+    let mut before = case(hostile, 1.0, 1.0);
+    let found = after(&before, set("/verdict", json!(hostile)));
+    let page = markdown(&found);
+    let row = page.lines().find(|line| line.starts_with("| `")).expect("a row");
+    // In the code span only the bar and the backtick could do harm.
+    let (name, rest) = row[3..].split_once('`').expect("the end of the span");
+    assert_eq!(
+        name,
+        hostile
+            .replace('|', "\\|")
+            .replace('`', "'")
+            .replace('\n', "\u{fffd}")
+            .replace("a\\|", "bar::a\\|")
+    );
+    assert!(!rest.contains(['<', '@', '`', '*', '!', '[']), "{rest}");
+    assert_eq!(rest.matches(" | ").count(), 2, "{rest}");
+    set("/case", json!("\u{1b}[2J"))(&mut before);
+    assert!(!text(&after(&before, set("/passed", json!(false)))).contains('\u{1b}'));
+}
+
+/// A comment may have 65536 characters.
+#[test]
+fn a_long_list_is_cut() {
+    let cases = |c: f64| -> Vec<Value> {
+        (0..400).map(|k| case(&format!("a-case-with-a-rather-long-name-{k}"), c, 1.0)).collect()
+    };
+    let found = compare(&document(&cases(1.0)), &document(&cases(2.0)), TOLERANCE);
+    let page = markdown(&found);
+    assert!(page.contains("\nand 360 more\n"), "{page}");
+    assert!(page.len() < 10_000, "{}", page.len());
+    assert_eq!(text(&found).matches("bar::a-case").count(), 400);
+}
+
+#[test]
+fn what_got_better_is_folded_and_what_got_worse_is_not() {
+    let pair = |c: f64, d: f64| document(&[case("a", c, 1.0), case("b", d, 1.0)]);
+    let page = markdown(&compare(&pair(1.0, 1.0), &pair(2.0, 0.5), TOLERANCE));
+    let folded = page.find("<details><summary>1 better</summary>\n\n|").expect("a fold");
+    assert!(page.starts_with("**mpm-verify: Worse**: 1 less accurate, 1 better\n"), "{page}");
+    assert!(page.find("`bar::a`").expect("a") < folded, "{page}");
+    assert!(page.find("`bar::b`").expect("b") > folded, "{page}");
+    let nothing = markdown(&compare(&pair(1.0, 1.0), &pair(1.0, 1.0), TOLERANCE));
+    assert!(nothing.starts_with("**mpm-verify: Nothing worse**: 2 unchanged\n"), "{nothing}");
+}
+
+prop_compose! {
+    fn any_number()(kind in 0..6, x in 1e-6..1.0f64) -> Value {
+        match kind { 0 => json!("nan"), 1 => json!("inf"), 2 => Value::Null, 3 => json!(0.0), _ => json!(x) }
+    }
+}
+
+prop_compose! {
+    fn any_level()(cells in 1..6u32, judged in any_number(), spacing in any_number(),
+        transfers in 0..1000u64, failed in 0..4) -> Value
+    {
+        let spacing = if spacing.is_null() { json!(1.0) } else { spacing };
+        let failure = (failed == 0).then_some("inverted");
+        json!({"cells": cells, "h": spacing, "spacing": spacing, "ppc": null, "judged": judged,
+            "transfers": transfers, "failure": failure})
+    }
+}
+
+prop_compose! {
+    fn any_case()(levels in prop::collection::vec(any_level(), 0..6), passed: bool,
+        word in 0..3usize, limits in [any_number(), any_number()], kind in 0..4) -> Value
+    {
+        let word = ["converging", "stable", "failed"][word];
+        if kind == 0 {
+            let limits = limits.map(|x| if x.is_null() { x } else { json!({ "at": x }) });
+            return sweep(&[run(word), run("stable")], &limits);
+        }
+        let mut case = case("a", 1.0, 1.0);
+        for (key, value) in [("/levels", json!(levels)), ("/passed", json!(passed)), ("/verdict", json!(word))] {
+            set(key, value)(&mut case);
+        }
+        case
+    }
+}
+
+proptest! {
+    #[test]
+    fn nothing_moves_against_itself(cases in prop::collection::vec(any_case(), 0..5)) {
+        let mut cases = cases;
+        for (k, case) in cases.iter_mut().enumerate() {
+            set("/case", json!(k.to_string()))(case);
+        }
+        let all = document(&cases);
+        let found = compare(&all, &all, 0.0);
+        prop_assert_eq!((found.moved.len(), found.unchanged), (0, cases.len()), "{}", text(&found));
+        prop_assert!(!found.is_worse());
+    }
+
+    /// What is new one way is gone the other way, and so with every verdict; nothing panics.
+    #[test]
+    fn the_other_way_round_is_the_opposite(a in any_case(), b in any_case()) {
+        let (a, b) = (document(&[a]), document(&[b, case("b", 1.0, 1.0)]));
+        let (there, back) = (compare(&a, &b, TOLERANCE), compare(&b, &a, TOLERANCE));
+        prop_assert_eq!(there.count(Rank::New), back.count(Rank::Gone));
+        prop_assert!(there.count(Rank::Broken) <= back.count(Rank::BetterVerdict));
+        prop_assert!(there.count(Rank::WorseVerdict) <= back.count(Rank::BetterVerdict) + 1);
+        prop_assert_eq!(there.unchanged(), back.unchanged());
+        prop_assert!(!markdown(&there).is_empty() && !text(&back).is_empty());
+    }
+}

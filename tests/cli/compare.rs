@@ -1,0 +1,95 @@
+//! `compare`: what moved between two runs, where it is said, and the exit status.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use rstest::rstest;
+
+/// A folder with the JSON of two runs: of a bar, and of the same bar with twice the particles and one method
+/// less.
+fn two_runs() -> Folder {
+    let folder = Folder::new();
+    let other =
+        BAR.replace("ppc: 4", "ppc: 8").replace("  - fem: {element: linear, mass: lumped}\n", "");
+    for (name, text) in [("old", BAR), ("new", other.as_str())] {
+        folder.write("bar.yaml", text);
+        let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
+        assert_eq!(found.code, SOUND, "{}", found.errors);
+        folder.write(&format!("{name}.json"), found.out);
+    }
+    folder
+}
+
+#[test]
+fn a_run_against_itself_says_that_nothing_moved() {
+    let folder = two_runs();
+    let found = folder.call(&["compare", "old.json", "old.json"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    assert!(found.out.starts_with("nothing worse: 2 unchanged\n"), "{}", found.out);
+}
+
+#[test]
+fn twice_the_particles_are_dearer() {
+    let folder = two_runs();
+    let found = folder.call(&["compare", "old.json", "new.json"]);
+    assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
+    for words in [
+        "worse: 1 dearer, 1 gone\n",
+        "\ndearer\n",
+        "  short-bar::mpm-linear-flip-musl  converging ",
+        // Other levels are no reason to say nothing: both series meet.
+        "levels: 4 -> 4, 0 in common\n",
+        " x at 1e-7\n",
+        "\ngone\n",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
+fn markdown_is_a_comment() {
+    let folder = two_runs();
+    let found = folder.call(&["compare", "old.json", "new.json", "--format", "markdown"]);
+    assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
+    assert!(found.out.starts_with("**mpm-verify: Worse**: "), "{}", found.out);
+    assert!(found.out.contains("\n<details><summary>1 gone</summary>\n"), "{}", found.out);
+}
+
+#[rstest]
+#[case::missing("nix.json", None, "this file cannot be read: ")]
+#[case::a_folder(".", None, "this file cannot be read: ")]
+#[case::not_json("bad.json", Some("verdicts"), "bad.json:1:1")]
+#[case::another_document("bad.json", Some("{\"levels\": []}"), "missing field `suites`")]
+#[case::a_wrong_type("bad.json", Some("{\n  \"suites\": 3\n}"), "bad.json:2:13")]
+#[case::not_text("bad.json", Some("\u{feff}"), "expected the document that `mpm-verify run")]
+fn a_file_that_cannot_be_used(#[case] name: &str, #[case] text: Option<&str>, #[case] words: &str) {
+    let folder = Folder::new();
+    folder.write("good.json", "{\"suites\": []}");
+    if let Some(text) = text {
+        folder.write(name, text);
+    }
+    for files in [[name, "good.json"], ["good.json", name]] {
+        let found = folder.call(&["compare", files[0], files[1]]);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    }
+    assert_eq!(folder.call(&["compare", "good.json", "good.json"]).code, SOUND);
+}
+
+#[test]
+fn both_bad_files_are_named() {
+    let found = Folder::new().call(&["compare", "a.json", "b.json"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains("a.json") && found.errors.contains("b.json"), "{}", found.errors);
+}
+
+#[test]
+fn the_tolerance_is_a_share() {
+    let folder = two_runs();
+    for bad in ["-1", "nan", "inf", "much"] {
+        let found =
+            folder.call(&["compare", "old.json", "new.json", &format!("--tolerance={bad}")]);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        assert!(found.errors.contains("--tolerance"), "{}", found.errors);
+    }
+    let found = folder.call(&["compare", "old.json", "new.json", "--tolerance", "10"]);
+    assert_eq!(found.code, SOUND, "{}", found.out);
+}
