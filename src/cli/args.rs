@@ -92,6 +92,10 @@ pub(super) struct RunArgs {
     /// Write reports, JSON and figures into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Write one HTML page with verdicts, figures, reports and suites into this file; it needs no
+    /// network
+    #[arg(long, value_name = "FILE")]
+    pub(super) html: Option<PathBuf>,
     /// Keep finished levels in this folder, and take from it those that are there: an interrupted
     /// run goes on where it was
     #[arg(long, value_name = "DIR")]

@@ -5,6 +5,7 @@ mod compare;
 mod cost;
 mod explain;
 mod output;
+mod page;
 mod run;
 mod select;
 mod show;

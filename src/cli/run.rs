@@ -2,13 +2,13 @@
 
 use super::{
     args::{Format, RunArgs},
-    output, select,
+    output, page, select,
     status::{BAD_INPUT, FAILED, PASSED},
 };
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
-    suite::{Extent, Kept, Runner, Suite},
+    suite::{Extent, Kept, Runner, Suite, yaml::Source},
     verify::SuiteOutcome,
 };
 use std::{fs, io, path::Path};
@@ -24,6 +24,10 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         output::complain(&message);
         return BAD_INPUT;
     }
+    if let Err(message) = args.html.as_deref().map_or(Ok(()), page::prepare) {
+        output::complain(&message);
+        return BAD_INPUT;
+    }
     let kept = match args.resume.as_deref().map(open).transpose() {
         Ok(kept) => kept,
         Err(message) => {
@@ -32,12 +36,19 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         }
     };
     let (suites, refused): (Vec<_>, Vec<_>) =
-        select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
-    let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
-    if let Some(name) = args.out.as_ref().and_then(|_| twice(&suites)) {
-        let message = "error: --out: two suites are called";
-        output::complain(&format!("{message} `{name}`, and would write the same files"));
-        return BAD_INPUT;
+        select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
+    let (sources, suites): (Vec<Source>, Vec<Suite>) =
+        suites.into_iter().filter_map(Result::ok).unzip();
+    let twice = twice(&suites);
+    for (option, given, clash) in [
+        ("--out", args.out.is_some(), "would write the same files"),
+        ("--html", args.html.is_some(), "would be one section"),
+    ] {
+        if let Some(name) = twice.filter(|_| given) {
+            let message = format!("error: {option}: two suites are called `{name}`, and {clash}");
+            output::complain(&message);
+            return BAD_INPUT;
+        }
     }
     let bar = progress_bar(&suites, extent(args));
     let outcomes: Vec<SuiteOutcome> =
@@ -49,6 +60,9 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         Format::Text => {}
     }
     let written = args.out.as_deref().map_or(Ok(()), |folder| write(folder, &outcomes));
+    let show = |file| page::write(file, &sources, &outcomes, refused.len());
+    let shown = args.html.as_deref().map_or(Ok(()), show);
+    let written = written.and(shown);
     for complaint in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::complain(&complaint.to_string());
     }

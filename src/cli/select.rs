@@ -14,13 +14,19 @@ const FOLDER: &str = "verification";
 ///
 /// With no target: all of `verification/`, or the embedded suites where there is no such folder.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Complaint>> {
+    with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
+}
+
+/// The same, each with the file that it came from.
+pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Complaint>> {
     let sources = if targets.is_empty() {
         everything()
     } else {
         targets.iter().flat_map(|target| sources(target)).collect()
     };
     // The check of a truth takes a tenth of a second; there may be many.
-    sources.into_par_iter().map(|source| source.and_then(|source| Suite::load(&source))).collect()
+    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
+    sources.into_par_iter().map(|source| source.and_then(load)).collect()
 }
 
 type Sources = Vec<Result<Source, Complaint>>;

@@ -3,6 +3,7 @@
 //! - [`text()`]: the aligned text that is kept as a snapshot. No time, host, date or path.
 //! - [`json()`]: one document, an interface.
 //! - [`svg()`]: figures, drawn by the layer in [`figure`].
+//! - [`mod@page`]: one HTML page with all of it.
 //! - [`drift`]: comparison of two texts, number by number.
 //! - [`mod@compare`]: two JSON documents side by side, what moved first.
 
@@ -17,6 +18,7 @@ mod json_number;
 mod json_priced;
 mod json_stability;
 mod levels;
+pub mod page;
 mod priced;
 mod profile;
 mod stability;

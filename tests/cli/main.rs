@@ -6,6 +6,7 @@ mod explain;
 mod folder;
 mod hostile;
 mod json;
+mod page;
 mod plans;
 mod run;
 mod steps;

@@ -1,0 +1,132 @@
+//! One HTML page for a run: everything that was found, in one file that needs no network.
+//!
+//! It is read without JavaScript; a small script only sorts and filters the table of verdicts and unfolds
+//! what a link leads to. Figures are inline SVG, coloured anew for light and dark (`theme`). Nothing
+//! on the page depends on the time or the machine: the same run gives the same bytes.
+//!
+//! A section shows all that a suite reports: every figure of [`svg()`](crate::report::svg()) and the whole
+//! of [`text()`](crate::report::text()). What is added to either is on the page.
+
+mod cells;
+mod figures;
+mod html;
+mod inline;
+mod links;
+mod section;
+mod source;
+mod theme;
+mod verdicts;
+
+#[cfg(test)]
+mod tests;
+
+pub use source::Source;
+
+use crate::verify::CaseOutcome;
+use html::Html;
+
+const STYLE: &str = include_str!("style.css");
+const SCRIPT: &str = include_str!("script.js");
+
+/// Nothing may be fetched from anywhere, whatever a suite says.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+/// The page, which says too how many suites could not be run. Names of suites must differ: they become
+/// the ids of sections.
+pub fn page(sources: &[Source<'_>], refused: usize) -> String {
+    let mut body = vec![head(sources, refused), contents(sources), verdicts::table(sources)];
+    body.extend(sources.iter().map(section::section));
+    body.push(foot());
+    let page = Html::block(
+        "html",
+        &[("lang", "en")],
+        &[
+            Html::block("head", &[], &meta()),
+            Html::block(
+                "body",
+                &[],
+                &[Html::block("main", &[], &body), Html::tag("script", &[], Html::trusted(SCRIPT))],
+            ),
+        ],
+    );
+    format!("<!DOCTYPE html>\n{}\n", page.into_string())
+}
+
+fn meta() -> Vec<Html> {
+    let meta = |name, content| Html::void("meta", &[("name", name), ("content", content)]);
+    let policy = [("http-equiv", "Content-Security-Policy"), ("content", POLICY)];
+    vec![
+        Html::void("meta", &[("charset", "utf-8")]),
+        Html::void("meta", &policy),
+        meta("viewport", "width=device-width, initial-scale=1"),
+        meta("color-scheme", "light dark"),
+        // Otherwise browsers ask for one.
+        Html::void("link", &[("rel", "icon"), ("href", "data:,")]),
+        Html::tag("title", &[], "MPM verification"),
+        Html::tag("style", &[], Html::trusted(theme::css() + STYLE)),
+    ]
+}
+
+/// What a reader must know first: is everything as expected, and if not, what is not?
+fn head(sources: &[Source<'_>], refused: usize) -> Html {
+    let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
+    let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());
+    let noun =
+        |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+    let run = format!("{}, {}", noun(sources.len(), "suite"), noun(all, "case"));
+    let (class, finding) = match (refused, failed) {
+        (0, 0) if all > 0 => ("ok finding", format!("{run}: everything as expected.")),
+        (0, _) => ("bad finding", format!("{run}: {failed} not as expected.")),
+        _ => {
+            let unread = format!("{} could not be used", noun(refused, "file"));
+            ("bad finding", format!("{run}: {failed} not as expected. {unread}."))
+        }
+    };
+    let finding = Html::tag("p", &[("class", class)], finding);
+    let mut parts = vec![Html::tag("h1", &[], "MPM verification"), finding];
+    if failed > 0 {
+        let item = |(source, case): (&Source<'_>, &CaseOutcome)| {
+            let link = links::case_link(source.outcome, case, true);
+            let why = Html::text(&format!(": {}", case.unmet.join("; ")));
+            Html::tag("li", &[], vec![link, why])
+        };
+        let items: Vec<Html> = cases().filter(|(_, case)| !case.passed()).map(item).collect();
+        parts.push(Html::block("ul", &[("class", "unmet")], &items));
+    }
+    Html::block("header", &[], &parts)
+}
+
+/// Every suite with its headline.
+fn contents(sources: &[Source<'_>]) -> Html {
+    let item = |source: &Source<'_>| {
+        let outcome = source.outcome;
+        let link = Html::tag(
+            "a",
+            &[("href", &format!("#{}", links::id(outcome)))],
+            outcome.suite.as_str(),
+        );
+        let title = Html::tag("span", &[("class", "muted")], format!(" {}", outcome.title));
+        let mut parts = vec![link, title];
+        if !outcome.passed() {
+            parts.push(Html::tag("b", &[("class", "bad")], " FAIL"));
+        }
+        Html::tag("li", &[], parts)
+    };
+    let items: Vec<Html> = sources.iter().map(item).collect();
+    Html::block(
+        "nav",
+        &[("aria-label", "Suites")],
+        &[Html::tag("h2", &[], "Suites"), Html::block("ul", &[("class", "suites")], &items)],
+    )
+}
+
+fn foot() -> Html {
+    let words = concat!(
+        "mpm-verify ",
+        env!("CARGO_PKG_VERSION"),
+        ". An expected failure is as binding as an expected order: FAIL says that a case is not as its \
+         suite expects."
+    );
+    Html::block("footer", &[], &[Html::tag("p", &[("class", "muted")], words)])
+}

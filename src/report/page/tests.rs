@@ -1,0 +1,144 @@
+use super::*;
+use crate::{
+    report::{svg, text},
+    verify::{ForceRow, Study, SuiteOutcome},
+};
+use std::collections::BTreeSet;
+
+const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
+
+/// An internal-force study whose every text is `words`.
+fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
+    let word = || words.to_owned();
+    let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };
+    let case = |name: &str| CaseOutcome {
+        case: format!("{name}{words}"),
+        subject: "mpm",
+        settings: vec![(word(), word())],
+        profile: None,
+        expected: word(),
+        because: word(),
+        verdict: word(),
+        reason: word(),
+        unmet: unmet.iter().map(|unmet| format!("{unmet}{words}")).collect(),
+        study: Study::InternalForce(vec![row(0.0), row(1.0)]),
+    };
+    SuiteOutcome {
+        suite: suite.to_owned(),
+        title: word(),
+        source: word(),
+        about: format!("{words}\n\n{words}"),
+        statement: vec![(word(), word())],
+        cases: vec![case("first"), case("second")],
+    }
+}
+
+fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
+    let source = |outcome| Source { outcome, file: yaml, yaml };
+    page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
+}
+
+/// Every start tag with its attributes; fails unless each is closed where it must be.
+fn tags(page: &str) -> Vec<(String, String)> {
+    let (mut open, mut seen): (Vec<String>, _) = (Vec::new(), Vec::new());
+    let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a document type");
+    while let Some(start) = rest.find('<') {
+        let end = start + rest[start..].find('>').expect("the end of a tag");
+        let tag = &rest[start + 1..end];
+        rest = &rest[end + 1..];
+        if let Some(name) = tag.strip_prefix('/') {
+            assert_eq!(open.pop().as_deref(), Some(name));
+            continue;
+        }
+        let name = tag.split([' ', '/']).next().unwrap_or_default().to_owned();
+        let closed = tag.ends_with('/') || ["meta", "link"].contains(&name.as_str());
+        seen.push((name.clone(), tag.to_owned()));
+        if ["script", "style"].contains(&name.as_str()) {
+            rest = &rest[rest.find(&format!("</{name}>")).expect("its end")..];
+        }
+        if !closed {
+            open.push(name);
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+    seen
+}
+
+/// Values of an attribute, in order.
+fn values<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
+    let key = format!(" {name}=\"");
+    let value = |(at, _)| page[at + key.len()..].split('"').next();
+    page.match_indices(&key).filter_map(value).collect()
+}
+
+#[test]
+fn hostile_words_stay_words() {
+    let page = of(&[outcome("a", HOSTILE, &["not met: "])], HOSTILE);
+    let seen = tags(&page);
+    let count = |name: &str| seen.iter().filter(|(tag, _)| tag == name).count();
+    assert_eq!((count("script"), count("img"), count("style")), (1, 0, 1));
+    let handlers = seen.iter().filter(|(_, tag)| {
+        tag.split('"').step_by(2).any(|part| part.trim_start().starts_with("on"))
+    });
+    assert_eq!(handlers.count(), 0);
+    assert!(page.matches("&lt;/pre&gt;&lt;/script&gt;").count() > 20, "texts are on the page");
+}
+
+#[test]
+fn ids_are_unique_and_links_lead_somewhere() {
+    let page = of(&[outcome("a", " b", &[]), outcome("a-b", "", &["x"])], "suite: x");
+    tags(&page);
+    let ids = values(&page, "id");
+    let unique: BTreeSet<&str> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), unique.len(), "{ids:?}");
+    let links = values(&page, "href");
+    assert!(links.len() > 10);
+    for link in links.into_iter().filter(|link| *link != "data:,") {
+        assert!(link.strip_prefix('#').is_some_and(|id| unique.contains(id)), "{link}");
+    }
+}
+
+/// The place where cost tables and work-precision diagrams appear once suites report them: every line of
+/// the text report and every figure is on the page.
+#[test]
+fn whatever_a_suite_reports_is_on_the_page() {
+    let outcome = outcome("a", "words & more", &[]);
+    let page = of(std::slice::from_ref(&outcome), "");
+    for line in text(&outcome).lines() {
+        let line = Html::text(line).into_string();
+        assert!(page.contains(&line), "{line}");
+    }
+    let figures = svg(&outcome);
+    assert_eq!(page.matches("<figure ").count(), figures.len());
+    for figure in figures {
+        let caption = format!(">{}</figcaption>", figure.file);
+        assert!(page.contains(&caption) && page.contains(figure.svg.trim()), "{}", figure.file);
+    }
+}
+
+#[test]
+fn the_finding_comes_first() {
+    let sound = of(&[outcome("a", "x", &[])], "");
+    assert!(
+        sound.contains("<p class=\"ok finding\">1 suite, 2 cases: everything as expected.</p>")
+    );
+    let failed = of(&[outcome("a", "x", &["too low"])], "");
+    let finding = "<p class=\"bad finding\">1 suite, 2 cases: 2 not as expected.</p>";
+    let place = failed.find(finding).expect("the finding");
+    assert!(place < failed.find("<nav").expect("the list of suites"));
+    assert!(failed.contains("a::firstx</a>: too lowx</li>"));
+    let none = page(&[], 2);
+    assert!(none.contains("<p class=\"bad finding\">0 suites, 0 cases: 0 not as expected. 2 files could not be used.</p>"));
+    tags(&none);
+}
+
+/// Nothing is asked of a network, and the browser is told so.
+#[test]
+fn nothing_is_loaded() {
+    let page = of(&[outcome("a", "http://example.org", &[])], "x");
+    let addresses: Vec<&str> =
+        values(&page, "src").into_iter().chain(values(&page, "xlink:href")).collect();
+    assert!(addresses.is_empty(), "{addresses:?}");
+    assert_eq!(page.matches("default-src &#39;none&#39;").count(), 1);
+    assert!(!STYLE.contains("url(") && !STYLE.contains("@import") && !SCRIPT.contains("fetch"));
+}

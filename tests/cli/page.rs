@@ -1,0 +1,62 @@
+//! `run --html`: one page with all of it.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
+
+#[test]
+fn a_page_has_verdicts_figures_reports_and_the_suites() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let arguments = ["run", "bar.yaml", "grid-crossing", "--html", "new/page.html"];
+    let found = folder.call(&arguments);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let page = folder.read("new/page.html");
+    for words in [
+        "<p class=\"ok finding\">2 suites, ",
+        "<section id=\"suite-short-bar\" class=\"suite\">",
+        "<a href=\"#case-short-bar.fem-linear-lumped\">",
+        "<b id=\"case-short-bar.fem-linear-lumped\">== fem-linear-lumped ==</b>",
+        "<figure id=\"figure-short-bar.1\">",
+        "<figure id=\"figure-grid-crossing.1\">",
+        "<details id=\"yaml-short-bar\"><summary>bar.yaml</summary>",
+        "initial_velocity: [&quot;1e-3*sin(pi*X/2)&quot;]",
+    ] {
+        assert!(page.contains(words), "no `{words}`");
+    }
+    // What is printed is as without a page, and each run writes the same bytes.
+    assert_eq!(found.out, folder.call(&arguments[..3]).out);
+    folder.call(&["run", "bar.yaml", "grid-crossing", "--html", "again.html", "--jobs", "1"]);
+    assert!(page == folder.read("again.html"), "the page depends on more than the run");
+    let here = folder.path().display().to_string();
+    assert!(!page.contains(&here), "the page names a folder of this machine");
+}
+
+#[test]
+fn a_page_says_what_is_not_as_expected() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", ambitious());
+    folder.write("bad.yaml", mistaken());
+    assert_eq!(folder.call(&["run", "bar.yaml", "--html", "page.html"]).code, FAILED);
+    let page = folder.read("page.html");
+    assert!(page.contains("1 suite, 2 cases: 2 not as expected."));
+    assert!(page.contains("ambitious-bar::mpm-linear-flip-musl</a>: "));
+    let found = folder.call(&["run", "bar.yaml", "bad.yaml", "--html", "page.html"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(folder.read("page.html").contains("1 file could not be used."));
+}
+
+#[test]
+fn a_page_that_cannot_be_written_is_refused_before_anything_runs() {
+    let folder = Folder::new();
+    folder.write("file", "in the way");
+    for place in ["file/page.html", "."] {
+        let found = folder.call(&["run", "grid-crossing", "--html", place]);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        let words = format!("error: --html {place}: ");
+        assert!(found.errors.starts_with(&words), "{}", found.errors);
+    }
+    folder.write("a.yaml", BAR);
+    folder.write("b.yaml", BAR);
+    let found = folder.call(&["run", "a.yaml", "b.yaml", "--html", "page.html"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains("two suites are called `short-bar`"), "{}", found.errors);
+}
