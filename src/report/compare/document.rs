@@ -27,6 +27,31 @@ pub(super) struct Suite {
     #[serde(rename = "suite")]
     pub(super) name: String,
     pub(super) cases: Vec<Case>,
+    #[serde(default)]
+    pub(super) cost: Vec<Ranking>,
+}
+
+/// What methods take for target errors.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Ranking {
+    pub(super) problem: String,
+    /// The unit of work.
+    pub(super) work: String,
+    pub(super) targets: Vec<Number>,
+    pub(super) methods: Vec<Method>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Method {
+    #[serde(rename = "case")]
+    pub(super) name: String,
+    /// Target by target; nothing where it is not reached.
+    pub(super) reached: Vec<Option<Reached>>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct Reached {
+    pub(super) work: Number,
 }
 
 #[derive(Debug, Clone, Deserialize)]

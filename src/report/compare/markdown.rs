@@ -5,7 +5,7 @@
 
 use super::{
     moved::{Comparison, Moved, Rank},
-    row::{HEADS, cells, notes},
+    row::{HEADS, TARGET_HEADS, cells, notes, target},
 };
 
 /// Most rows of a table: a comment may have 65536 characters.
@@ -28,6 +28,7 @@ pub fn markdown(comparison: &Comparison) -> String {
             format!("\n<details><summary>{count} {words}</summary>\n\n{table}\n</details>\n")
         };
     }
+    page += &targets(comparison);
     let share = comparison.tolerance;
     page + &format!(
         "\n<sub>Figures count as equal within a share of {share}. Transfers between particles and nodes are the measure of work.</sub>\n"
@@ -51,6 +52,29 @@ fn table(moved: &[&Moved]) -> String {
         page += &format!("\nand {more} more\n");
     }
     page
+}
+
+/// What the cheapest method takes for an error: open if one became dearer.
+fn targets(comparison: &Comparison) -> String {
+    let moved = &comparison.cheapest;
+    let Some(first) = moved.first() else { return String::new() };
+    let shown = &moved[..moved.len().min(MOST_ROWS)];
+    let mut table =
+        format!("| {} |\n| --- | ---: | ---: | ---: | --- |\n", TARGET_HEADS.join(" | "));
+    for moved in shown {
+        let [place, cells @ ..] = target(moved);
+        let cells = cells.map(|cell| prose(&cell)).join(" | ");
+        table += &format!("| {} | {cells} |\n", code(&place));
+    }
+    if let more @ 1.. = moved.len() - shown.len() {
+        table += &format!("\nand {more} more\n");
+    }
+    let words = "Cheapest for an error";
+    if first.ratio() < 1.0 {
+        format!("\n<details><summary>{words}</summary>\n\n{table}\n</details>\n")
+    } else {
+        format!("\n**{words}**\n\n{table}")
+    }
 }
 
 fn row(moved: &Moved) -> Vec<String> {

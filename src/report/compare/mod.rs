@@ -9,6 +9,7 @@
 //! What a suite judges by bounds on drifts alone has no error here: its verdict speaks for it.
 
 mod accuracy;
+mod cheapest;
 mod document;
 mod equal_error;
 mod markdown;

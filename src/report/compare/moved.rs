@@ -80,6 +80,8 @@ impl Rank {
 pub struct Comparison {
     /// What moved, the most important first.
     pub(super) moved: Vec<Moved>,
+    /// Target errors whose least work moved, the dearer first.
+    pub(super) cheapest: Vec<CheapestMove>,
     /// Cases of both runs that are the same.
     pub(super) unchanged: usize,
     /// Largest relative change of a figure that counts as none.
@@ -119,6 +121,28 @@ pub(super) struct ErrorMove {
     pub(super) level: String,
 }
 
+/// What the cheapest method takes for a target error.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct CheapestMove {
+    /// The suite, and the problem in it where it has several.
+    pub(super) place: String,
+    pub(super) target: f64,
+    /// Least work and the method that needs no more; none if no method reaches the target.
+    pub(super) old: Option<(f64, String)>,
+    pub(super) new: Option<(f64, String)>,
+}
+
+impl CheapestMove {
+    /// New work over old; endless where the target is not reached any more, zero where it is reached now.
+    pub(super) fn ratio(&self) -> f64 {
+        match (&self.old, &self.new) {
+            (Some((old, _)), Some((new, _))) => new / old,
+            (Some(_), None) => f64::INFINITY,
+            (None, _) => 0.0,
+        }
+    }
+}
+
 impl ErrorMove {
     /// New over old.
     pub(super) fn ratio(&self) -> Option<f64> {
@@ -144,7 +168,8 @@ impl Comparison {
 
     /// Whether anything got worse.
     pub fn is_worse(&self) -> bool {
-        self.moved.iter().any(|moved| moved.rank.is_worse())
+        let dearer = self.cheapest.iter().any(|target| !(target.ratio() < 1.0));
+        dearer || self.moved.iter().any(|moved| moved.rank.is_worse())
     }
 
     /// What moved with this rank.
@@ -156,7 +181,16 @@ impl Comparison {
     pub(super) fn headline(&self) -> String {
         let counts = Rank::ALL.into_iter().map(|rank| (self.count(rank), rank.words()));
         let counts = counts.chain([(self.unchanged, "unchanged")]).filter(|(count, _)| *count > 0);
-        let parts: Vec<String> = counts.map(|(count, words)| format!("{count} {words}")).collect();
+        let mut parts: Vec<String> =
+            counts.map(|(count, words)| format!("{count} {words}")).collect();
+        let targets = |dearer: bool, words: &str| {
+            let of = |target: &&CheapestMove| (target.ratio() < 1.0) != dearer;
+            let count = self.cheapest.iter().filter(of).count();
+            let noun = if count == 1 { "target" } else { "targets" };
+            (count > 0).then(|| format!("{count} {noun} {words}"))
+        };
+        parts.extend(targets(true, "dearer to reach"));
+        parts.extend(targets(false, "cheaper to reach"));
         if parts.is_empty() { "no cases".to_owned() } else { parts.join(", ") }
     }
 }

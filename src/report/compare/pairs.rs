@@ -1,7 +1,7 @@
 //! Cases of two runs, paired, ranked and sorted.
 
 use super::{
-    accuracy,
+    accuracy, cheapest,
     document::{Case, Document, name},
     equal_error,
     moved::{Comparison, Moved, Rank, ratio_moved},
@@ -27,7 +27,8 @@ pub(super) fn compare(old: &Document, new: &Document, tolerance: f64) -> Compari
     }
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
-    Comparison { moved, unchanged, tolerance }
+    let cheapest = cheapest::compare(old, new, tolerance);
+    Comparison { moved, cheapest, unchanged, tolerance }
 }
 
 /// A case of one run only.

@@ -1,6 +1,6 @@
 //! The cells of a row, the same in text and in Markdown.
 
-use super::moved::{ErrorMove, Moved, Rank};
+use super::moved::{CheapestMove, ErrorMove, Moved, Rank};
 
 /// Heads of the columns.
 pub(super) const HEADS: [&str; 8] =
@@ -28,6 +28,30 @@ pub(super) fn cells(moved: &Moved) -> [String; 8] {
     ]
 }
 
+/// Heads of the columns for [`target`].
+pub(super) const TARGET_HEADS: [&str; 5] = ["suite", "error", "times", "work", "cheapest"];
+
+/// A target error and what it takes.
+pub(super) fn target(moved: &CheapestMove) -> [String; 5] {
+    let of = |found: &Option<(f64, String)>| found.clone().unzip();
+    let ((old, old_case), (new, new_case)) = (of(&moved.old), of(&moved.new));
+    let both = |old: Option<String>, new: Option<String>| match (old, new) {
+        (old, new) if old == new => old.unwrap_or_else(dash),
+        (old, new) => {
+            [old, new].map(|side| side.unwrap_or_else(|| "not reached".to_owned())).join(" -> ")
+        }
+    };
+    let work = |work: Option<f64>| work.map(|work| format!("{work:.3e}"));
+    let reached = old.is_some() && new.is_some();
+    [
+        moved.place.clone(),
+        format!("{:.0e}", moved.target),
+        if reached { times(moved.ratio()) } else { dash() },
+        both(work(old), work(new)),
+        both(old_case, new_case),
+    ]
+}
+
 /// The first notes of a case.
 pub(super) fn notes(moved: &Moved) -> Vec<String> {
     let mut notes: Vec<String> = moved.notes.iter().take(MOST_NOTES).cloned().collect();
@@ -52,10 +76,11 @@ fn dash() -> String {
     "-".to_owned()
 }
 
-/// A ratio: `1.80 x`.
+/// A ratio: `1.80 x`, and `1.004 x` where it is close to one.
 fn times(ratio: f64) -> String {
     match ratio {
         r if !r.is_finite() => "-".to_owned(),
+        r if (0.95..1.05).contains(&r) => format!("{r:.3} x"),
         r if (0.01..100.0).contains(&r) => format!("{r:.2} x"),
         r => format!("{r:.1e} x"),
     }

@@ -77,6 +77,14 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
     assert_eq!(found.is_worse(), expected.is_some_and(Rank::is_worse));
 }
 
+/// What moved by little is not shown as if it had not.
+#[test]
+fn a_small_change_is_seen() {
+    let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
+    // Between the two finest levels the share of it is less: 1.004^0.82.
+    assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
+}
+
 /// NaN before and after is the same failure; a number in its place is an improvement.
 #[test]
 fn what_failed_before_is_not_worse_now() {
@@ -104,7 +112,7 @@ fn a_new_failure_outweighs_a_better_finest_level() {
 #[rstest]
 #[case::twice_as_dear(1.0, 1.8, Rank::Dearer, "1.80 x at 2e-4")]
 #[case::worse_and_as_dear(2.0, 1.0, Rank::LessAccurate, "2.00 x at 5e-4")]
-#[case::better_at_the_same_price(0.5, 2.0, Rank::Better, "1.00 x at 2e-4")]
+#[case::better_at_the_same_price(0.5, 2.0, Rank::Better, "1.000 x at 2e-4")]
 #[case::better_and_dearer_still(0.5, 4.0, Rank::Better, "2.00 x at 2e-4")]
 fn work_is_compared_at_equal_error(
     #[case] c: f64,
@@ -218,6 +226,47 @@ fn what_moved_is_sorted_by_importance() {
     let row = |name: &str| page.find(&format!("\n  bar::{name} ")).expect(name);
     assert!(order.windows(2).all(|pair| row(pair[0]) < row(pair[1])), "{page}");
     assert!(page.contains("    bar::unmet: an order of 2 was expected"), "{page}");
+}
+
+/// A document whose only suite ranks two methods at errors of 1e-2 and 1e-3.
+fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> Document {
+    let method = |name: &str, work: [Option<f64>; 2]| {
+        let reached =
+            work.map(|work| work.map(|work| json!({"work": work, "at_most": false, "times": 1.0})));
+        json!({"case": name, "reached": reached, "best": 1e-4, "front": true})
+    };
+    let cost = json!([{"problem": "exact", "size": 1.0, "work": "transfers", "targets": [1e-2, 1e-3],
+        "methods": [method("linear", first), method("cubic", second)]}]);
+    let text = json!({"suites": [{"suite": "bar", "cases": [], "cost": cost}]}).to_string();
+    Document::read(&text).expect("a document")
+}
+
+#[rstest]
+#[case::same([Some(1e3), Some(1e5)], [Some(2e3), Some(1e4)], None)]
+#[case::the_dearer_method_is_none_of_it([Some(1e3), Some(9e5)], [Some(2e3), Some(1e4)], None)]
+#[case::dearer([Some(1.8e3), Some(1e5)], [Some(2e3), Some(1e4)],
+    Some((true, "bar, exact   1e-2  1.80 x    1.000e3 -> 1.800e3  linear")))]
+#[case::another_method([Some(5e3), Some(1e5)], [Some(2e3), Some(1e4)],
+    Some((true, "bar, exact   1e-2  2.00 x  1.000e3 -> 2.000e3  linear -> cubic")))]
+#[case::cheaper([Some(1e3), Some(1e5)], [Some(2e3), Some(5e3)],
+    Some((false, "bar, exact   1e-3  0.50 x  1.000e4 -> 5.000e3  cubic")))]
+#[case::not_reached([Some(1e3), None], [Some(2e3), None],
+    Some((true, "bar, exact   1e-3      -  1.000e4 -> not reached  cubic -> not reached")))]
+fn cheapest_for_a_target(
+    #[case] first: [Option<f64>; 2],
+    #[case] second: [Option<f64>; 2],
+    #[case] expected: Option<(bool, &str)>,
+) {
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let old = ranked([Some(1e3), Some(1e5)], [Some(2e3), Some(1e4)]);
+    let found = compare(&old, &ranked(first, second), TOLERANCE);
+    let page = words(&text(&found));
+    assert_eq!(found.is_worse(), expected.is_some_and(|(worse, _)| worse), "{page}");
+    match expected {
+        Some((_, row)) => assert!(page.contains(&words(row)), "{page}"),
+        None => assert!(found.cheapest.is_empty(), "{page}"),
+    }
+    assert_eq!(markdown(&found).contains("| `bar, exact` |"), expected.is_some());
 }
 
 #[rstest]

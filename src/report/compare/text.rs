@@ -2,7 +2,7 @@
 
 use super::{
     moved::{Comparison, Rank},
-    row::{HEADS, cells, notes},
+    row::{HEADS, TARGET_HEADS, cells, notes, target},
 };
 use crate::report::table::Table;
 
@@ -26,6 +26,14 @@ pub fn text(comparison: &Comparison) -> String {
         lines.extend([String::new(), rank.words().to_owned()]);
         lines.extend(table.without_empty_columns().flush_left(&[0, 1]).lines());
         lines.extend(below);
+    }
+    if !comparison.cheapest.is_empty() {
+        let mut table = Table::new(&TARGET_HEADS);
+        for moved in &comparison.cheapest {
+            table.row(target(moved).map(|cell| printable(&cell)).to_vec());
+        }
+        lines.extend([String::new(), "cheapest for an error".to_owned()]);
+        lines.extend(table.flush_left(&[0, 4]).lines());
     }
     let share = comparison.tolerance;
     lines.extend([String::new(), format!("Figures count as equal within a share of {share}.")]);

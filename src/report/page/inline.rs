@@ -12,6 +12,10 @@ pub(super) fn svg(document: &str, prefix: &str) -> Html {
     if let Some(start) = inline.find("<svg") {
         inline.drain(..start);
     }
+    while let Some(start) = inline.find("<style") {
+        let end = inline[start..].find("</style>").map_or(inline.len(), |at| start + at + 8);
+        inline.drain(start..end);
+    }
     for id in &ids {
         let new = format!("{prefix}-{id}");
         for (before, after) in [("id=\"", "\""), ("url(#", ")"), ("href=\"#", "\"")] {
@@ -47,6 +51,12 @@ mod tests {
             "<svg viewBox=\"0 0 1 1\"><defs><clipPath id=\"bar-1-a\"/><path id=\"bar-1-ab\"/></defs>\
              <g clip-path=\"url(#bar-1-a)\"/><use href=\"#bar-1-ab\"/></svg>"
         );
+    }
+
+    #[test]
+    fn style_sheets_stay_behind() {
+        let figure = "<svg><style>a{}</style><g/><style>b{}</style></svg>";
+        assert_eq!(svg(figure, "x").into_string(), "<svg><g/></svg>");
     }
 
     #[test]

@@ -15,7 +15,7 @@ const fn colour(name: &'static str, light: &'static str, dark: &'static str) -> 
     Colour { name, light, dark }
 }
 
-const COLOURS: [Colour; 19] = [
+const COLOURS: [Colour; 21] = [
     colour("page", "#ffffff", "#15181e"),
     colour("raised", "#f3f5f7", "#1f242c"),
     colour("rule", "#d5d9de", "#3a414c"),
@@ -29,6 +29,8 @@ const COLOURS: [Colour; 19] = [
     colour("shade", "#f3f3f3", "#23282f"),
     colour("neutral", "#4d4d4d", "#b4b8bf"),
     colour("exact", "#929292", "#6d727b"),
+    colour("context", "#8e8e8e", "#747a83"),
+    colour("front", "#fbe9a6", "#4a4a2a"),
     colour("blue", "#0072b2", "#4ba6e3"),
     colour("vermilion", "#d55e00", "#f0803c"),
     colour("green", "#009e73", "#1fbf92"),
@@ -39,11 +41,13 @@ const COLOURS: [Colour; 19] = [
 ];
 
 /// Colours that figures are drawn with, and the names of those that replace them.
-const DRAWN: [(&str, &str); 11] = [
+const DRAWN: [(&str, &str); 13] = [
     ("#e3e3e3", "grid"),
     ("#f3f3f3", "shade"),
     ("#4d4d4d", "neutral"),
     ("#bdbdbd", "exact"),
+    ("#b8b8b8", "context"),
+    ("#fbe9a6", "front"),
     ("#0072b2", "blue"),
     ("#d55e00", "vermilion"),
     ("#009e73", "green"),
@@ -130,7 +134,9 @@ mod tests {
 
     #[rstest]
     fn lines_of_figures_stand_out(#[values(0, 1)] scheme: usize) {
-        for (_, name) in DRAWN.iter().filter(|(_, name)| !matches!(*name, "grid" | "shade")) {
+        for (_, name) in
+            DRAWN.iter().filter(|(_, name)| !matches!(*name, "grid" | "shade" | "front"))
+        {
             let ratio = contrast(SCHEMES[scheme](find(name)), SCHEMES[scheme](find("page")));
             assert!(ratio >= 3.0, "{name}: {ratio:.2}");
         }
