@@ -7,9 +7,9 @@
 //! - [`drift`]: comparison of two texts, number by number.
 //! - [`mod@compare`]: two JSON documents side by side, what moved first.
 
+pub mod compare;
 mod cost;
 mod cost_figure;
-pub mod compare;
 pub mod drift;
 pub mod figure;
 mod json;
