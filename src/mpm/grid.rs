@@ -110,15 +110,22 @@ impl<const D: usize> Grid<D> {
     pub fn locate(&self, x: &Vector<D>) -> Option<([usize; D], [f64; D])> {
         let (mut cell, mut xi) = ([0; D], [0.0; D]);
         for axis in 0..D {
-            let (s, end) = (self.wrapped(x, axis), self.ends[axis]);
-            if !(s >= 0.0 && s <= end) {
-                return None;
-            }
-            let (low, last) = (floor(s), end - 1.0);
-            let low = if low > last { last } else { low };
-            (cell[axis], xi[axis]) = (whole(low), s - low);
+            let (low, place) = self.locate_along(self.local(x, axis), axis)?;
+            (cell[axis], xi[axis]) = (whole(low), place);
         }
         Some((cell, xi))
+    }
+
+    /// The same along one axis, at `s` ([`Grid::local`]).
+    #[inline(always)]
+    pub(super) fn locate_along(&self, s: f64, axis: usize) -> Option<(f64, f64)> {
+        let (s, end) = (self.within(s, axis), self.ends[axis]);
+        if !(s >= 0.0 && s <= end) {
+            return None;
+        }
+        let (low, last) = (floor(s), end - 1.0);
+        let low = if low > last { last } else { low };
+        Some((low, s - low))
     }
 
     /// Position along `axis` in units of h, counted from the first wall.
@@ -130,7 +137,12 @@ impl<const D: usize> Grid<D> {
     /// The same, brought back into the grid on a periodic axis.
     #[inline(always)]
     pub fn wrapped(&self, x: &Vector<D>, axis: usize) -> f64 {
-        let (s, n) = (self.local(x, axis), self.ends[axis]);
+        self.within(self.local(x, axis), axis)
+    }
+
+    #[inline(always)]
+    fn within(&self, s: f64, axis: usize) -> f64 {
+        let n = self.ends[axis];
         if !self.periodic[axis] || (s >= 0.0 && s < n) {
             return s;
         }
@@ -181,7 +193,7 @@ impl<const D: usize> Grid<D> {
 }
 
 /// 2^52: numbers from here to twice that are whole, and their last bits are those of the excess.
-const WHOLE: f64 = 4_503_599_627_370_496.0;
+pub(super) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
 /// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than all
 /// the rest, and a conversion to integers and back as much as the weights.

@@ -8,7 +8,7 @@ use crate::subject::Column;
 
 /// Second moments below this share of h^2 are rounding: the particle sees the nodes of one point
 /// only along that axis, as on a node of the linear basis.
-const SMALLEST: f64 = 1e-13;
+pub(super) const SMALLEST: f64 = 1e-13;
 
 /// Moments of the weights of each particle.
 #[derive(Debug, Clone, Default)]
@@ -62,21 +62,6 @@ impl<const D: usize> Inertia<D> {
         Self { mean, second: spread.second - dyad(&mean, &mean) }
     }
 
-    /// `matrix D_p^-1`, where D_p is diagonal; `h` is the cell size (m). Zero for an axis along which
-    /// there is no second moment.
-    #[inline(always)]
-    pub(super) fn divide_diagonal(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
-        let mut quotient = *matrix;
-        for axis in 0..D {
-            let second = self.second[(axis, axis)];
-            let inverse = if second > SMALLEST * h * h { 1.0 / second } else { 0.0 };
-            for row in 0..D {
-                quotient[(row, axis)] *= inverse;
-            }
-        }
-        quotient
-    }
-
     /// `matrix D_p^-1`.
     pub(super) fn divide(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
         matrix * inverse(self.second, SMALLEST * h * h)
@@ -114,13 +99,5 @@ mod tests {
     fn a_full_matrix_is_inverted() {
         let second = Matrix::<3>::new(2.0, 0.5, 0.1, 0.5, 3.0, 0.2, 0.1, 0.2, 1.0);
         assert_relative_eq!(inverse(second, 1e-13) * second, Matrix::identity(), epsilon = 1e-14);
-    }
-
-    #[test]
-    fn a_diagonal_one_is_divided_by_as_any_other() {
-        let second = Matrix::<2>::new(0.25, 0.0, 0.0, 1e-20);
-        let inertia = Inertia { mean: Vector::zeros(), second };
-        let matrix = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);
-        assert_eq!(inertia.divide_diagonal(&matrix, 1.0), inertia.divide(&matrix, 1.0));
     }
 }

@@ -73,14 +73,26 @@ fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
 impl Packed {
     /// Takes the shape of `grid`, with zero everywhere.
     pub(super) fn clear<const D: usize>(&mut self, grid: &Grid<D>) {
-        let mut total = 1;
+        if self.shape(grid) {
+            self.nodes.fill(Node::default());
+        }
+    }
+
+    /// Takes the shape of `grid` and returns whether it had it before; if not, there is zero
+    /// everywhere.
+    fn shape<const D: usize>(&mut self, grid: &Grid<D>) -> bool {
+        let (mut total, before) = (1, (self.nodes.len(), self.strides));
         for axis in 0..D {
             self.strides[axis] = total;
             total *= grid.counts[axis] + MARGIN;
         }
         self.strides[D..].fill(total);
+        if before == (total, self.strides) {
+            return true;
+        }
         self.nodes.clear();
         self.nodes.resize(total, Node::default());
+        false
     }
 
     /// The field, to be read.
@@ -112,11 +124,19 @@ impl Packed {
 
     /// Takes over a field of vectors.
     pub(super) fn pack<const D: usize>(&mut self, grid: &Grid<D>, field: &[Vector<D>]) {
-        self.clear(grid);
-        for (here, there) in self.places(grid).zip(field.chunks_exact(grid.counts[0])) {
-            for (Node(lanes), value) in self.nodes[here].iter_mut().zip(there) {
+        self.shape(grid);
+        let ([across, rows, planes], [_, row, plane]) = (counts(grid), self.strides);
+        for (k, here) in self.nodes.chunks_exact_mut(row).enumerate() {
+            let (j, k) = (k % (plane / row), k / (plane / row));
+            let is_there = j < rows && k < planes;
+            let there = if is_there { &field[(j + k * rows) * across..][..across] } else { &[] };
+            let (here, beyond) = here.split_at_mut(there.len());
+            for (Node(lanes), value) in here.iter_mut().zip(there) {
+                *lanes = [0.0; 4];
                 lanes[..D].copy_from_slice(value.as_slice());
             }
+            // A function of weight zero may stand here, and must not meet what an earlier pass left.
+            beyond.fill(Node::default());
         }
         for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {

@@ -1,7 +1,5 @@
 //! Functions along one axis.
 
-use crate::mpm::algebra::array;
-
 /// K neighbouring functions along one axis.
 #[derive(Debug, Clone, Copy)]
 pub struct Along<const K: usize> {
@@ -43,13 +41,6 @@ impl<const K: usize> Along<K> {
             first += self.weight[k] * self.offset[k];
         }
         [zeroth, first, self.variance]
-    }
-
-    /// Offsets from `mean`, times weight. Taken before any sum: near a wall the offset is small where
-    /// the weight is not, and what an inertia tensor divides must not be lost in rounding.
-    #[inline(always)]
-    pub(super) fn arms(&self, mean: f64) -> [f64; K] {
-        array(0.0, |k| (self.offset[k] - mean) * self.weight[k])
     }
 }
 

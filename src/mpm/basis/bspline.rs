@@ -8,10 +8,18 @@
 
 use super::{
     along::Along,
+    alongs::{Alongs, Weights},
     contract::{Basis, Domain},
+    lattice::{Lattice, Places},
     product::Product,
+    products::Products,
 };
-use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
+use crate::mpm::{
+    algebra::array,
+    four::{FOUR, Four, Plain, Width},
+    grid::Grid,
+    particles::Particles,
+};
 
 /// Quadratic B-splines.
 #[derive(Debug, Clone, Copy)]
@@ -63,49 +71,60 @@ fn functions<const K: usize>(s: f64, cell: usize, cells: usize) -> ([f64; K], [f
 
 /// The same where no knot is repeated, at `xi` from 0 to 1 within the cell: all spans have length 1.
 #[inline(always)]
-fn uniform<const K: usize>(xi: f64) -> ([f64; K], [f64; K]) {
-    let (mut value, mut lower) = ([0.0; K], [0.0; K]);
-    value[0] = 1.0;
+fn uniform<W: Width, const K: usize>(width: W, xi: W::Four) -> ([W::Four; K], [W::Four; K]) {
+    let zero = width.all(0.0);
+    let (mut value, mut lower) = ([zero; K], [zero; K]);
+    value[0] = width.all(1.0);
     for degree in 1..K {
         lower = value;
-        let mut carried = 0.0;
         for r in 0..degree {
             let share = lower[r] * (1.0 / degree as f64);
-            value[r] = carried + ((r + 1) as f64 - xi) * share;
-            carried = (xi + (degree - 1 - r) as f64) * share;
+            let falling = (width.all((r + 1) as f64) - xi) * share;
+            value[r] = if r > 0 { value[r] + falling } else { falling };
+            value[r + 1] = (xi + (degree - 1 - r) as f64) * share;
         }
-        value[degree] = carried;
     }
-    let mut slope = [0.0; K];
-    for r in 1..K {
-        slope[r - 1] -= lower[r - 1];
-        slope[r] += lower[r - 1];
-    }
+    let slope = array(zero, |r| match r {
+        0 => zero - lower[0],
+        r if r + 1 < K => lower[r - 1] - lower[r],
+        r => lower[r - 1],
+    });
     (value, slope)
 }
 
-/// The functions of `axis` in a cell, at `xi` from 0 to 1 within it.
+/// The functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
-fn along<const D: usize, const K: usize>(
+fn along<W: Width, const K: usize>(width: W, xi: W::Four, h: f64, inverse_h: f64) -> Weights<W, K> {
+    let (weight, slope) = uniform::<W, K>(width, xi);
+    let first = width.all(1.0 - 0.5 * K as f64) - xi;
+    Weights {
+        weight,
+        slope: array(xi, |r| slope[r] * inverse_h),
+        offset: array(xi, |r| (first + r as f64) * h),
+        // A sum of p + 1 boxes has p + 1 times the variance 1/12 of one.
+        variance: width.all(K as f64 / 12.0 * (h * h)),
+    }
+}
+
+/// Whether the functions of a cell are those of repeated knots: not those of the cells in
+/// `low..high`.
+fn uniform_cells(degree: usize, cells: f64, periodic: bool) -> (f64, f64) {
+    if periodic { (0.0, cells) } else { (degree as f64 - 1.0, cells - degree as f64 + 1.0) }
+}
+
+/// The functions where knots may be repeated.
+#[cold]
+#[inline(never)]
+fn along_wall<const D: usize, const K: usize>(
     grid: &Grid<D>,
     axis: usize,
     cell: usize,
     xi: f64,
 ) -> Along<K> {
-    let (p, cells, h) = (K - 1, grid.cells[axis], grid.h);
-    let (mut weight, mut slope) = uniform::<K>(xi);
-    let first = 0.5 * (1.0 - p as f64) - xi;
-    let mut place: [f64; K] = array(0.0, |r| first + r as f64);
-    // A sum of p + 1 boxes has p + 1 times the variance 1/12 of one.
-    let mut variance = (p + 1) as f64 / 12.0;
-    if !grid.periodic[axis] && (cell + 1 < p || cell + p > cells) {
-        let wall = at_wall::<K>(cells, cell, xi);
-        // One by one: numbers that stay in registers elsewhere must not go by memory for its sake.
-        variance = 0.0;
-        for r in 0..K {
-            (weight[r], slope[r], place[r]) = (wall[0][r], wall[1][r], wall[2][r]);
-            variance += weight[r] * place[r] * place[r];
-        }
+    let (h, [weight, slope, place]) = (grid.h, at_wall::<K>(grid.cells[axis], cell, xi));
+    let mut variance = 0.0;
+    for r in 0..K {
+        variance += weight[r] * place[r] * place[r];
     }
     Along {
         first: cell,
@@ -116,9 +135,25 @@ fn along<const D: usize, const K: usize>(
     }
 }
 
-/// Values, slopes per cell and places (in cells, from the particle) where knots may be repeated.
+/// Puts right what was computed for four particles as if there were no walls.
 #[cold]
 #[inline(never)]
+fn put_right<const D: usize, const K: usize>(
+    grid: &Grid<D>,
+    axis: usize,
+    (cell, xi): ([f64; FOUR], [f64; FOUR]),
+    lane: usize,
+    alongs: &mut Alongs<K>,
+) {
+    let (low, high) = uniform_cells(K - 1, grid.cells[axis] as f64, grid.periodic[axis]);
+    for k in 0..FOUR {
+        if cell[k] < low || cell[k] >= high {
+            alongs.put(lane + k, &along_wall(grid, axis, cell[k] as usize, xi[k]));
+        }
+    }
+}
+
+/// Values, slopes per cell and places (in cells, from the particle) where knots may be repeated.
 fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
     let s = cell as f64 + xi;
     let (weight, slope) = functions::<K>(s, cell, cells);
@@ -149,7 +184,37 @@ macro_rules! bspline {
                 mut see: impl FnMut(&Product<D, $functions>),
             ) {
                 let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-                see(&Product(array(Along::NONE, |axis| along(grid, axis, cell[axis], xi[axis]))));
+                see(&Product(array(Along::NONE, |axis| {
+                    let (cell, xi, cells) = (cell[axis], xi[axis], grid.cells[axis] as f64);
+                    let (low, high) = uniform_cells($degree, cells, grid.periodic[axis]);
+                    if !(low..high).contains(&(cell as f64)) {
+                        return along_wall(grid, axis, cell, xi);
+                    }
+                    along(Plain, Plain.all(xi), grid.h, grid.inverse_h()).take(0, cell)
+                })));
+            }
+
+            #[inline(always)]
+            fn four<W: Width, const D: usize>(
+                width: W,
+                (grid, lattice): (&Grid<D>, &Lattice<D>),
+                particles: &Particles<D>,
+                (first, lane): (usize, usize),
+                patches: &mut Products<D, $functions>,
+            ) -> u32 {
+                let Places { cell, xi, inside } = lattice.locate(width, grid, &particles.x, first);
+                patches.put_starts(lane, lattice.starts(&cell));
+                for axis in 0..D {
+                    let (cell, xi) = (cell[axis], xi[axis]);
+                    let alongs = &mut patches.axes[axis];
+                    along(width, xi, lattice.h, lattice.inverse_h).put(lane / FOUR, alongs);
+                    let (low, high) =
+                        uniform_cells($degree, lattice.ends[axis], lattice.periodic[axis]);
+                    if !cell.are_in(low, high) {
+                        put_right(grid, axis, (cell.into(), xi.into()), lane, alongs);
+                    }
+                }
+                inside
             }
 
             fn support(dimension: usize) -> u64 {

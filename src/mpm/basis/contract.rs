@@ -1,7 +1,14 @@
 //! What a basis is to the rest of the solver.
 
-use super::patch::{Patch, Seen};
-use crate::mpm::{grid::Grid, particles::Particles};
+use super::{
+    lattice::Lattice,
+    patch::{Patch, Seen},
+};
+use crate::mpm::{
+    four::{FOUR, Width},
+    grid::Grid,
+    particles::Particles,
+};
 
 /// What a basis must know of a particle besides its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +57,28 @@ pub trait Basis: Sized + Sync + Send + 'static {
         p: usize,
         see: impl FnMut(&Self::Patch<D>),
     );
+
+    /// Puts the patches of the four particles from `first` on into the lanes from `lane` on, and
+    /// returns in which there is one: bit k for particle `first + k`. Only for a basis with one patch.
+    /// Weights that are computed for four particles at once do not wait for one another; a basis that
+    /// does not care needs no method of its own.
+    #[inline(always)]
+    fn four<W: Width, const D: usize>(
+        _width: W,
+        (grid, lattice): (&Grid<D>, &Lattice<D>),
+        particles: &Particles<D>,
+        (first, lane): (usize, usize),
+        patches: &mut <Self::Patch<D> as Patch<D>>::Several,
+    ) -> u32 {
+        let mut seen = 0;
+        for k in 0..FOUR.min(particles.len() - first) {
+            Self::patches(grid, particles, first + k, |patch| {
+                patch.put(lane + k, &lattice.strides, patches);
+                seen |= 1 << k;
+            });
+        }
+        seen
+    }
 
     /// Calls `visit` for every node of every patch.
     #[inline(always)]

@@ -24,14 +24,13 @@
 use super::{
     along::Along,
     contract::{Basis, Domain},
+    corners::Corners,
     patch::{Patch, Seen, Spread},
     product::Product,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array, cofactor, det},
-    four::Width,
     grid::{Grid, floor},
-    packed::{View, ViewMut},
     particles::Particles,
 };
 
@@ -93,50 +92,12 @@ fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Along<
 }
 
 impl<const D: usize> Patch<D> for Corner<D> {
-    #[inline(always)]
-    fn scatter<W: Width>(&self, width: W, value: W::Four, field: &mut ViewMut<'_>) {
-        self.hats.scatter(width, value, field);
-    }
+    type Several = Corners<D>;
 
     #[inline(always)]
-    fn scatter_affine<W: Width>(
-        &self,
-        width: W,
-        (value, mean): (W::Four, &Vector<D>),
-        slope: &[W::Four; D],
-        field: &mut ViewMut<'_>,
-    ) {
-        self.hats.scatter_affine(width, (value, mean), slope, field);
-    }
-
-    #[inline(always)]
-    fn scatter_flux<W: Width>(&self, width: W, flux: &[W::Four; D], field: &mut ViewMut<'_>) {
-        let mut value = flux[0] * self.outward[0];
-        for axis in 1..D {
-            value += flux[axis] * self.outward[axis];
-        }
-        self.hats.scatter(width, value, field);
-    }
-
-    #[inline(always)]
-    fn gather<W: Width>(&self, width: W, field: &View<'_>) -> W::Four {
-        self.hats.gather(width, field)
-    }
-
-    #[inline(always)]
-    fn gather_moment<W: Width>(
-        &self,
-        width: W,
-        mean: &Vector<D>,
-        field: &View<'_>,
-    ) -> (W::Four, [W::Four; D]) {
-        self.hats.gather_moment(width, mean, field)
-    }
-
-    #[inline(always)]
-    fn gather_gradient<W: Width>(&self, width: W, field: &View<'_>) -> (W::Four, [W::Four; D]) {
-        let sum = self.hats.gather(width, field);
-        (sum, array(sum, |axis| sum * self.outward[axis]))
+    fn put(&self, lane: usize, strides: &[usize; 3], patches: &mut Corners<D>) {
+        self.hats.put(lane, strides, &mut patches.hats);
+        patches.outward[lane] = self.outward;
     }
 
     #[inline(always)]

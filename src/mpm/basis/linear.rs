@@ -6,10 +6,30 @@
 
 use super::{
     along::Along,
+    alongs::Weights,
     contract::{Basis, Domain},
+    lattice::{Lattice, Places},
     product::Product,
+    products::Products,
 };
-use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
+use crate::mpm::{
+    algebra::array,
+    four::{FOUR, Plain, Width},
+    grid::Grid,
+    particles::Particles,
+};
+
+/// The hats along an axis, at `xi` from 0 to 1 within a cell.
+#[inline(always)]
+fn along<W: Width>(width: W, xi: W::Four, h: f64, inverse_h: f64) -> Weights<W, 2> {
+    let rest = width.all(1.0) - xi;
+    Weights {
+        weight: [rest, xi],
+        slope: [width.all(-inverse_h), width.all(inverse_h)],
+        offset: [width.all(0.0) - xi * h, rest * h],
+        variance: xi * rest * h * h,
+    }
+}
 
 /// Piecewise linear basis functions, tensor products of hats.
 #[derive(Debug, Clone, Copy)]
@@ -38,15 +58,25 @@ impl Basis for Linear {
     ) {
         let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
         see(&Product(array(Along::NONE, |axis| {
-            let (xi, h, slope) = (xi[axis], grid.h, grid.inverse_h());
-            Along {
-                first: cell[axis],
-                weight: [1.0 - xi, xi],
-                slope: [-slope, slope],
-                offset: [-xi * h, (1.0 - xi) * h],
-                variance: xi * (1.0 - xi) * h * h,
-            }
+            along(Plain, Plain.all(xi[axis]), grid.h, grid.inverse_h()).take(0, cell[axis])
         })));
+    }
+
+    #[inline(always)]
+    fn four<W: Width, const D: usize>(
+        width: W,
+        (grid, lattice): (&Grid<D>, &Lattice<D>),
+        particles: &Particles<D>,
+        (first, lane): (usize, usize),
+        patches: &mut Products<D, 2>,
+    ) -> u32 {
+        let Places { cell, xi, inside } = lattice.locate(width, grid, &particles.x, first);
+        patches.put_starts(lane, lattice.starts(&cell));
+        for axis in 0..D {
+            let along = along(width, xi[axis], lattice.h, lattice.inverse_h);
+            along.put(lane / FOUR, &mut patches.axes[axis]);
+        }
+        inside
     }
 
     fn support(dimension: usize) -> u64 {

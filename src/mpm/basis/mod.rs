@@ -2,20 +2,29 @@
 //! wants).
 
 mod along;
+mod alongs;
 mod bspline;
 mod contract;
+mod corners;
 mod cpdi;
 mod gimp;
+mod lattice;
 #[cfg(test)]
 mod laws;
 mod linear;
 mod patch;
 mod product;
+mod products;
+mod sums;
 
 pub use along::Along;
+pub use alongs::Alongs;
 pub use contract::{Basis, Domain};
-pub use patch::{Patch, Seen, Spread};
+pub use corners::Corners;
+pub use lattice::Lattice;
+pub use patch::{Patch, Patches, Seen, Spread};
 pub use product::Product;
+pub use products::Products;
 
 use super::{algebra::Vector, family::family, grid::Grid};
 

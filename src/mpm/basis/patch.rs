@@ -6,6 +6,7 @@ use crate::mpm::{
     grid::Grid,
     packed::{View, ViewMut},
 };
+use std::ops::Range;
 
 /// One node as a particle sees it.
 #[derive(Debug, Clone, Copy)]
@@ -30,37 +31,13 @@ pub struct Spread<const D: usize> {
     pub second: Matrix<D>,
 }
 
-/// Nodes that a particle sees, and the functions there. Fields of nodes hold four numbers each, and
-/// so do particles: each method does the same to all four.
+/// Nodes that a particle sees, and the functions there, as a basis gives them.
 pub trait Patch<const D: usize>: Copy {
-    /// Adds `value N_i` to the nodes.
-    fn scatter<W: Width>(&self, width: W, value: W::Four, field: &mut ViewMut<'_>);
+    /// Several of them, as the loops use them.
+    type Several: Patches<D>;
 
-    /// Adds `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i` to the nodes.
-    fn scatter_affine<W: Width>(
-        &self,
-        width: W,
-        value_and_mean: (W::Four, &Vector<D>),
-        slope: &[W::Four; D],
-        field: &mut ViewMut<'_>,
-    );
-
-    /// Adds `sum_a flux_a dN_i/dx_a` to the nodes.
-    fn scatter_flux<W: Width>(&self, width: W, flux: &[W::Four; D], field: &mut ViewMut<'_>);
-
-    /// `sum_i field_i N_i`.
-    fn gather<W: Width>(&self, width: W, field: &View<'_>) -> W::Four;
-
-    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i (x_i - x_p - mean)_a N_i`.
-    fn gather_moment<W: Width>(
-        &self,
-        width: W,
-        mean: &Vector<D>,
-        field: &View<'_>,
-    ) -> (W::Four, [W::Four; D]);
-
-    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i dN_i/dx_a`.
-    fn gather_gradient<W: Width>(&self, width: W, field: &View<'_>) -> (W::Four, [W::Four; D]);
+    /// Takes the place of patch `lane`.
+    fn put(&self, lane: usize, strides: &[usize; 3], patches: &mut Self::Several);
 
     /// Moments of the weights.
     fn spread(&self) -> Spread<D>;
@@ -71,4 +48,66 @@ pub trait Patch<const D: usize>: Copy {
 
     /// Calls `visit` for every node.
     fn visit(&self, grid: &Grid<D>, visit: impl FnMut(Seen<'_, D>));
+}
+
+/// Several patches. What depends on weights only is computed for four at once, each lane of a register
+/// one of them; the loops over nodes go from patch to patch. Fields of nodes hold four numbers each,
+/// and so do particles: each method does the same to all four.
+pub trait Patches<const D: usize> {
+    /// No patches.
+    fn none() -> Self;
+
+    /// Prepares what `scatter` and its likes need of these patches.
+    fn cross<W: Width>(&mut self, width: W, lanes: &Range<usize>);
+
+    /// Prepares what is affine of these patches: levers `x_i - x_p - mean` about `mean`, or about the mean of the
+    /// nodes of each patch, which then is all that its particle sees; and for these the inverse of
+    /// the inertia tensor (1/m^2), `h` being the cell size (m).
+    fn lever<W: Width>(&mut self, width: W, lanes: &Range<usize>, h: f64, mean: Option<&Vector<D>>);
+
+    /// Prepares what `scatter_affine` needs besides.
+    fn weights_of_nodes<W: Width>(&mut self, width: W, lanes: &Range<usize>);
+
+    /// The matrix with these columns, times the inverse inertia tensor of patch `lane`.
+    fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D];
+
+    /// Adds `value N_i` to the nodes of patch `lane`.
+    fn scatter<W: Width>(&self, width: W, lane: usize, value: W::Four, field: &mut ViewMut<'_>);
+
+    /// Adds `(value + sum_a slope_a lever_a) N_i` to the nodes.
+    fn scatter_affine<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        value_and_slope: (W::Four, &[W::Four; D]),
+        field: &mut ViewMut<'_>,
+    );
+
+    /// Adds `sum_a flux_a dN_i/dx_a` to the nodes.
+    fn scatter_flux<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        flux: &[W::Four; D],
+        field: &mut ViewMut<'_>,
+    );
+
+    /// `sum_i field_i N_i`.
+    fn gather<W: Width>(&self, width: W, lane: usize, field: &View<'_>) -> W::Four;
+
+    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i lever_a N_i`.
+    fn gather_moment<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        field: &View<'_>,
+    ) -> (W::Four, [W::Four; D]);
+
+    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i dN_i/dx_a`.
+    fn gather_gradient<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        field: &View<'_>,
+    ) -> (W::Four, [W::Four; D]);
 }

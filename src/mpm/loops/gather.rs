@@ -1,17 +1,16 @@
 //! From nodes to particles: velocity, first moment and gradient in one visit.
 
-use super::inertia::inertia;
+use super::sight::{ALL, Several, Sight};
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    basis::{Basis, Patch},
-    four::{Pass, Width},
+    basis::{Basis, Patches},
+    four::{Four, LANES, Pass, Width},
     grid::Grid,
     kernel::Takes,
-    moments::Inertia,
     packed::View,
     particles::Particles,
 };
-use std::marker::PhantomData;
+use std::{marker::PhantomData, ops::Range};
 
 /// Takes what `takes` says from two packed fields: velocities, and accelerations.
 pub(super) struct Gather<'a, const D: usize, B> {
@@ -33,91 +32,140 @@ fn vector<const D: usize>(four: impl Into<[f64; 4]>) -> Vector<D> {
     vector
 }
 
-/// The matrix with these columns.
+/// Writes these columns, number by number: a matrix that went by memory as a whole would be waited for.
 #[inline(always)]
-fn matrix<const D: usize, F: Into<[f64; 4]> + Copy>(columns: &[F; D]) -> Matrix<D> {
-    let mut matrix = Matrix::zeros();
+fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(matrix: &mut Matrix<D>, columns: &[F; D]) {
     for axis in 0..D {
         let lanes = columns[axis].into();
         for row in 0..D {
             matrix[(row, axis)] = lanes[row];
         }
     }
-    matrix
 }
 
-/// What a particle has taken so far.
+/// What several particles have taken so far.
 struct Taken<W: Width, const D: usize> {
-    change: W::Four,
-    velocity: W::Four,
-    moment: [W::Four; D],
-    gradient: [W::Four; D],
+    change: [W::Four; LANES],
+    velocity: [W::Four; LANES],
+    moment: [[W::Four; D]; LANES],
+    gradient: [[W::Four; D]; LANES],
 }
 
 impl<W: Width, const D: usize> Taken<W, D> {
     #[inline(always)]
     fn nothing(width: W) -> Self {
-        let zero = width.four([0.0; 4]);
-        Self { change: zero, velocity: zero, moment: [zero; D], gradient: [zero; D] }
+        let zero = width.all(0.0);
+        Self {
+            change: [zero; LANES],
+            velocity: [zero; LANES],
+            moment: [[zero; D]; LANES],
+            gradient: [[zero; D]; LANES],
+        }
+    }
+
+    /// Nothing for some of them.
+    #[inline(always)]
+    fn forget(&mut self, width: W, these: impl Fn(usize) -> bool) {
+        let nothing = Self::nothing(width);
+        for lane in (0..LANES).filter(|lane| these(*lane)) {
+            self.change[lane] = nothing.change[lane];
+            self.velocity[lane] = nothing.velocity[lane];
+            self.moment[lane] = nothing.moment[lane];
+            self.gradient[lane] = nothing.gradient[lane];
+        }
+    }
+}
+
+/// Takes what a patch gives: the sum over all patches, of which there may be one only.
+#[inline(always)]
+fn put<B: Basis, F: Four>(sum: &mut F, term: F) {
+    if B::ONE_PATCH {
+        *sum = term;
+    } else {
+        *sum += term;
     }
 }
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
-    /// Adds what the nodes of `patch` give.
+    /// Adds what the nodes of patches give.
     #[inline(always)]
     fn see<W: Width>(
         &self,
         width: W,
-        patch: &B::Patch<D>,
-        of_all: Option<Inertia<D>>,
+        patches: &mut Several<B, D>,
+        (lanes, mean): (Range<usize>, Option<&Vector<D>>),
         taken: &mut Taken<W, D>,
     ) {
         let ([velocity, acceleration], takes) = (&self.fields, &self.takes);
         if takes.change.is_some() {
-            taken.change += patch.gather(width, acceleration);
-        }
-        let mut sum = None;
-        if takes.moment.is_some() {
-            let mean = of_all.unwrap_or_else(|| Inertia::diagonal(patch.variance())).mean;
-            let (all, moment) = patch.gather_moment(width, &mean, velocity);
-            for axis in 0..D {
-                taken.moment[axis] += moment[axis];
+            for lane in lanes.clone() {
+                put::<B, _>(&mut taken.change[lane], patches.gather(width, lane, acceleration));
             }
-            sum = Some(all);
+        }
+        let mut is_summed = takes.mix.is_none() && takes.carried.is_none();
+        if takes.moment.is_some() {
+            patches.lever(width, &lanes, self.grid.h, mean);
+            for lane in lanes.clone() {
+                let (sum, moment) = patches.gather_moment(width, lane, velocity);
+                for axis in 0..D {
+                    put::<B, _>(&mut taken.moment[lane][axis], moment[axis]);
+                }
+                if !is_summed {
+                    put::<B, _>(&mut taken.velocity[lane], sum);
+                }
+            }
+            is_summed = true;
         }
         if takes.gradient.is_some() {
-            let (all, gradient) = patch.gather_gradient(width, velocity);
-            for axis in 0..D {
-                taken.gradient[axis] += gradient[axis];
+            for lane in lanes.clone() {
+                let (sum, gradient) = patches.gather_gradient(width, lane, velocity);
+                for axis in 0..D {
+                    put::<B, _>(&mut taken.gradient[lane][axis], gradient[axis]);
+                }
+                if !is_summed {
+                    put::<B, _>(&mut taken.velocity[lane], sum);
+                }
             }
-            sum = Some(all);
+            is_summed = true;
         }
-        if takes.mix.is_some() || takes.carried.is_some() {
-            taken.velocity += sum.unwrap_or_else(|| patch.gather(width, velocity));
+        if !is_summed {
+            for lane in lanes {
+                put::<B, _>(&mut taken.velocity[lane], patches.gather(width, lane, velocity));
+            }
         }
     }
 
-    /// Gives the particle what it has taken.
+    /// Gives the particles from `first` on what they have taken.
     #[inline(always)]
-    fn give<W: Width>(&mut self, p: usize, taken: &Taken<W, D>) {
+    fn give<W: Width>(&mut self, first: usize, taken: &Taken<W, D>) {
         let takes = &mut self.takes;
-        let velocity = vector::<D>(taken.velocity);
         if let Some(value) = &mut takes.value {
+            let value = value[first..].iter_mut();
             if let Some(dt) = takes.change {
-                value[p] += vector::<D>(taken.change) * dt;
+                for (value, change) in value.zip(&taken.change) {
+                    *value += vector::<D>(*change * dt);
+                }
             }
-            if let Some((keep, factor)) = takes.mix {
-                value[p] = value[p] * keep + velocity * factor;
+        }
+        if let (Some(value), Some((keep, factor))) = (&mut takes.value, takes.mix) {
+            for (value, velocity) in value[first..].iter_mut().zip(&taken.velocity) {
+                *value = *value * keep + vector::<D>(*velocity * factor);
             }
         }
         if let Some(moment) = &mut takes.moment {
-            moment[p] = matrix(&taken.moment);
+            for (moment, taken) in moment[first..].iter_mut().zip(&taken.moment) {
+                put_columns(moment, taken);
+            }
         }
         if let Some(gradient) = &mut takes.gradient {
-            gradient[p] = matrix(&taken.gradient);
+            for (gradient, taken) in gradient[first..].iter_mut().zip(&taken.gradient) {
+                put_columns(gradient, taken);
+            }
         }
         if let Some(carried) = &mut takes.carried {
-            carried[p] = velocity;
+            for (carried, taken) in carried[first..].iter_mut().zip(&taken.velocity) {
+                *carried = vector(*taken);
+            }
         }
     }
 }
@@ -125,19 +173,33 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
     #[inline(always)]
     fn run<W: Width>(mut self, width: W) {
-        let (grid, particles) = (self.grid, self.particles);
-        let of_all = !B::ONE_PATCH && self.takes.moment.is_some();
-        for p in 0..particles.len() {
-            let of_all = of_all.then(|| inertia::<D, B>(grid, particles, p));
-            let mut taken = Taken::nothing(width);
-            B::patches(
-                grid,
-                particles,
-                p,
+        let wants_inertia = self.takes.moment.is_some();
+        let strides = self.fields[0].strides;
+        let mut patches = Several::<B, D>::none();
+        let sight = Sight::<B, D>::new((self.grid, strides), self.particles, wants_inertia);
+        let mut taken = Taken::nothing(width);
+        for first in (0..self.particles.len()).step_by(LANES) {
+            if !B::ONE_PATCH {
+                taken = Taken::nothing(width);
+            }
+            let seen = sight.of(
+                width,
+                first,
+                &mut patches,
                 #[inline(always)]
-                |patch| self.see(width, patch, of_all, &mut taken),
+                |patches, lanes, of_all| {
+                    self.see(
+                        width,
+                        patches,
+                        (lanes, of_all.map(|of_all| &of_all.mean)),
+                        &mut taken,
+                    );
+                },
             );
-            self.give(p, &taken);
+            if seen != ALL {
+                taken.forget(width, |lane| seen >> lane & 1 == 0);
+            }
+            self.give(first, &taken);
         }
     }
 }

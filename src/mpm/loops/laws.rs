@@ -99,6 +99,47 @@ fn takes_together_are_takes_alone<B: Basis, const D: usize>(periodic: bool) {
     assert_eq!(bits(gradient.iter().flatten()), bits(gradient1.iter().flatten()), "gradient");
 }
 
+/// Particle `p` of these, alone.
+fn alone<const D: usize>(particles: &Particles<D>, p: usize) -> Particles<D> {
+    let mut one = particles.clone();
+    (one.x, one.v) = (vec![particles.x[p]], vec![particles.v[p]]);
+    (one.mass, one.vol) = (vec![particles.mass[p]], vec![particles.vol[p]]);
+    (one.sigma, one.domain) = (vec![particles.sigma[p]], vec![particles.domain[p]]);
+    one.x0.truncate(1);
+    one
+}
+
+/// What particles see does not depend on which others are near in their columns; those outside the grid
+/// see nothing.
+fn together_is_alone<B: Basis, const D: usize>(periodic: bool) {
+    let kernel = Loops::<B>::default();
+    let (grid, mut particles) = scene::<D>(&kernel, periodic);
+    particles.x[3] = Vector::from_element(f64::NAN);
+    let takes = |particles: &Particles<D>| {
+        let (mut v, mut moment) = (particles.v.clone(), particles.sigma.clone());
+        let mut gradient = particles.sigma.clone();
+        let takes = Takes {
+            mix: Some((0.75, 0.25)),
+            value: Some(&mut v),
+            moment: Some(&mut moment),
+            gradient: Some(&mut gradient),
+            ..Takes::default()
+        };
+        kernel.g2p_all(&grid, particles, takes);
+        (v, moment, gradient)
+    };
+    let (v, moment, gradient) = takes(&particles);
+    for p in 0..particles.len() {
+        let of_one = takes(&alone(&particles, p));
+        assert_eq!(of_one, (vec![v[p]], vec![moment[p]], vec![gradient[p]]), "particle {p}");
+    }
+    assert_eq!(moment[3], Matrix::<D>::zeros());
+    let mut mapped = grid.clone();
+    kernel.p2g_mass(&particles, &mut mapped);
+    let inside: f64 = particles.mass.iter().sum::<f64>() - particles.mass[3];
+    assert_relative_eq!(mapped.mass.iter().sum::<f64>(), inside, max_relative = 1e-13);
+}
+
 /// The loops as [`super::four::run`] runs them, and over plain arrays.
 fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     let kernel = Loops::<B>::default();
@@ -188,6 +229,7 @@ fn sums_are_those_over_nodes<B: Basis, const D: usize>(periodic: bool) {
 fn obey<B: Basis, const D: usize>(periodic: bool) {
     maps_together_are_maps_alone::<B, D>(periodic);
     takes_together_are_takes_alone::<B, D>(periodic);
+    together_is_alone::<B, D>(periodic);
     widths_agree::<B, D>(periodic);
     sums_are_those_over_nodes::<B, D>(periodic);
 }

@@ -11,6 +11,7 @@ mod inertia;
 mod laws;
 mod scalars;
 mod scatter;
+mod sight;
 mod unpack;
 
 use self::{

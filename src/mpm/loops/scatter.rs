@@ -1,17 +1,17 @@
 //! From particles to nodes: mass, momentum and internal force in one visit.
 
-use super::inertia::inertia;
+use super::sight::{Several, Sight};
 use crate::mpm::{
-    algebra::{Matrix, array},
-    basis::{Basis, Patch},
-    four::{Pass, Width},
+    algebra::{Matrix, Vector, array},
+    basis::{Basis, Patches},
+    four::{LANES, Pass, Width},
     grid::Grid,
-    kernel::{Affine, Divergence, Maps, Shown},
+    kernel::{Affine, Divergence, Maps},
     moments::Inertia,
     packed::ViewMut,
     particles::Particles,
 };
-use std::marker::PhantomData;
+use std::{marker::PhantomData, ops::Range};
 
 /// Maps what `maps` says to the nodes of two packed fields: momentum with mass in the last lane, and
 /// force.
@@ -35,49 +35,69 @@ fn columns<W: Width, const D: usize>(width: W, matrix: &Matrix<D>) -> [W::Four; 
     })
 }
 
-/// `matrix D_p^-1`.
+/// `matrix D_p^-1`, as fours: D_p is that of the patch of this lane, if it has all nodes that the
+/// particle sees, or of all its patches.
 #[inline(always)]
-fn divide<B: Basis, const D: usize>(inertia: &Inertia<D>, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
-    if B::ONE_PATCH { inertia.divide_diagonal(matrix, h) } else { inertia.divide(matrix, h) }
+fn divide<B: Basis, W: Width, const D: usize>(
+    (width, patches, lane): (W, &Several<B, D>, usize),
+    of_all: Option<&Inertia<D>>,
+    matrix: &Matrix<D>,
+    h: f64,
+) -> [W::Four; D] {
+    match of_all {
+        None => patches.divide::<W>(lane, &columns(width, matrix)),
+        Some(of_all) => columns(width, &of_all.divide(matrix, h)),
+    }
 }
 
 impl<const D: usize, B: Basis> Scatter<'_, D, B> {
-    /// Adds `(value + slope (x_i - mean)) N_i` to the nodes.
-    #[inline(always)]
-    fn affine<W: Width>(
-        width: W,
-        patch: &B::Patch<D>,
-        (value, slope): (W::Four, Matrix<D>),
-        inertia: &Inertia<D>,
-        field: &mut ViewMut<'_>,
-    ) {
-        let slope = columns(width, &slope);
-        patch.scatter_affine(width, (value, &inertia.mean), &slope, field);
-    }
-
+    /// Momentum, with mass in the last lane; mass alone where no momentum is shown.
     #[inline(always)]
     fn momentum<W: Width>(
         &mut self,
         width: W,
-        p: usize,
-        shown: Option<&Shown<'_, D>>,
-        patch: &B::Patch<D>,
-        inertia: impl Fn() -> Inertia<D>,
+        (first, lanes): (usize, Range<usize>),
+        patches: &Several<B, D>,
+        of_all: Option<&Inertia<D>>,
     ) {
-        let (m, field) = (self.particles.mass[p], &mut self.fields[0]);
-        let mut lanes = [0.0, 0.0, 0.0, m];
-        let Some(shown) = shown else { return patch.scatter(width, width.four(lanes), field) };
-        for axis in 0..D {
-            lanes[axis] = m * shown.v[p][axis];
-        }
-        let value = width.four(lanes);
-        let Some(affine) = shown.affine else { return patch.scatter(width, value, field) };
-        let inertia = inertia();
-        let slope = match affine {
-            Affine::Slope(c) => c[p],
-            Affine::Moment(b) => divide::<B, D>(&inertia, &b[p], self.grid.h),
+        let (h, maps, field) = (self.grid.h, self.maps, &mut self.fields[0]);
+        let here = first + lanes.start..first + lanes.end;
+        let masses = lanes.zip(&self.particles.mass[here.clone()]);
+        let Some(shown) = &maps.momentum else {
+            for (lane, m) in masses {
+                patches.scatter(width, lane, width.four([0.0, 0.0, 0.0, *m]), field);
+            }
+            return;
         };
-        Self::affine(width, patch, (value, slope * m), &inertia, field);
+        let value = |m: f64, v: &Vector<D>| {
+            let mut lanes = [0.0, 0.0, 0.0, 1.0];
+            for axis in 0..D {
+                lanes[axis] = v[axis];
+            }
+            width.four(lanes) * m
+        };
+        let shown_here = masses.zip(&shown.v[here.clone()]);
+        match shown.affine {
+            None => {
+                for ((lane, m), v) in shown_here {
+                    patches.scatter(width, lane, value(*m, v), field);
+                }
+            }
+            Some(Affine::Slope(c)) => {
+                for (((lane, m), v), c) in shown_here.zip(&c[here]) {
+                    let slope = columns(width, c);
+                    let slope = array(slope[0], |axis| slope[axis] * *m);
+                    patches.scatter_affine(width, lane, (value(*m, v), &slope), field);
+                }
+            }
+            Some(Affine::Moment(b)) => {
+                for (((lane, m), v), b) in shown_here.zip(&b[here]) {
+                    let slope = divide::<B, W, D>((width, patches, lane), of_all, b, h);
+                    let slope = array(slope[0], |axis| slope[axis] * *m);
+                    patches.scatter_affine(width, lane, (value(*m, v), &slope), field);
+                }
+            }
+        }
     }
 
     #[inline(always)]
@@ -85,17 +105,33 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         &mut self,
         width: W,
         divergence: Divergence,
-        flux: &Matrix<D>,
-        patch: &B::Patch<D>,
-        inertia: impl Fn() -> Inertia<D>,
+        (first, lanes): (usize, Range<usize>),
+        patches: &Several<B, D>,
+        of_all: Option<&Inertia<D>>,
     ) {
-        let field = &mut self.fields[1];
-        if divergence == Divergence::Gradient {
-            return patch.scatter_flux(width, &columns(width, flux), field);
+        let (h, particles, field) = (self.grid.h, self.particles, &mut self.fields[1]);
+        let here = first + lanes.start..first + lanes.end;
+        if divergence == Divergence::Gradient && particles.moved.is_empty() {
+            // What `flux` does, with one look at the columns for all.
+            let sigma = lanes.zip(&particles.sigma[here.clone()]);
+            for ((lane, sigma), vol) in sigma.zip(&particles.vol[here]) {
+                let flux = columns(width, &-(sigma * *vol));
+                patches.scatter_flux(width, lane, &flux, field);
+            }
+            return;
         }
-        let inertia = inertia();
-        let slope = divide::<B, D>(&inertia, flux, self.grid.h);
-        Self::affine(width, patch, (width.four([0.0; 4]), slope), &inertia, field);
+        if divergence == Divergence::Gradient {
+            for lane in lanes {
+                let flux = columns(width, &-particles.flux(first + lane));
+                patches.scatter_flux(width, lane, &flux, field);
+            }
+            return;
+        }
+        for lane in lanes {
+            let flux = -particles.flux(first + lane);
+            let slope = divide::<B, W, D>((width, patches, lane), of_all, &flux, h);
+            patches.scatter_affine(width, lane, (width.all(0.0), &slope), field);
+        }
     }
 }
 
@@ -103,25 +139,28 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
     #[inline(always)]
     fn run<W: Width>(mut self, width: W) {
         let Self { grid, particles, maps, .. } = self;
-        let is_affine = maps.momentum.is_some_and(|shown| shown.affine.is_some());
-        let of_all = !B::ONE_PATCH && (is_affine || maps.force == Some(Divergence::Fit));
-        for p in 0..particles.len() {
-            // Where there are several patches, their moments must be known before the first of them
-            // is seen; where there is one, they follow from its weights at no cost.
-            let of_all = of_all.then(|| inertia::<D, B>(grid, particles, p));
-            let flux = maps.force.map(|divergence| (divergence, -particles.flux(p)));
-            B::patches(
-                grid,
-                particles,
-                p,
+        let is_affine = maps.momentum.is_some_and(|shown| shown.affine.is_some())
+            || maps.force == Some(Divergence::Fit);
+        let strides = self.fields[usize::from(maps.force.is_some())].strides;
+        let mut patches = Several::<B, D>::none();
+        let sight = Sight::<B, D>::new((grid, strides), particles, is_affine);
+        for first in (0..particles.len()).step_by(LANES) {
+            sight.of(
+                width,
+                first,
+                &mut patches,
                 #[inline(always)]
-                |patch| {
-                    let inertia = || of_all.unwrap_or_else(|| Inertia::diagonal(patch.variance()));
-                    if maps.mass || maps.momentum.is_some() {
-                        self.momentum(width, p, maps.momentum.as_ref(), patch, inertia);
+                |patches, lanes, of_all| {
+                    patches.cross(width, &lanes);
+                    if is_affine {
+                        patches.lever(width, &lanes, grid.h, of_all.map(|of_all| &of_all.mean));
+                        patches.weights_of_nodes(width, &lanes);
                     }
-                    if let Some((divergence, flux)) = &flux {
-                        self.force(width, *divergence, flux, patch, inertia);
+                    if maps.mass || maps.momentum.is_some() {
+                        self.momentum(width, (first, lanes.clone()), patches, of_all);
+                    }
+                    if let Some(divergence) = maps.force {
+                        self.force(width, divergence, (first, lanes), patches, of_all);
                     }
                 },
             );

@@ -1,0 +1,119 @@
+//! Where particles are in the cells of the grid, four at a time.
+
+use crate::mpm::{
+    algebra::{Vector, array},
+    four::{FOUR, Four, Width},
+    grid::{Grid, WHOLE},
+};
+
+/// What a pass must know of the grid, without the grid.
+#[derive(Debug, Clone, Copy)]
+pub struct Lattice<const D: usize> {
+    pub(super) h: f64,
+    pub(super) inverse_h: f64,
+    origin: [f64; D],
+    /// Cells along each axis.
+    pub(super) ends: [f64; D],
+    pub(super) periodic: [bool; D],
+    /// Distances of neighbours in packed fields.
+    pub(in crate::mpm) strides: [usize; 3],
+}
+
+/// Cells of four particles.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Places<F, const D: usize> {
+    /// Index of the cell along each axis.
+    pub(super) cell: [F; D],
+    /// Place in the cell, from 0 to 1.
+    pub(super) xi: [F; D],
+    /// Whether there is such a particle and it is in the grid: bit k for particle k.
+    pub(super) inside: u32,
+}
+
+/// All four particles are there, and inside.
+const ALL: u32 = (1 << FOUR) - 1;
+
+impl<const D: usize> Lattice<D> {
+    /// That of `grid`, with fields of these `strides`.
+    pub(in crate::mpm) fn new(grid: &Grid<D>, strides: [usize; 3]) -> Self {
+        Self {
+            h: grid.h,
+            inverse_h: grid.inverse_h(),
+            origin: array(0.0, |axis| grid.origin[axis]),
+            ends: array(0.0, |axis| grid.cells[axis] as f64),
+            periodic: grid.periodic,
+            strides,
+        }
+    }
+
+    /// Finds the cells of the particles from `first` on, as [`Grid::locate`] does.
+    #[inline(always)]
+    pub(super) fn locate<W: Width>(
+        &self,
+        width: W,
+        grid: &Grid<D>,
+        x: &[Vector<D>],
+        first: usize,
+    ) -> Places<W::Four, D> {
+        let zero = width.all(0.0);
+        let mut places = Places { cell: [zero; D], xi: [zero; D], inside: ALL };
+        // Chosen by reference: numbers that went by memory one by one would be waited for.
+        let few;
+        let x = if let Some(four) = x[first..].first_chunk() {
+            four
+        } else {
+            few = last(&x[first..]);
+            &few
+        };
+        for axis in 0..D {
+            let at = [x[0][axis], x[1][axis], x[2][axis], x[3][axis]];
+            let s = (width.four(at) + -self.origin[axis]) * self.inverse_h;
+            let cell = s.floor();
+            (places.cell[axis], places.xi[axis]) = (cell, s - cell);
+            if !s.are_in(0.0, self.ends[axis]) {
+                let (cell, xi, inside) = at_ends(grid, axis, s.into());
+                (places.cell[axis], places.xi[axis]) = (width.four(cell), width.four(xi));
+                places.inside &= inside;
+            }
+        }
+        places
+    }
+
+    /// Where the nodes of these cells start in a packed field.
+    #[inline(always)]
+    pub(super) fn starts<F: Four>(&self, cell: &[F; D]) -> [u32; FOUR] {
+        let mut start = cell[0];
+        for axis in 1..D {
+            start += cell[axis] * self.strides[axis] as f64;
+        }
+        // The last bits of a number from 2^52 on are those of its excess.
+        let whole: [f64; FOUR] = (start + WHOLE).into();
+        array(0, |lane| whole[lane].to_bits() as u32)
+    }
+}
+
+/// The last few particles; not a number where there are no more.
+#[cold]
+#[inline(never)]
+fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; FOUR] {
+    array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
+}
+
+/// Cells and places at `s` (in cells) along an axis, where some are at its end, beyond it or not
+/// numbers.
+#[cold]
+#[inline(never)]
+fn at_ends<const D: usize>(
+    grid: &Grid<D>,
+    axis: usize,
+    s: [f64; FOUR],
+) -> ([f64; FOUR], [f64; FOUR], u32) {
+    let (mut cells, mut places, mut inside) = ([0.0; FOUR], [0.0; FOUR], 0);
+    for lane in 0..FOUR {
+        if let Some((cell, xi)) = grid.locate_along(s[lane], axis) {
+            (cells[lane], places[lane]) = (cell, xi);
+            inside |= 1 << lane;
+        }
+    }
+    (cells, places, inside)
+}

@@ -1,0 +1,228 @@
+//! Several products of functions along the axes, and the loops over their nodes.
+//!
+//! The weights along each axis are computed once for a particle. Sums over the K^D nodes are taken
+//! axis by axis, so that a node costs a product and a sum for each function, not one for each axis.
+
+use super::{alongs::Alongs, patch::Patches};
+use crate::mpm::{
+    algebra::{Vector, array},
+    four::{FOUR, LANES, Lanes, Width, parts},
+    packed::{Node, View, ViewMut},
+};
+use std::ops::Range;
+
+/// Several [`Product`](super::Product)s.
+#[derive(Debug)]
+pub struct Products<const D: usize, const K: usize> {
+    /// Where the first node of each is in a packed field.
+    pub(super) start: [u32; LANES],
+    /// The functions along each axis.
+    pub(super) axes: [Alongs<K>; D],
+    /// Weights of the rows of a plane times those of the planes.
+    across: [[Lanes; K]; K],
+    /// Weights of the nodes.
+    nodes: [[[Lanes; K]; K]; K],
+}
+
+#[inline(always)]
+fn add<W: Width>(width: W, node: &mut Node, value: W::Four) {
+    node.0 = (width.four(node.0) + value).into();
+}
+
+/// Functions `k` of patch `lane`.
+#[inline(always)]
+pub(super) fn of<const K: usize>(functions: &[Lanes; K], lane: usize) -> [f64; K] {
+    array(0.0, |k| functions[k].get(lane))
+}
+
+impl<const D: usize, const K: usize> Products<D, K> {
+    /// Rows of a plane, and planes: one where there is no such axis.
+    pub(super) const ROWS: usize = if D > 1 { K } else { 1 };
+    pub(super) const PLANES: usize = if D > 2 { K } else { 1 };
+
+    /// Puts the starts of four.
+    #[inline(always)]
+    pub(super) fn put_starts(&mut self, lane: usize, starts: [u32; FOUR]) {
+        self.start[lane % LANES / FOUR * FOUR..][..FOUR].copy_from_slice(&starts);
+    }
+
+    #[inline(always)]
+    pub(super) fn start(&self, lane: usize) -> usize {
+        self.start[lane % LANES] as usize
+    }
+
+    /// Weight of function `k` along `axis`, one where there is no such axis.
+    #[inline(always)]
+    pub(super) fn weight(&self, lane: usize, axis: usize, k: usize) -> f64 {
+        if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
+    }
+
+    /// Weight of row `j` in plane `k`.
+    #[inline(always)]
+    fn row_weight(&self, lane: usize, j: usize, k: usize) -> f64 {
+        if D > 2 { self.across[k][j].get(lane) } else { self.weight(lane, 1, j) }
+    }
+}
+
+impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
+    fn none() -> Self {
+        Self {
+            start: [0; LANES],
+            axes: [Alongs::NONE; D],
+            across: [[Lanes::ZERO; K]; K],
+            nodes: [[[Lanes::ZERO; K]; K]; K],
+        }
+    }
+
+    #[inline(always)]
+    fn cross<W: Width>(&mut self, width: W, lanes: &Range<usize>) {
+        if D > 2 {
+            for part in parts(lanes) {
+                for k in 0..K {
+                    let plane = self.axes[2].weight[k].four(width, part);
+                    for j in 0..K {
+                        let row = self.axes[1].weight[j].four(width, part);
+                        self.across[k][j].put(part, row * plane);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn lever<W: Width>(
+        &mut self,
+        width: W,
+        lanes: &Range<usize>,
+        h: f64,
+        mean: Option<&Vector<D>>,
+    ) {
+        for part in parts(lanes) {
+            for axis in 0..D {
+                self.axes[axis].about(width, part, h, mean.map(|mean| mean[axis]));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn weights_of_nodes<W: Width>(&mut self, width: W, lanes: &Range<usize>) {
+        for part in parts(lanes) {
+            let x = &self.axes[0].weight;
+            let x: [W::Four; K] = array(width.all(0.0), |i| x[i].four(width, part));
+            for k in 0..Self::PLANES {
+                for j in 0..Self::ROWS {
+                    let row = match D {
+                        1 => continue,
+                        2 => self.axes[1].weight[j].four(width, part),
+                        _ => self.across[k][j].four(width, part),
+                    };
+                    for i in 0..K {
+                        self.nodes[k][j][i].put(part, x[i] * row);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D] {
+        array(columns[0], |axis| columns[axis] * self.axes[axis].inverse.get(lane))
+    }
+
+    #[inline(always)]
+    fn scatter<W: Width>(&self, width: W, lane: usize, value: W::Four, field: &mut ViewMut<'_>) {
+        let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
+        for k in 0..Self::PLANES {
+            for j in 0..Self::ROWS {
+                let term = if D > 1 { value * self.row_weight(lane, j, k) } else { value };
+                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                for i in 0..K {
+                    add(width, &mut row[i], term * weights[i]);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn scatter_affine<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        (value, slope): (W::Four, &[W::Four; D]),
+        field: &mut ViewMut<'_>,
+    ) {
+        let start = self.start(lane);
+        let rise = |axis: usize, k: usize| slope[axis] * self.axes[axis].lever[k].get(lane);
+        let along: [_; K] = array(slope[0], |i| rise(0, i));
+        let across: [_; K] = array(slope[0], |j| if D > 1 { rise(1, j) } else { slope[0] });
+        for k in 0..Self::PLANES {
+            let value = if D > 2 { value + rise(2, k) } else { value };
+            for j in 0..Self::ROWS {
+                let value = if D > 1 { value + across[j] } else { value };
+                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                for i in 0..K {
+                    let weight = if D > 1 { &self.nodes[k][j][i] } else { &self.axes[0].weight[i] };
+                    add(width, &mut row[i], (value + along[i]) * weight.get(lane));
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn scatter_flux<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        flux: &[W::Four; D],
+        field: &mut ViewMut<'_>,
+    ) {
+        let (start, x) = (self.start(lane), &self.axes[0]);
+        let (weights, slopes) = (of(&x.weight, lane), of(&x.slope, lane));
+        let along: [_; K] = array(flux[0], |i| flux[0] * slopes[i]);
+        for k in 0..Self::PLANES {
+            for j in 0..Self::ROWS {
+                let weight = self.row_weight(lane, j, k);
+                let mut across = width.all(0.0);
+                if D > 1 {
+                    let slope = self.axes[1].slope[j].get(lane);
+                    across = flux[1] * (slope * self.weight(lane, 2, k));
+                }
+                if D > 2 {
+                    let slope = self.axes[2].slope[k].get(lane);
+                    across += flux[2] * (slope * self.weight(lane, 1, j));
+                }
+                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                for i in 0..K {
+                    let term =
+                        if D > 1 { along[i] * weight + across * weights[i] } else { along[i] };
+                    add(width, &mut row[i], term);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn gather<W: Width>(&self, width: W, lane: usize, field: &View<'_>) -> W::Four {
+        self.sum(width, lane, field)
+    }
+
+    #[inline(always)]
+    fn gather_moment<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        field: &View<'_>,
+    ) -> (W::Four, [W::Four; D]) {
+        self.sums(width, lane, field, &array([0.0; K], |axis| of(&self.axes[axis].arm, lane)))
+    }
+
+    #[inline(always)]
+    fn gather_gradient<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        field: &View<'_>,
+    ) -> (W::Four, [W::Four; D]) {
+        self.sums(width, lane, field, &array([0.0; K], |axis| of(&self.axes[axis].slope, lane)))
+    }
+}

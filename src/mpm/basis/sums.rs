@@ -1,0 +1,95 @@
+//! Sums over the nodes of a patch, taken axis by axis: a node costs a product and a sum for each
+//! function, not one for each axis.
+
+use super::products::{Products, of};
+use crate::mpm::{
+    algebra::array,
+    four::Width,
+    packed::{Node, View},
+};
+use std::ops::AddAssign;
+
+/// `sum_k row_k factors_k`.
+#[inline(always)]
+fn dot<W: Width, const K: usize>(width: W, row: &[Node], factors: &[f64; K]) -> W::Four {
+    let mut sum = width.four(row[0].0) * factors[0];
+    for k in 1..K {
+        sum += width.four(row[k].0) * factors[k];
+    }
+    sum
+}
+
+/// Term `k` of a sum.
+#[inline(always)]
+fn put<F: AddAssign>(sum: &mut F, k: usize, term: F) {
+    if k == 0 {
+        *sum = term;
+    } else {
+        *sum += term;
+    }
+}
+
+impl<const D: usize, const K: usize> Products<D, K> {
+    /// `sum_i field_i N_i`.
+    #[inline(always)]
+    pub(super) fn sum<W: Width>(&self, width: W, lane: usize, field: &View<'_>) -> W::Four {
+        let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
+        let (mut sum, mut plane) = (width.all(0.0), width.all(0.0));
+        for k in 0..Self::PLANES {
+            for j in 0..Self::ROWS {
+                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let terms = dot(width, row, &weights);
+                if D == 1 {
+                    return terms;
+                }
+                put(&mut plane, j, terms * self.weight(lane, 1, j));
+            }
+            if D == 2 {
+                return plane;
+            }
+            put(&mut sum, k, plane * self.weight(lane, 2, k));
+        }
+        sum
+    }
+
+    /// `sum_i field_i N_i`, and the same with the functions along one axis replaced by `others`,
+    /// for each axis.
+    #[inline(always)]
+    pub(super) fn sums<W: Width>(
+        &self,
+        width: W,
+        lane: usize,
+        field: &View<'_>,
+        others: &[[f64; K]; D],
+    ) -> (W::Four, [W::Four; D]) {
+        let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
+        let zero = width.all(0.0);
+        let (mut sum, mut other) = (zero, [zero; D]);
+        for k in 0..Self::PLANES {
+            let (mut plane, mut across, mut along) = (zero, zero, zero);
+            for j in 0..Self::ROWS {
+                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let (terms, others_of_row) =
+                    (dot(width, row, &weights), dot(width, row, &others[0]));
+                if D == 1 {
+                    return (terms, [others_of_row; D]);
+                }
+                let weight = self.weight(lane, 1, j);
+                put(&mut plane, j, terms * weight);
+                put(&mut across, j, others_of_row * weight);
+                put(&mut along, j, terms * others[1][j]);
+            }
+            if D == 2 {
+                return (plane, array(zero, |axis| if axis == 0 { across } else { along }));
+            }
+            let weight = self.weight(lane, 2, k);
+            put(&mut sum, k, plane * weight);
+            put(&mut other[0], k, across * weight);
+            if D > 2 {
+                put(&mut other[1], k, along * weight);
+                put(&mut other[2], k, plane * others[2][k]);
+            }
+        }
+        (sum, other)
+    }
+}

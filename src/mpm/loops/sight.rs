@@ -1,0 +1,86 @@
+//! Particles, several at a time, with what they see.
+
+use super::inertia::inertia;
+use crate::mpm::{
+    basis::{Basis, Lattice, Patch},
+    four::{FOUR, LANES, Width},
+    grid::Grid,
+    moments::Inertia,
+    particles::Particles,
+};
+use std::{marker::PhantomData, ops::Range};
+
+/// Several patches of a basis.
+pub(super) type Several<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Several;
+
+/// The bits of all lanes.
+pub(super) const ALL: u32 = (1 << LANES) - 1;
+
+/// What several particles see. The patches are not part of it: what is beside them in memory would be
+/// read anew after each of their weights is written.
+pub(super) struct Sight<'a, B: Basis, const D: usize> {
+    pub(super) particles: &'a Particles<D>,
+    grid: &'a Grid<D>,
+    lattice: Lattice<D>,
+    /// Whether moments of the weights must be known where there are several patches.
+    wants_inertia: bool,
+    basis: PhantomData<B>,
+}
+
+impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
+    #[inline(always)]
+    pub(super) fn new(
+        (grid, strides): (&'a Grid<D>, [usize; 3]),
+        particles: &'a Particles<D>,
+        wants_inertia: bool,
+    ) -> Self {
+        let lattice = Lattice::new(grid, strides);
+        Self { particles, grid, lattice, wants_inertia, basis: PhantomData }
+    }
+
+    /// Calls `see` for the patches of the particles from `first` on, in their order, with the lanes
+    /// that they are in: particle `first + k` is in lane k. One that is outside the grid is left out, and
+    /// its bit in the result is not set.
+    /// Where there are several patches, their moments must be known before the first of them is seen;
+    /// where there is one, they follow from its weights at no cost.
+    #[inline(always)]
+    pub(super) fn of<W: Width>(
+        &self,
+        width: W,
+        first: usize,
+        patches: &mut Several<B, D>,
+        mut see: impl FnMut(&mut Several<B, D>, Range<usize>, Option<&Inertia<D>>),
+    ) -> u32 {
+        let Self { particles, grid, lattice, .. } = self;
+        if B::ONE_PATCH {
+            let (mut seen, mut lane) = (0, 0);
+            while lane < LANES.min(particles.len() - first) {
+                let at = (first + lane, lane);
+                seen |= B::four(width, (grid, lattice), particles, at, patches) << lane;
+                lane += FOUR;
+            }
+            let (mut rest, mut lane) = (seen, 0);
+            while rest != 0 {
+                let from = lane + rest.trailing_zeros();
+                lane = from + (seen >> from).trailing_ones();
+                see(patches, from as usize..lane as usize, None);
+                rest = seen >> lane;
+            }
+            return seen;
+        }
+        for lane in 0..LANES.min(particles.len() - first) {
+            let of_all = self.wants_inertia.then(|| inertia::<D, B>(grid, particles, first + lane));
+            B::patches(
+                grid,
+                particles,
+                first + lane,
+                #[inline(always)]
+                |patch| {
+                    patch.put(lane, &lattice.strides, patches);
+                    see(patches, lane..lane + 1, of_all.as_ref());
+                },
+            );
+        }
+        ALL
+    }
+}
