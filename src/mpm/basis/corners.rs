@@ -38,11 +38,6 @@ impl<const D: usize> Patches<D> for Corners<D> {
     }
 
     #[inline(always)]
-    fn weights_of_nodes<W: Width>(&mut self, width: W, lanes: &Range<usize>) {
-        self.hats.weights_of_nodes(width, lanes);
-    }
-
-    #[inline(always)]
     fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D] {
         self.hats.divide::<W>(lane, columns)
     }

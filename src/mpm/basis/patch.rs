@@ -65,9 +65,6 @@ pub trait Patches<const D: usize> {
     /// the inertia tensor (1/m^2), `h` being the cell size (m).
     fn lever<W: Width>(&mut self, width: W, lanes: &Range<usize>, h: f64, mean: Option<&Vector<D>>);
 
-    /// Prepares what `scatter_affine` needs besides.
-    fn weights_of_nodes<W: Width>(&mut self, width: W, lanes: &Range<usize>);
-
     /// The matrix with these columns, times the inverse inertia tensor of patch `lane`.
     fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D];
 

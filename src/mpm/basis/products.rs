@@ -20,8 +20,6 @@ pub struct Products<const D: usize, const K: usize> {
     pub(super) axes: [Alongs<K>; D],
     /// Weights of the rows of a plane times those of the planes.
     across: [[Lanes; K]; K],
-    /// Weights of the nodes.
-    nodes: [[[Lanes; K]; K]; K],
 }
 
 #[inline(always)]
@@ -66,12 +64,7 @@ impl<const D: usize, const K: usize> Products<D, K> {
 
 impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
     fn none() -> Self {
-        Self {
-            start: [0; LANES],
-            axes: [Alongs::NONE; D],
-            across: [[Lanes::ZERO; K]; K],
-            nodes: [[[Lanes::ZERO; K]; K]; K],
-        }
+        Self { start: [0; LANES], axes: [Alongs::NONE; D], across: [[Lanes::ZERO; K]; K] }
     }
 
     #[inline(always)]
@@ -105,26 +98,6 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn weights_of_nodes<W: Width>(&mut self, width: W, lanes: &Range<usize>) {
-        for part in parts(lanes) {
-            let x = &self.axes[0].weight;
-            let x: [W::Four; K] = array(width.all(0.0), |i| x[i].four(width, part));
-            for k in 0..Self::PLANES {
-                for j in 0..Self::ROWS {
-                    let row = match D {
-                        1 => continue,
-                        2 => self.axes[1].weight[j].four(width, part),
-                        _ => self.across[k][j].four(width, part),
-                    };
-                    for i in 0..K {
-                        self.nodes[k][j][i].put(part, x[i] * row);
-                    }
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
     fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D] {
         array(columns[0], |axis| columns[axis] * self.axes[axis].inverse.get(lane))
     }
@@ -151,18 +124,22 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
         (value, slope): (W::Four, &[W::Four; D]),
         field: &mut ViewMut<'_>,
     ) {
-        let start = self.start(lane);
-        let rise = |axis: usize, k: usize| slope[axis] * self.axes[axis].lever[k].get(lane);
-        let along: [_; K] = array(slope[0], |i| rise(0, i));
-        let across: [_; K] = array(slope[0], |j| if D > 1 { rise(1, j) } else { slope[0] });
+        let (start, x) = (self.start(lane), &self.axes[0]);
+        let (weights, lever) = (of(&x.weight, lane), |axis: usize, k: usize| {
+            slope[axis] * self.axes[axis].lever[k].get(lane)
+        });
+        let growth: [_; K] = array(slope[0], |i| slope[0] * x.arm[i].get(lane));
+        let rise: [_; K] =
+            if D > 1 { array(slope[0], |j| lever(1, j)) } else { [width.all(0.0); K] };
         for k in 0..Self::PLANES {
-            let value = if D > 2 { value + rise(2, k) } else { value };
+            let value = if D > 2 { value + lever(2, k) } else { value };
             for j in 0..Self::ROWS {
-                let value = if D > 1 { value + across[j] } else { value };
+                let value = if D > 1 { value + rise[j] } else { value };
+                let weight = self.row_weight(lane, j, k);
+                let term = value * weight;
                 let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
                 for i in 0..K {
-                    let weight = if D > 1 { &self.nodes[k][j][i] } else { &self.axes[0].weight[i] };
-                    add(width, &mut row[i], (value + along[i]) * weight.get(lane));
+                    add(width, &mut row[i], term * weights[i] + growth[i] * weight);
                 }
             }
         }

@@ -154,7 +154,6 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
                     patches.cross(width, &lanes);
                     if is_affine {
                         patches.lever(width, &lanes, grid.h, of_all.map(|of_all| &of_all.mean));
-                        patches.weights_of_nodes(width, &lanes);
                     }
                     if maps.mass || maps.momentum.is_some() {
                         self.momentum(width, (first, lanes.clone()), patches, of_all);
