@@ -23,26 +23,63 @@ impl<const D: usize> Solver<D> {
 
     /// `J = V / V0` of every particle: the smallest so far is kept.
     fn jacobians(&mut self) -> Result<(), Failure> {
-        let all = || {
-            let Particles { vol, vol0, .. } = &self.setup.particles;
-            vol.iter().zip(vol0).map(|(vol, vol0)| vol / vol0)
-        };
-        // As in most steps all are sound, the loop has no early way out: it divides several at a time.
-        let (mut sound, mut least) = (true, self.min_j);
-        for j in all() {
-            sound &= j > 0.0 && j < f64::INFINITY;
-            least = if j < least { j } else { least };
-        }
-        let broken = if sound { None } else { all().position(|j| !(j > 0.0 && j.is_finite())) };
-        let Some(p) = broken else {
-            self.min_j = least;
+        let Particles { vol, vol0, .. } = &self.setup.particles;
+        if let Some(least) = least_ratio(vol, vol0) {
+            self.min_j = self.min_j.min(least);
             return Ok(());
-        };
-        let (j, site) = (all().nth(p).unwrap_or(f64::NAN), Site::Particle(p));
-        if !j.is_finite() {
-            return Err(Failure::NonFinite { quantity: "J", site });
         }
-        self.min_j = all().take(p + 1).fold(self.min_j, f64::min);
-        Err(Failure::Inverted { site, j })
+        for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {
+            let (j, site) = (vol / vol0, Site::Particle(p));
+            if !j.is_finite() {
+                return Err(Failure::NonFinite { quantity: "J", site });
+            }
+            self.min_j = self.min_j.min(j);
+            if j <= 0.0 {
+                return Err(Failure::Inverted { site, j });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Ratios that are looked at together.
+const TOGETHER: usize = 4;
+
+/// The smallest `a / b`, if all are positive and finite; infinity of none. As all are in most steps,
+/// the loop has no early way out, and divides several at a time.
+fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
+    let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
+    let (many_b, rest_b) = b.as_chunks::<TOGETHER>();
+    let (mut least, mut sound) = ([f64::INFINITY; TOGETHER], [1.0; TOGETHER]);
+    for (a, b) in many_a.iter().zip(many_b) {
+        for k in 0..TOGETHER {
+            let ratio = a[k] / b[k];
+            // Zero of a finite number; else not a number, for good.
+            sound[k] += ratio * 0.0;
+            least[k] = if ratio < least[k] { ratio } else { least[k] };
+        }
+    }
+    let rest = rest_a.iter().zip(rest_b).map(|(a, b)| a / b);
+    let sound = rest.clone().fold(sound.iter().sum(), |sound: f64, ratio| sound + ratio * 0.0);
+    let least = least.into_iter().chain(rest).fold(f64::INFINITY, f64::min);
+    (least > 0.0 && sound.is_finite()).then_some(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::of_several(&[2.0, 1.0, 3.0, 4.0, 1.5], Some(1.0))]
+    #[case::in_the_rest(&[2.0, 1.0, 3.0, 4.0, 0.5], Some(0.5))]
+    #[case::of_none(&[], Some(f64::INFINITY))]
+    #[case::inverted(&[2.0, -1.0, 3.0, 4.0, 0.5], None)]
+    #[case::flat(&[2.0, 1.0, 3.0, 4.0, 0.0], None)]
+    #[case::nan(&[2.0, 1.0, f64::NAN, 4.0, 1.0], None)]
+    #[case::nan_in_the_rest(&[2.0, 1.0, 1.0, 4.0, f64::NAN], None)]
+    #[case::infinite(&[f64::INFINITY, 1.0, 1.0, 4.0, 1.0, 1.0, 1.0, 1.0], None)]
+    fn the_least_ratio_is_one_of_sound_numbers(#[case] a: &[f64], #[case] least: Option<f64>) {
+        assert_eq!(least_ratio(a, &vec![1.0; a.len()]), least);
     }
 }

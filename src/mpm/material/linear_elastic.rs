@@ -70,10 +70,11 @@ impl<const D: usize> Material<D> for LinearElastic {
     }
 
     fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        for p in 0..particles.len() {
-            let step = particles.grad_v[p] * dt;
-            particles.vol[p] *= det(&(Matrix::identity() + step));
-            particles.sigma[p] += self.increment(&((step + step.transpose()) * 0.5));
+        let Particles { grad_v, vol, sigma, .. } = particles;
+        for ((grad_v, vol), sigma) in grad_v.iter().zip(vol).zip(sigma) {
+            let step = grad_v * dt;
+            *vol *= det(&(Matrix::identity() + step));
+            *sigma += self.increment(&((step + step.transpose()) * 0.5));
         }
     }
 }
