@@ -109,7 +109,7 @@ fn one_thread_and_two_give_the_same_bytes() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
     let run = |jobs: &str, format: &str| {
-        let arguments = ["run", "bar.yaml", "steffen-bar", "--jobs", jobs];
+        let arguments = ["run", "bar.yaml", "steffen-bar-small-load", "--jobs", jobs];
         let out = ["--out", jobs, "--format", format];
         let found = folder.call(&[&arguments[..], &out[..]].concat());
         assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
@@ -157,7 +157,7 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
 #[test]
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
     let folder = Folder::new();
-    for arguments in [&["run", "steffen-bar"][..], &["list"], &["explain"], &["check"]] {
+    for arguments in [&["run", "steffen-bar-small-load"][..], &["list"], &["explain"], &["check"]] {
         let mut command = folder.command(arguments);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the program starts");
