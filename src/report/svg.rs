@@ -1,7 +1,7 @@
 //! The figures of a suite.
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
-use super::{stability, sweep};
+use super::{cost, cost_figure, stability, sweep};
 use crate::subject::Totals;
 use crate::verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
 
@@ -18,7 +18,8 @@ pub struct Figure {
 const MOST_SERIES: usize = 6;
 
 /// Every figure of a suite: convergence plots (as many as keep each readable), the observed
-/// velocity for each MPM or FEM case that watched one, the energies that were asked for, and the forces of an internal-force study.
+/// velocity for each MPM or FEM case that watched one, the energies that were asked for, the forces of an
+/// internal-force study, and error against work.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(histories(outcome));
@@ -28,6 +29,14 @@ pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     figures.extend(stability::map(outcome).map(|svg| Figure { file: file(), svg }));
     let named = |(file, svg): (String, String)| Figure { file, svg };
     figures.extend(sweep::figures(outcome).into_iter().map(named));
+    let (rankings, work) = (cost::by_transfers(outcome), "particle-node transfers");
+    figures.extend(cost_figure::cost_figures(
+        &outcome.suite,
+        &outcome.title,
+        &rankings,
+        work,
+        "transfers",
+    ));
     figures
 }
 

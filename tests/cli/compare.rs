@@ -6,10 +6,15 @@ use rstest::rstest;
 /// A folder with the JSON of two runs: of a bar, and of the same bar with twice the particles and one method
 /// less.
 fn two_runs() -> Folder {
+    runs_of(
+        &BAR.replace("ppc: 4", "ppc: 8").replace("  - fem: {element: linear, mass: lumped}\n", ""),
+    )
+}
+
+/// The JSON of the bar, and of another suite in its place.
+fn runs_of(other: &str) -> Folder {
     let folder = Folder::new();
-    let other =
-        BAR.replace("ppc: 4", "ppc: 8").replace("  - fem: {element: linear, mass: lumped}\n", "");
-    for (name, text) in [("old", BAR), ("new", other.as_str())] {
+    for (name, text) in [("old", BAR), ("new", other)] {
         folder.write("bar.yaml", text);
         let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
         assert_eq!(found.code, SOUND, "{}", found.errors);
@@ -32,7 +37,7 @@ fn twice_the_particles_are_dearer() {
     let found = folder.call(&["compare", "old.json", "new.json"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
     for words in [
-        "worse: 1 dearer, 1 gone\n",
+        "worse: 1 dearer, 1 gone, 2 targets dearer to reach\n",
         "\ndearer\n",
         "  short-bar::mpm-linear-flip-musl  converging ",
         // Other levels are no reason to say nothing: both series meet.
@@ -90,6 +95,8 @@ fn the_tolerance_is_a_share() {
         assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
         assert!(found.errors.contains("--tolerance"), "{}", found.errors);
     }
+    let folder = runs_of(&BAR.replace("ppc: 4", "ppc: 8"));
+    assert_eq!(folder.call(&["compare", "old.json", "new.json"]).code, FAILED);
     let found = folder.call(&["compare", "old.json", "new.json", "--tolerance", "10"]);
     assert_eq!(found.code, SOUND, "{}", found.out);
 }

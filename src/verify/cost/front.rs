@@ -2,6 +2,10 @@
 
 use super::tried::Tried;
 
+/// Share by which an error must be smaller to be worth more work: methods whose errors agree to more
+/// digits than anybody reads are not traded for each other.
+pub(super) const WORTH: f64 = 0.01;
+
 /// Indices of what is on the front, from the least work to the least error. Of equals the first counts.
 pub fn pareto_front(tried: &[Tried]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..tried.len()).filter(|k| tried[*k].counts()).collect();
@@ -12,7 +16,7 @@ pub fn pareto_front(tried: &[Tried]) -> Vec<usize> {
     });
     let mut least = f64::INFINITY;
     order.retain(|k| {
-        let better = tried[*k].error < least;
+        let better = tried[*k].error < least * (1.0 - WORTH);
         if better {
             least = tried[*k].error;
         }
