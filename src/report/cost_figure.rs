@@ -1,7 +1,7 @@
 //! Work-precision diagrams of a ranking.
 
+use super::drawing::Figure;
 use super::figure::{Mark, Point, Series, WorkPrecision};
-use super::svg::Figure;
 use crate::verify::{Ranked, Ranking, Tried, pareto_front};
 use std::ops::Range;
 

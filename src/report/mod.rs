@@ -10,6 +10,7 @@
 pub mod compare;
 mod cost;
 mod cost_figure;
+mod drawing;
 pub mod drift;
 pub mod figure;
 mod json;
@@ -29,9 +30,10 @@ mod text;
 
 pub use cost::cost;
 pub use cost_figure::cost_figures;
+pub use drawing::Figure;
 pub use json::json;
 pub use json_priced::priced_json;
 pub use priced::{bid, priced};
 pub use profile::{difference, profile};
-pub use svg::{Figure, svg};
+pub use svg::svg;
 pub use text::{case, summary, text};

@@ -1,18 +1,9 @@
 //! The figures of a suite.
 
 use super::figure::{Convergence as Plot, Curve, History, Mark, Point, Series};
-use super::{cost, cost_figure, stability, sweep};
+use super::{cost, cost_figure, drawing::Figure, stability, sweep};
 use crate::subject::Totals;
 use crate::verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict};
-
-/// A figure and the name of its file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Figure {
-    /// File name, without a folder.
-    pub file: String,
-    /// The SVG document.
-    pub svg: String,
-}
 
 /// Most curves in one plot: a reader cannot tell more apart.
 const MOST_SERIES: usize = 6;
