@@ -41,7 +41,7 @@ fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) ->
         let times = measure::<D>(method, count);
         for (line, time) in lines.iter_mut().zip(times) {
             let h = total::<D>(count) as f64;
-            line.points.push(Point { h, error: time, mark: Mark::Window });
+            line.points.push(Point { h, error: time, mark: Mark::Measured });
         }
     }
     for line in &lines {

@@ -6,21 +6,32 @@
 
 use super::{algebra::Vector, grid::Grid, particles::Particles};
 
-/// Behind all cells.
-const UNPLACED: usize = usize::MAX;
-
 impl<const D: usize> Particles<D> {
     /// Brings the particles into the order of the cells of `grid`, and returns the old index of each.
     /// Particles of one cell keep their order; those outside the grid come last. To be called
     /// before effects or transfers keep columns of their own.
     pub fn sort_by_cell(&mut self, grid: &Grid<D>) -> Vec<usize> {
+        // Behind all cells, what is in none.
+        let nowhere = grid.cells.iter().product();
         let place = |x: &Vector<D>| {
-            let cell = grid.cell(x)?;
-            Some((0..D).rev().fold(0, |number, axis| number * grid.cells[axis] + cell[axis]))
+            grid.cell(x).map_or(nowhere, |cell| {
+                (0..D).rev().fold(0, |number, axis| number * grid.cells[axis] + cell[axis])
+            })
         };
-        let cells: Vec<usize> = self.x.iter().map(|x| place(x).unwrap_or(UNPLACED)).collect();
-        let mut order: Vec<usize> = (0..self.len()).collect();
-        order.sort_by_key(|&p| cells[p]);
+        let cells: Vec<usize> = self.x.iter().map(place).collect();
+        // Counted, not compared: where the particles of a cell begin is how many are in those before.
+        let mut next = vec![0; nowhere + 2];
+        for cell in &cells {
+            next[cell + 1] += 1;
+        }
+        for cell in 1..next.len() {
+            next[cell] += next[cell - 1];
+        }
+        let mut order = vec![0; self.len()];
+        for (p, &cell) in cells.iter().enumerate() {
+            order[next[cell]] = p;
+            next[cell] += 1;
+        }
         self.reorder(&order);
         order
     }

@@ -16,6 +16,8 @@ pub struct Point {
 pub enum Mark {
     /// In the asymptotic window: filled, joined by a solid line.
     Window,
+    /// Measured and not judged: as in the window, and no word in the legend.
+    Measured,
     /// Outside the window: hollow, joined by a thin dashed line.
     Shown,
     /// Particles changed cell: hollow with a cross.

@@ -94,7 +94,7 @@ fn key(mark: Mark) -> Element {
 
 fn fill(mark: Mark) -> Fill {
     match mark {
-        Mark::Window => Fill::Solid,
+        Mark::Window | Mark::Measured => Fill::Solid,
         Mark::Shown | Mark::Failed => Fill::Hollow,
         Mark::Crossing => Fill::Crossed,
     }
@@ -153,7 +153,7 @@ impl<'a> Line<'a> {
         }
         for ends in path.windows(2) {
             let line = Element::line(ends[0].0, ends[1].0).set("stroke", self.look.colour);
-            let solid = ends[0].1 == Mark::Window && ends[1].1 == Mark::Window;
+            let solid = ends.iter().all(|end| matches!(end.1, Mark::Window | Mark::Measured));
             group.add(&if solid {
                 line.at("stroke-width", 1.6)
             } else {
