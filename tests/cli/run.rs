@@ -157,7 +157,9 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
 #[test]
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
     let folder = Folder::new();
-    for arguments in [&["run", "steffen-bar-small-load"][..], &["list"], &["explain", "oedometer"], &["check"]] {
+    for arguments in
+        [&["run", "steffen-bar-small-load"][..], &["list"], &["explain", "oedometer"], &["check"]]
+    {
         let mut command = folder.command(arguments);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the program starts");
