@@ -170,11 +170,6 @@ impl<const D: usize> Particles<D> {
         if self.moved.is_empty() { &mut self.x } else { &mut self.moved }
     }
 
-    /// The same, to be changed.
-    pub fn position_mut(&mut self, p: usize) -> &mut Vector<D> {
-        if self.moved.is_empty() { &mut self.x[p] } else { &mut self.moved[p] }
-    }
-
     /// Stress times volume (N m) of particle `p`, the flux that the gradients of the basis meet:
     /// V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
     #[inline]

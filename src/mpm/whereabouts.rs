@@ -47,7 +47,7 @@ impl<const D: usize> Whereabouts<D> {
     ) -> Result<(), Failure> {
         if !particles.moved.is_empty() {
             let moved = particles.moved.iter().enumerate();
-            return self.miss(moved.filter(|(_, x)| !is_finite(x)));
+            return miss(&mut self.left_domain, moved.filter(|(_, x)| !is_finite(x)));
         }
         let is_inside = |x: &Vector<D>| is_inside(grid, x);
         if grid.periodic.contains(&true) || !all(&particles.x, is_inside) {
@@ -68,27 +68,28 @@ impl<const D: usize> Whereabouts<D> {
 
     /// The same, where a particle may be outside or beyond the end of a periodic axis.
     fn track_each(&mut self, grid: &Grid<D>, x: &[Vector<D>]) -> Result<(), Failure> {
-        for (at, x) in self.cells.iter_mut().zip(x) {
-            if let Some(now) = cell(grid, x) {
-                self.crossings += u64::from(now != *at);
-                *at = now;
-            }
-        }
-        self.miss(x.iter().enumerate().filter(|(_, x)| grid.cell(x).is_none()))
+        let Self { cells, crossings, left_domain } = self;
+        let missing = cells.iter_mut().zip(x).enumerate().filter_map(|(p, (at, x))| {
+            let Some(now) = cell(grid, x) else { return Some((p, x)) };
+            *crossings += u64::from(now != *at);
+            *at = now;
+            None
+        });
+        miss(left_domain, missing)
     }
+}
 
-    /// Counts particles that are in no cell, and names the first.
-    fn miss<'a>(
-        &mut self,
-        missing: impl Iterator<Item = (usize, &'a Vector<D>)>,
-    ) -> Result<(), Failure> {
-        let mut first = Ok(());
-        for (p, x) in missing {
-            self.left_domain += u64::from(is_finite(x));
-            first = first.and_then(|()| Err(nowhere(p, x)));
-        }
-        first
+/// Counts particles that are in no cell into `left_domain`, and names the first.
+fn miss<'a, const D: usize>(
+    left_domain: &mut u64,
+    missing: impl Iterator<Item = (usize, &'a Vector<D>)>,
+) -> Result<(), Failure> {
+    let mut first = Ok(());
+    for (p, x) in missing {
+        *left_domain += u64::from(is_finite(x));
+        first = first.and_then(|()| Err(nowhere(p, x)));
     }
+    first
 }
 
 /// Whether `holds` does for all of them: with no early way out, see [`Whereabouts::track`].

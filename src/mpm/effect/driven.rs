@@ -46,7 +46,7 @@ impl<const D: usize> Effect<D> for Driven<D> {
     fn drive_position(&mut self, dt: f64, particles: &mut Particles<D>) {
         for (p, x) in &mut self.members {
             *x += particles.v[*p] * dt;
-            *particles.position_mut(*p) = *x;
+            particles.positions_mut()[*p] = *x;
         }
     }
 }
