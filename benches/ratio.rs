@@ -9,8 +9,9 @@
 mod random;
 mod yardstick;
 
-use mpm_verify::mpm::{
-    Affine, BasisName, Grid, Kernel, Maps, Matrix, Particles, Shown, Takes, Vector, kernel,
+use mpm_verify::{
+    mpm::{Affine, BasisName, Grid, Kernel, Maps, Matrix, Particles, Shown, Takes, Vector, kernel},
+    verify::Timing,
 };
 use random::Random;
 use std::{hint::black_box, time::Instant};
@@ -80,9 +81,8 @@ fn time(run: &mut dyn FnMut()) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-fn quartiles(mut of: Vec<f64>) -> [f64; 3] {
-    of.sort_by(f64::total_cmp);
-    [of.len() / 4, of.len() / 2, 3 * of.len() / 4].map(|k| of[k])
+fn quartiles(of: impl Iterator<Item = f64>) -> Timing {
+    Timing::of(&of.collect::<Vec<_>>()).expect("times are numbers")
 }
 
 /// Runs both in turn and prints what they take for a particle.
@@ -92,9 +92,10 @@ fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn F
     let repeats = ((1.0 / once) as usize).clamp(11, 501);
     let pairs: Vec<(f64, f64)> = (0..repeats).map(|_| (time(plain), time(ours))).collect();
     let nanoseconds = 1e9 / particles as f64;
-    let [_, plain, _] = quartiles(pairs.iter().map(|pair| pair.0 * nanoseconds).collect());
-    let [_, ours, _] = quartiles(pairs.iter().map(|pair| pair.1 * nanoseconds).collect());
-    let [low, ratio, high] = quartiles(pairs.iter().map(|pair| pair.0 / pair.1).collect());
+    let plain = quartiles(pairs.iter().map(|pair| pair.0 * nanoseconds)).median;
+    let ours = quartiles(pairs.iter().map(|pair| pair.1 * nanoseconds)).median;
+    let Timing { low, median: ratio, high, .. } =
+        quartiles(pairs.iter().map(|pair| pair.0 / pair.1));
     let least = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).fold(f64::INFINITY, f64::min);
     let best = least(|pair| pair.0) / least(|pair| pair.1);
     println!("{id:<28} {plain:>10.2} {ours:>10.2} {ratio:>7.2}  [{low:.2}, {high:.2}] {best:>7.2}");

@@ -1,8 +1,11 @@
 //! Only the effects that a scene lists are simulated: what is not listed is not computed and not
 //! stored, and what is listed adds what the README says, verified by the suites that it names.
 
+#[path = "common/columns.rs"]
+mod columns;
 mod common;
 
+use columns::columns;
 use common::{DT, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
@@ -66,27 +69,10 @@ fn effect<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) -> 
 
 /// Every column of the particles as bits, 0 and -0 being one: `f + 0` is where they differ.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
-    let Particles {
-        x0,
-        x,
-        moved,
-        v,
-        mass,
-        vol0,
-        vol,
-        sigma,
-        def_grad,
-        domain,
-        grad_v,
-        temperature,
-        spacing,
-    } = particles;
-    let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
-    let matrices = [sigma, def_grad, domain, grad_v].into_iter().flatten().flatten();
+    let (temperature, others) = columns(particles);
     // No heat is a temperature of zero.
     let warm = temperature.iter().filter(|value| **value != 0.0);
-    let scalars = [mass, vol0, vol].into_iter().flatten().chain(warm);
-    vectors.chain(matrices).chain(scalars).chain(spacing).map(|v| (v + 0.0).to_bits()).collect()
+    warm.chain(&others).map(|v| (v + 0.0).to_bits()).collect()
 }
 
 fn stepped<const D: usize>(setup: Setup<D>) -> Vec<u64> {

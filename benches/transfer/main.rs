@@ -5,7 +5,7 @@
 //! is velocity, gradient and position; `step` is one step of MUSL; with `-2-threads` behind it, the
 //! same by two. Nothing is timed before its result has been checked.
 //!
-//! The short profile is three bases in the order of cells, one thread; `MPM_BENCH=full` adds every
+//! The short profile is two bases in the order of cells, one thread; `MPM_BENCH=full` adds every
 //! basis, shuffled particles, 1e6 of them and two threads.
 
 mod check;

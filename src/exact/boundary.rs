@@ -30,9 +30,7 @@ pub(super) fn boundary(problem: &Problem) -> Result<(), Violation> {
     let mut random = Random::new(3);
     for face in &problem.faces {
         for _ in 0..POINTS {
-            let mut label = random.point(&problem.from, &problem.to);
-            label[face.axis] =
-                if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
+            let label = random.on_face(&problem.from, &problem.to, face.axis, face.high);
             let event = Event { label, t: problem.moment(&mut random) };
             on_face(problem, face, &event, &sizes)?;
         }

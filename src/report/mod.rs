@@ -8,6 +8,8 @@
 //! - [`mod@compare`]: two JSON documents side by side, what moved first.
 
 pub mod compare;
+#[cfg(test)]
+mod contrast;
 mod cost;
 mod cost_figure;
 mod drawing;

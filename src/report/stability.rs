@@ -5,20 +5,12 @@ use super::{
     table::{Table, optional, scientific},
 };
 use crate::verify::{
-    Critical, Prediction, StabilityLimit, StabilityRow, StabilityStudy, Study, SuiteOutcome, Trial,
+    Critical, Prediction, StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial,
 };
 
 /// The studies of a suite that seek a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    let cases = outcome.cases.iter();
-    cases
-        .filter_map(|case| match &case.study {
-            Study::Stability(study) if study.sought.is_some() => {
-                Some((case.case.as_str(), study.as_ref()))
-            }
-            _ => None,
-        })
-        .collect()
+    outcome.stability_studies().filter(|(_, study)| study.sought.is_some()).collect()
 }
 
 /// The limits of all cases in one table: a row for each case, a column for each value. Nothing

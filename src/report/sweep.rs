@@ -4,7 +4,7 @@ use super::{
     figure::{Curve, Field, History, Map},
     stability::merged,
 };
-use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, Study, SuiteOutcome};
+use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Values from which on they make curves.
 const CURVES: usize = 5;
@@ -17,15 +17,7 @@ type Named = (String, String);
 
 /// Studies without a limit that is sought, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    let cases = outcome.cases.iter();
-    cases
-        .filter_map(|case| match &case.study {
-            Study::Stability(study) if study.sought.is_none() => {
-                Some((case.case.as_str(), study.as_ref()))
-            }
-            _ => None,
-        })
-        .collect()
+    outcome.stability_studies().filter(|(_, study)| study.sought.is_none()).collect()
 }
 
 /// A figure for each figure of the runs that the suite speaks of, where there is something to compare.

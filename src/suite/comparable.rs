@@ -31,6 +31,22 @@ pub(super) fn check(
     }
 }
 
+/// Refuses the reference FEM, as method or as reference, for a scene with an effect that it lacks.
+pub(super) fn fem_lacks(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    effect: &str,
+) -> Result<(), Complaint> {
+    let message = format!("the reference FEM has no {effect}, and the scene has");
+    if words.has_fem_reference() {
+        return Err(binder.complain_key(&Path::top("reference"), &message));
+    }
+    match words.fem_method() {
+        Some(i) => Err(binder.complain(&Path::top("methods").then(i), &message)),
+        None => Ok(()),
+    }
+}
+
 /// Refuses to bound the drift of sums that the reference FEM does not give; `path` is that of the
 /// expectation.
 pub(super) fn check_drift(

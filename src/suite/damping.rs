@@ -2,6 +2,7 @@
 
 use super::{
     binder::Binder,
+    comparable::fem_lacks,
     model::Scene,
     path::Path,
     wording::shown,
@@ -31,14 +32,7 @@ pub(super) fn check(
     } else if scene.local_damping.is_none() {
         return Ok(());
     }
-    let message = "the reference FEM has no damping, and the scene has";
-    if words.has_fem_reference() {
-        return Err(binder.complain_key(&Path::top("reference"), message));
-    }
-    match words.fem_method() {
-        Some(i) => Err(binder.complain(&Path::top("methods").then(i), message)),
-        None => Ok(()),
-    }
+    fem_lacks(binder, words, "damping")
 }
 
 fn never_negative(

@@ -146,6 +146,14 @@ impl SuiteOutcome {
     pub fn passed(&self) -> bool {
         self.cases.iter().all(CaseOutcome::passed)
     }
+
+    /// The stability studies, with the names of their cases.
+    pub fn stability_studies(&self) -> impl Iterator<Item = (&str, &StabilityStudy)> {
+        self.cases.iter().filter_map(|case| match &case.study {
+            Study::Stability(study) => Some((case.case.as_str(), study.as_ref())),
+            _ => None,
+        })
+    }
 }
 
 impl CaseOutcome {

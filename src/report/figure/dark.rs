@@ -37,21 +37,7 @@ pub(super) fn with_dark_colours(svg: &str) -> String {
 mod tests {
     use super::super::style::look;
     use super::*;
-
-    /// Relative luminance (WCAG 2.1) of `#rrggbb`.
-    fn luminance(colour: &str) -> f64 {
-        let part = |k: usize| {
-            let byte = u8::from_str_radix(&colour[k..k + 2], 16).expect("a colour");
-            let c = f64::from(byte) / 255.0;
-            if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
-        };
-        0.2126 * part(1) + 0.7152 * part(3) + 0.0722 * part(5)
-    }
-
-    fn contrast(a: &str, b: &str) -> f64 {
-        let (a, b) = (luminance(a), luminance(b));
-        (f64::max(a, b) + 0.05) / (f64::min(a, b) + 0.05)
-    }
+    use crate::report::contrast::contrast;
 
     fn dark(light: &'static str) -> &'static str {
         PAIRS.iter().find(|(known, _)| *known == light).map_or(light, |(_, dark)| dark)

@@ -89,6 +89,7 @@ pub(super) fn css() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::contrast::contrast;
     use crate::report::figure::{Convergence, Curve, Field, History, Map, Mark, Point, Series};
     use rstest::rstest;
 
@@ -97,21 +98,6 @@ mod tests {
 
     fn find(name: &str) -> &'static Colour {
         COLOURS.iter().find(|colour| colour.name == name).expect(name)
-    }
-
-    /// Relative luminance (WCAG 2.2).
-    fn luminance(colour: &str) -> f64 {
-        let channel = |at: usize| {
-            let value = u8::from_str_radix(&colour[at..at + 2], 16).expect("two digits");
-            let value = f64::from(value) / 255.0;
-            if value <= 0.040_45 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
-        };
-        0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
-    }
-
-    fn contrast(a: &str, b: &str) -> f64 {
-        let (a, b) = (luminance(a), luminance(b));
-        (f64::max(a, b) + 0.05) / (f64::min(a, b) + 0.05)
     }
 
     #[rstest]

@@ -1,0 +1,26 @@
+//! Every number that particles carry: a column that is added to them is missed here by the compiler.
+
+use mpm_verify::mpm::Particles;
+
+/// The temperatures, and all other numbers.
+pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<f64>) {
+    let Particles {
+        x0,
+        x,
+        moved,
+        v,
+        mass,
+        vol0,
+        vol,
+        sigma,
+        def_grad,
+        domain,
+        grad_v,
+        temperature,
+        spacing,
+    } = particles;
+    let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
+    let matrices = [sigma, def_grad, domain, grad_v].into_iter().flatten().flatten();
+    let scalars = [mass, vol0, vol].into_iter().flatten();
+    (temperature, vectors.chain(matrices).chain(scalars).chain(spacing).copied().collect())
+}
