@@ -5,6 +5,8 @@
 //! can be compared. `best` is the ratio of the shortest times of each, which others disturb least. `cargo bench --bench ratio -- 1e6` takes as many particles. Both are first checked
 //! to give the same numbers.
 
+#[path = "common/one_thread.rs"]
+mod one_thread;
 #[path = "common/random.rs"]
 mod random;
 mod yardstick;
@@ -13,6 +15,7 @@ use mpm_verify::{
     mpm::{Affine, BasisName, Grid, Kernel, Maps, Matrix, Particles, Shown, Takes, Vector, kernel},
     verify::Timing,
 };
+use one_thread::one_thread;
 use random::Random;
 use std::{hint::black_box, time::Instant};
 use yardstick::{cubic_3d, linear_1d, quadratic_2d, quadratic_3d};
@@ -181,6 +184,7 @@ fn flip(count: f64) {
 }
 
 fn main() {
+    one_thread();
     let count = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(1e5);
     println!("ns per particle, {count:e} particles, sorted by cell, one thread");
     println!(

@@ -7,6 +7,8 @@
 
 #[path = "common/clock.rs"]
 mod clock;
+#[path = "common/one_thread.rs"]
+mod one_thread;
 #[path = "common/random.rs"]
 mod random;
 #[path = "transfer/scene.rs"]
@@ -17,6 +19,7 @@ use mpm_verify::{
     mpm::{BasisName, Grid, Particles, TransferName, Vector},
     report::figure::{Convergence, Mark, Point, Series},
 };
+use one_thread::one_thread;
 use random::Random;
 use scene::{Method, Order, total};
 use std::{hint::black_box, time::Instant};
@@ -87,6 +90,7 @@ fn unsorted<const D: usize>(name: (BasisName, TransferName), count: usize) {
 }
 
 fn main() {
+    one_thread();
     let is_full = std::env::var("MPM_BENCH").is_ok_and(|profile| profile == "full");
     let most = if is_full { 10_000_000 } else { 1_000_000 };
     let counts: Vec<usize> = (0..9)

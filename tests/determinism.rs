@@ -5,11 +5,12 @@ mod columns;
 mod common;
 
 use columns::columns;
-use common::{DT, free_body, in_dimension, methods};
+use common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::{
-    mpm::{BasisName, Particles, SchemeName, Solver, TransferName},
+    mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector},
     subject::Subject,
 };
+use rayon::ThreadPoolBuilder;
 use rstest::rstest;
 use std::{sync::Barrier, thread};
 
@@ -69,6 +70,34 @@ fn ignores_its_neighbour<const D: usize>() {
 #[rstest]
 fn two_solvers_at_once_give_the_bits_of_one_alone(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, ignores_its_neighbour());
+}
+
+/// So many particles that passes are shared: a step of them by `threads`.
+fn shared(transfer: TransferName, threads: usize) -> Vec<u64> {
+    let cells = 184;
+    let mut setup = free_body::<2>((BasisName::QuadraticBSpline, transfer), SchemeName::Musl);
+    let (from, to) = (Vector::from_element(2.0 * H), Vector::from_element((cells + 2) as f64 * H));
+    setup.particles = Particles::fill(&Block { from, to, density: 1.0 }, H, 2);
+    for (x, v) in setup.particles.x.iter().zip(&mut setup.particles.v) {
+        *v = Vector::from_fn(|i, _| libm::sin(3.0 * x[i] + x[1 - i]));
+    }
+    setup.grid = setup.kernel.grid(Vector::zeros(), H, [cells + 4; 2], [false; 2]);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let mut solver = Solver::new(setup).unwrap();
+        (0..3).for_each(|_| solver.step(DT).unwrap());
+        bits(solver.particles())
+    })
+}
+
+#[rstest]
+fn threads_that_share_a_step_give_the_bits_of_one(
+    #[values(TransferName::Flip, TransferName::Apic)] transfer: TransferName,
+) {
+    let one = shared(transfer, 1);
+    for threads in [2, 3] {
+        assert!(shared(transfer, threads) == one, "{threads} threads differ from one");
+    }
 }
 
 #[test]

@@ -8,6 +8,8 @@
 #[path = "../common/clock.rs"]
 mod clock;
 mod demand;
+#[path = "../common/one_thread.rs"]
+mod one_thread;
 mod probe;
 #[path = "../common/random.rs"]
 mod random;
@@ -18,6 +20,7 @@ mod scene;
 use clock::shortest;
 use demand::Demand;
 use mpm_verify::mpm::{BasisName, TransferName, Vector};
+use one_thread::one_thread;
 use probe::Limits;
 use random::Random;
 use scene::{Method, Order, total};
@@ -57,6 +60,7 @@ fn passes<const D: usize>(
 }
 
 fn main() {
+    one_thread();
     let limits = Limits::measured();
     println!("one core: {:.1} Gflop/s in fours, products and sums apart", 1e-9 * limits.flops);
     println!(

@@ -46,6 +46,7 @@ mod stage;
 mod state;
 mod step;
 mod stress;
+mod threads;
 mod totals;
 mod transfer;
 mod visits;

@@ -73,7 +73,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
         let mut seen = 0;
         for k in 0..FOUR.min(particles.len() - first) {
             Self::patches(grid, particles, first + k, |patch| {
-                patch.put(lane + k, &lattice.strides, patches);
+                patch.put(lane + k, &lattice.layout, patches);
                 seen |= 1 << k;
             });
         }

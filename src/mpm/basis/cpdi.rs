@@ -31,6 +31,7 @@ use super::{
 use crate::mpm::{
     algebra::{Matrix, Vector, array, cofactor, det},
     grid::{Grid, floor},
+    packed::Layout,
     particles::Particles,
 };
 
@@ -95,8 +96,8 @@ impl<const D: usize> Patch<D> for Corner<D> {
     type Several = Corners<D>;
 
     #[inline(always)]
-    fn put(&self, lane: usize, strides: &[usize; 3], patches: &mut Corners<D>) {
-        self.hats.put(lane, strides, &mut patches.hats);
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut Corners<D>) {
+        self.hats.put(lane, layout, &mut patches.hats);
         patches.outward[lane] = self.outward;
     }
 

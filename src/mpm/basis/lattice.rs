@@ -4,6 +4,7 @@ use crate::mpm::{
     algebra::{Vector, array},
     four::{FOUR, Four, Width},
     grid::{Grid, WHOLE},
+    packed::Layout,
 };
 
 /// What a pass must know of the grid, without the grid.
@@ -15,8 +16,8 @@ pub struct Lattice<const D: usize> {
     /// Cells along each axis.
     pub(super) ends: [f64; D],
     pub(super) periodic: [bool; D],
-    /// Distances of neighbours in packed fields.
-    pub(in crate::mpm) strides: [usize; 3],
+    /// Where nodes are in packed fields.
+    pub(in crate::mpm) layout: Layout,
 }
 
 /// Cells of four particles.
@@ -34,15 +35,15 @@ pub(super) struct Places<F, const D: usize> {
 const ALL: u32 = (1 << FOUR) - 1;
 
 impl<const D: usize> Lattice<D> {
-    /// That of `grid`, with fields of these `strides`.
-    pub(in crate::mpm) fn new(grid: &Grid<D>, strides: [usize; 3]) -> Self {
+    /// That of `grid`, with fields of this layout.
+    pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout) -> Self {
         Self {
             h: grid.h,
             inverse_h: grid.inverse_h(),
             origin: array(0.0, |axis| grid.origin[axis]),
             ends: array(0.0, |axis| grid.cells[axis] as f64),
             periodic: grid.periodic,
-            strides,
+            layout,
         }
     }
 
@@ -84,10 +85,10 @@ impl<const D: usize> Lattice<D> {
     pub(super) fn starts<F: Four>(&self, cell: &[F; D]) -> [u32; FOUR] {
         let mut start = cell[0];
         for axis in 1..D {
-            start += cell[axis] * self.strides[axis] as f64;
+            start += cell[axis] * self.layout.strides[axis] as f64;
         }
         // The last bits of a number from 2^52 on are those of its excess.
-        let whole: [f64; FOUR] = (start + WHOLE).into();
+        let whole: [f64; FOUR] = (start + (WHOLE - self.layout.before as f64)).into();
         array(0, |lane| whole[lane].to_bits() as u32)
     }
 }

@@ -4,7 +4,7 @@ use crate::mpm::{
     algebra::{Matrix, Vector},
     four::Width,
     grid::Grid,
-    packed::{View, ViewMut},
+    packed::{Layout, View, ViewMut},
 };
 use std::ops::Range;
 
@@ -37,7 +37,7 @@ pub trait Patch<const D: usize>: Copy {
     type Several: Patches<D>;
 
     /// Takes the place of patch `lane`.
-    fn put(&self, lane: usize, strides: &[usize; 3], patches: &mut Self::Several);
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Several);
 
     /// Moments of the weights.
     fn spread(&self) -> Spread<D>;

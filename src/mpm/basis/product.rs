@@ -8,7 +8,7 @@ use super::{
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
     grid::Grid,
-    packed::number,
+    packed::Layout,
 };
 
 /// All products of functions along the axes; at most four along each.
@@ -19,9 +19,9 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     type Several = Products<D, K>;
 
     #[inline(always)]
-    fn put(&self, lane: usize, strides: &[usize; 3], patches: &mut Products<D, K>) {
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut Products<D, K>) {
         let first = array::<D, _>(0, |axis| self.0[axis].first);
-        patches.start[lane] = number(&first, strides) as u32;
+        patches.start[lane] = layout.number(&first) as u32;
         for (along, axis) in self.0.iter().zip(&mut patches.axes) {
             axis.put(lane, along);
         }

@@ -108,7 +108,7 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
                 let term = if D > 1 { value * self.row_weight(lane, j, k) } else { value };
-                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let row = field.row::<K>(start + field.layout.row(j, k));
                 for i in 0..K {
                     add(width, &mut row[i], term * weights[i]);
                 }
@@ -137,7 +137,7 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
                 let value = if D > 1 { value + rise[j] } else { value };
                 let weight = self.row_weight(lane, j, k);
                 let term = value * weight;
-                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let row = field.row::<K>(start + field.layout.row(j, k));
                 for i in 0..K {
                     add(width, &mut row[i], term * weights[i] + growth[i] * weight);
                 }
@@ -168,7 +168,7 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
                     let slope = self.axes[2].slope[k].get(lane);
                     across += flux[2] * (slope * self.weight(lane, 1, j));
                 }
-                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let row = field.row::<K>(start + field.layout.row(j, k));
                 for i in 0..K {
                     let term =
                         if D > 1 { along[i] * weight + across * weights[i] } else { along[i] };

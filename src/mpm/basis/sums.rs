@@ -37,7 +37,7 @@ impl<const D: usize, const K: usize> Products<D, K> {
         let (mut sum, mut plane) = (width.all(0.0), width.all(0.0));
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
-                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let row = field.row::<K>(start + field.layout.row(j, k));
                 let terms = dot(width, row, &weights);
                 if D == 1 {
                     return terms;
@@ -68,7 +68,7 @@ impl<const D: usize, const K: usize> Products<D, K> {
         for k in 0..Self::PLANES {
             let (mut plane, mut across, mut along) = (zero, zero, zero);
             for j in 0..Self::ROWS {
-                let row = field.row::<K>(start + j * field.strides[1] + k * field.strides[2]);
+                let row = field.row::<K>(start + field.layout.row(j, k));
                 let (terms, others_of_row) =
                     (dot(width, row, &weights), dot(width, row, &others[0]));
                 if D == 1 {

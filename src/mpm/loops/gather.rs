@@ -16,6 +16,8 @@ use std::{marker::PhantomData, ops::Range};
 pub(super) struct Gather<'a, const D: usize, B> {
     pub(super) grid: &'a Grid<D>,
     pub(super) particles: &'a Particles<D>,
+    /// The particles that take.
+    pub(super) these: Range<usize>,
     pub(super) takes: Takes<'a, D>,
     pub(super) fields: [View<'a>; 2],
     pub(super) basis: PhantomData<B>,
@@ -135,7 +137,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         }
     }
 
-    /// Gives the particles from `first` on what they have taken.
+    /// Gives the particles from `first` of these on what they have taken.
     #[inline(always)]
     fn give<W: Width>(&mut self, first: usize, taken: &Taken<W, D>) {
         let takes = &mut self.takes;
@@ -171,14 +173,17 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 }
 
 impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
+    // Sums along two axes at once, with all that they are multiplied by.
+    const NEEDS_REGISTERS: bool = true;
+
     #[inline(always)]
     fn run<W: Width>(mut self, width: W) {
         let wants_inertia = self.takes.moment.is_some();
-        let strides = self.fields[0].strides;
+        let layout = self.fields[0].layout;
         let mut patches = Several::<B, D>::none();
-        let sight = Sight::<B, D>::new((self.grid, strides), self.particles, wants_inertia);
+        let sight = Sight::<B, D>::new((self.grid, layout), self.particles, wants_inertia);
         let mut taken = Taken::nothing(width);
-        for first in (0..self.particles.len()).step_by(LANES) {
+        for first in self.these.clone().step_by(LANES) {
             if !B::ONE_PATCH {
                 taken = Taken::nothing(width);
             }
@@ -199,7 +204,7 @@ impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
             if seen != ALL {
                 taken.forget(width, |lane| seen >> lane & 1 == 0);
             }
-            self.give(first, &taken);
+            self.give(first - self.these.start, &taken);
         }
     }
 }

@@ -1,16 +1,18 @@
 //! What every basis keeps in the loops: a pass that does several things has the bits of passes that do
 //! one each, both widths have the same bits, and sums are those over the nodes one by one.
 
-use super::{Gather, Loops, Packed, Scatter};
+use super::{Loops, gather::Gather, scatter::Scatter};
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     basis::{Basis, BasisName, with_basis},
-    four::{Pass, Plain},
+    four::{Pass, Plain, lower_levels, run_at},
     grid::Grid,
     kernel::{Affine, Divergence, Kernel, Maps, Shown, Takes},
+    packed::{Packed, ViewMut},
     particles::{Block, Particles},
 };
 use approx::assert_relative_eq;
+use fearless_simd::Level;
 use rstest::rstest;
 use std::marker::PhantomData;
 
@@ -140,7 +142,7 @@ fn together_is_alone<B: Basis, const D: usize>(periodic: bool) {
     assert_relative_eq!(mapped.mass.iter().sum::<f64>(), inside, max_relative = 1e-13);
 }
 
-/// The loops as [`super::four::run`] runs them, and over plain arrays.
+/// The loops as the processor at hand runs them, as one of less can, and over plain arrays.
 fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     let kernel = Loops::<B>::default();
     let (mut grid, particles) = scene::<D>(&kernel, periodic);
@@ -149,19 +151,17 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     let maps = Maps { mass: true, momentum, force: Some(Divergence::Gradient) };
     kernel.p2g(&particles, &maps, &mut grid);
     let mut room = [Packed::default(), Packed::default()];
-    for field in &mut room {
-        field.clear(&start);
-    }
-    let fields = room.each_mut().map(Packed::view_mut);
-    let (maps, basis) = (&maps, PhantomData);
-    Scatter::<D, B> { grid: &start, particles: &particles, maps, fields, basis }.run(Plain);
+    let mut fields = room.each_mut().map(|field| field.shaped(&start));
+    fields.iter_mut().for_each(ViewMut::clear);
+    let (maps, these, basis) = (&maps, 0..particles.len(), PhantomData);
+    Scatter::<D, B> { grid: &start, particles: &particles, these, maps, fields, basis }.run(Plain);
     for field in &mut room {
         field.fold(&start);
     }
     let mut plain = start.clone();
-    super::fill(&room[0], &start, &mut plain.mass, |lanes| lanes[3]);
-    super::fill(&room[0], &start, &mut plain.velocity, super::vector);
-    super::fill(&room[1], &start, &mut plain.force, super::vector);
+    room[0].unpack(&start, &mut plain.mass, |lanes| lanes[3]);
+    room[0].unpack(&start, &mut plain.velocity, super::vector);
+    room[1].unpack(&start, &mut plain.force, super::vector);
     assert_eq!(nodes(&grid), nodes(&plain));
 
     let take = |run: &dyn Fn(Takes<'_, D>)| {
@@ -178,15 +178,25 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
         bits(v.iter().flatten().chain(sigma.iter().flatten()).chain(gradient.iter().flatten()))
     };
     let best = take(&|takes| kernel.g2p_all(&start, &particles, takes));
-    let plain = take(&|takes| {
-        let mut room = [Packed::default(), Packed::default()];
-        room[0].pack(&start, &start.velocity);
-        room[1].pack(&start, &start.acceleration);
-        let fields = room.each_ref().map(Packed::view);
-        let basis = PhantomData;
-        Gather::<D, B> { grid: &start, particles: &particles, takes, fields, basis }.run(Plain);
-    });
-    assert_eq!(best, plain);
+    let mut room = [Packed::default(), Packed::default()];
+    room[0].pack(&start, &start.velocity);
+    room[1].pack(&start, &start.acceleration);
+    let fields = room.each_ref().map(Packed::view);
+    let gather = |level: Option<Level>| {
+        take(&|takes| {
+            let (these, basis) = (0..particles.len(), PhantomData);
+            let (grid, particles) = (&start, &particles);
+            let pass = Gather::<D, B> { grid, particles, these, takes, fields, basis };
+            match level {
+                Some(level) => run_at(level, pass),
+                None => pass.run(Plain),
+            }
+        })
+    };
+    assert_eq!(best, gather(None));
+    for level in lower_levels() {
+        assert_eq!(best, gather(Some(level)), "{level:?}");
+    }
 }
 
 /// The sums of the formulas, over nodes one by one.

@@ -5,29 +5,26 @@
 //! each basis and dimension. Fields of nodes are packed for a pass and unpacked after it, which costs
 //! as much as the nodes of some few particles.
 
+mod blocks;
 mod gather;
+mod halves;
 mod inertia;
 #[cfg(test)]
 mod laws;
+#[cfg(test)]
+mod laws_of_blocks;
+mod room;
 mod scalars;
 mod scatter;
 mod sight;
-mod unpack;
 
-use self::{
-    gather::Gather,
-    inertia::inertia,
-    scatter::Scatter,
-    unpack::{fill, vector},
-};
+use self::{inertia::inertia, room::Room};
 use super::{
     algebra::{Matrix, Vector},
     basis::{Basis, BasisName, Domain, with_basis},
-    four,
     grid::Grid,
     kernel::{Kernel, Maps, Shown, Takes},
     moments::{Inertia, Moments},
-    packed::Packed,
     particles::Particles,
 };
 use std::{
@@ -40,13 +37,10 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     with_basis!(basis, B => Box::new(Loops::<B>::default()))
 }
 
-/// Two fields of nodes, packed.
-type Fields = [Packed; 2];
-
 /// The kernel of basis `B`.
 struct Loops<B> {
-    /// Room for the fields of a pass, kept from one to the next. No result depends on what it holds.
-    room: Mutex<Fields>,
+    /// Kept from one pass to the next. No result depends on what it holds.
+    room: Mutex<Room>,
     basis: PhantomData<B>,
 }
 
@@ -56,67 +50,35 @@ impl<B> Default for Loops<B> {
     }
 }
 
-impl<B: Basis> Loops<B> {
-    fn room(&self) -> MutexGuard<'_, Fields> {
+impl<B> Loops<B> {
+    fn room(&self) -> MutexGuard<'_, Room> {
         // A pass that has panicked leaves numbers that the next one overwrites.
         self.room.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
 
-    fn scatter<const D: usize>(
-        &self,
-        particles: &Particles<D>,
-        maps: &Maps<'_, D>,
-        grid: &Grid<D>,
-    ) -> MutexGuard<'_, Fields> {
-        let mut room = self.room();
-        let wanted = [maps.mass || maps.momentum.is_some(), maps.force.is_some()];
-        let in_use = |room: &mut Fields, work: fn(&mut Packed, &Grid<D>)| {
-            for (field, _) in room.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
-                work(field, grid);
-            }
-        };
-        in_use(&mut room, Packed::clear);
-        let fields = room.each_mut().map(Packed::view_mut);
-        four::run(Scatter::<D, B> { grid, particles, maps, fields, basis: PhantomData });
-        in_use(&mut room, Packed::fold);
-        room
-    }
-
-    fn gather<const D: usize>(
-        &self,
-        grid: &Grid<D>,
-        particles: &Particles<D>,
-        field: &[Vector<D>],
-        takes: Takes<'_, D>,
-    ) {
-        let mut room = self.room();
-        let [velocity, acceleration] = &mut *room;
-        velocity.pack(grid, field);
-        if takes.change.is_some() {
-            acceleration.pack(grid, &grid.acceleration);
-        }
-        let fields = room.each_ref().map(Packed::view);
-        four::run(Gather::<D, B> { grid, particles, takes, fields, basis: PhantomData });
-    }
+/// The first D of four numbers.
+fn vector<const D: usize>(lanes: &[f64; 4]) -> Vector<D> {
+    Vector::from_fn(|i, _| lanes[i])
 }
 
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
-        let room = self.scatter(particles, maps, grid);
-        let [momentum, force] = &*room;
+        let mut room = self.room();
+        let [momentum, force] = room.scatter::<B, D>(particles, maps, grid);
         if maps.mass {
             let mut column = std::mem::take(&mut grid.mass);
-            fill(momentum, grid, &mut column, |lanes| lanes[3]);
+            momentum.unpack(grid, &mut column, |lanes| lanes[3]);
             grid.mass = column;
         }
         if maps.momentum.is_some() {
             let mut column = std::mem::take(&mut grid.velocity);
-            fill(momentum, grid, &mut column, vector);
+            momentum.unpack(grid, &mut column, vector);
             grid.velocity = column;
         }
         if maps.force.is_some() {
             let mut column = std::mem::take(&mut grid.force);
-            fill(force, grid, &mut column, vector);
+            force.unpack(grid, &mut column, vector);
             grid.force = column;
         }
     }
@@ -129,7 +91,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         column: &mut [Vector<D>],
     ) {
         let maps = Maps { momentum: Some(shown), ..Maps::default() };
-        fill(&self.scatter(particles, &maps, grid)[0], grid, column, vector);
+        self.room().scatter::<B, D>(particles, &maps, grid)[0].unpack(grid, column, vector);
     }
 
     fn p2g_point_force(
@@ -145,7 +107,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     }
 
     fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>) {
-        self.gather(grid, particles, &grid.velocity, takes);
+        self.room().gather::<B, D>(grid, particles, &grid.velocity, takes);
     }
 
     fn g2p(
@@ -157,7 +119,12 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         value: &mut [Vector<D>],
     ) {
         let (mix, value) = (Some(keep_and_factor), Some(value));
-        self.gather(grid, particles, field, Takes { mix, value, ..Takes::default() });
+        self.room().gather::<B, D>(
+            grid,
+            particles,
+            field,
+            Takes { mix, value, ..Takes::default() },
+        );
     }
 
     fn g2p_gradient(
@@ -168,7 +135,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         gradient: &mut [Matrix<D>],
     ) {
         let gradient = Some(gradient);
-        self.gather(grid, particles, field, Takes { gradient, ..Takes::default() });
+        self.room().gather::<B, D>(grid, particles, field, Takes { gradient, ..Takes::default() });
     }
 
     fn g2p_moment(
@@ -179,7 +146,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         moment: &mut [Matrix<D>],
     ) {
         let moment = Some(moment);
-        self.gather(grid, particles, field, Takes { moment, ..Takes::default() });
+        self.room().gather::<B, D>(grid, particles, field, Takes { moment, ..Takes::default() });
     }
 
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {

@@ -18,6 +18,8 @@ use std::{marker::PhantomData, ops::Range};
 pub(super) struct Scatter<'a, const D: usize, B> {
     pub(super) grid: &'a Grid<D>,
     pub(super) particles: &'a Particles<D>,
+    /// The particles that give.
+    pub(super) these: Range<usize>,
     pub(super) maps: &'a Maps<'a, D>,
     pub(super) fields: [ViewMut<'a>; 2],
     pub(super) basis: PhantomData<B>,
@@ -136,15 +138,18 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
 }
 
 impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
+    const NEEDS_REGISTERS: bool = false;
+
     #[inline(always)]
     fn run<W: Width>(mut self, width: W) {
         let Self { grid, particles, maps, .. } = self;
+        let these = std::mem::take(&mut self.these);
         let is_affine = maps.momentum.is_some_and(|shown| shown.affine.is_some())
             || maps.force == Some(Divergence::Fit);
-        let strides = self.fields[usize::from(maps.force.is_some())].strides;
+        let layout = self.fields[usize::from(maps.force.is_some())].layout;
         let mut patches = Several::<B, D>::none();
-        let sight = Sight::<B, D>::new((grid, strides), particles, is_affine);
-        for first in (0..particles.len()).step_by(LANES) {
+        let sight = Sight::<B, D>::new((grid, layout), particles, is_affine);
+        for first in these.step_by(LANES) {
             sight.of(
                 width,
                 first,

@@ -6,6 +6,7 @@ use crate::mpm::{
     four::{FOUR, LANES, Width},
     grid::Grid,
     moments::Inertia,
+    packed::Layout,
     particles::Particles,
 };
 use std::{marker::PhantomData, ops::Range};
@@ -30,11 +31,11 @@ pub(super) struct Sight<'a, B: Basis, const D: usize> {
 impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
     #[inline(always)]
     pub(super) fn new(
-        (grid, strides): (&'a Grid<D>, [usize; 3]),
+        (grid, layout): (&'a Grid<D>, Layout),
         particles: &'a Particles<D>,
         wants_inertia: bool,
     ) -> Self {
-        let lattice = Lattice::new(grid, strides);
+        let lattice = Lattice::new(grid, layout);
         Self { particles, grid, lattice, wants_inertia, basis: PhantomData }
     }
 
@@ -76,7 +77,7 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
                 first + lane,
                 #[inline(always)]
                 |patch| {
-                    patch.put(lane, &lattice.strides, patches);
+                    patch.put(lane, &lattice.layout, patches);
                     see(patches, lane..lane + 1, of_all.as_ref());
                 },
             );

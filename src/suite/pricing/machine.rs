@@ -1,10 +1,23 @@
 //! What of the machine can be seen in seconds: cores, load, and a loop that always does the same.
 
 use crate::verify::{Machine, Timing};
-use std::{hint::black_box, time::Instant};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::{hint::black_box, sync::LazyLock, time::Instant};
 
 /// Rounds of the loop: about a millisecond.
 const ROUNDS: u32 = 250_000;
+
+/// A thread that has no other to share work with; none where the system gives none.
+static ALONE: LazyLock<Option<ThreadPool>> =
+    LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
+
+/// Does `work` on one thread, all of it: large scenes would use more.
+pub(super) fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match &*ALONE {
+        Some(pool) => pool.install(work),
+        None => work(),
+    }
+}
 
 /// A machine under observation.
 pub(super) struct Observed {

@@ -5,7 +5,7 @@
 //! after the other: a machine that slows down slows all of them. Time for which other processes had the
 //! core does not count, where the system tells it.
 
-use super::machine::{Observed, Watch};
+use super::machine::{Observed, Watch, alone};
 use crate::{
     suite::{
         dispatch::subject,
@@ -53,14 +53,16 @@ pub(super) fn seconds(
 ) -> Result<f64, String> {
     let clock =
         Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
-    let mut subject = subject(plan, case.method, level)?;
-    let watch = Watch::start();
-    for _ in 0..clock.steps {
-        if subject.step(clock.dt()).is_err() {
-            break;
+    alone(|| {
+        let mut subject = subject(plan, case.method, level)?;
+        let watch = Watch::start();
+        for _ in 0..clock.steps {
+            if subject.step(clock.dt()).is_err() {
+                break;
+            }
         }
-    }
-    Ok(watch.stop())
+        Ok(watch.stop())
+    })
 }
 
 /// Runs `suite` and its `variants`, whose cases are taken for cases of the suite, and times every level;
@@ -86,8 +88,11 @@ pub fn price(
         }
         cases.extend(Runner::over(one, extent).run(progress).cases);
     }
-    let mut observed = Observed::new();
-    time(&mut jobs, &mut observed, progress);
+    let observed = alone(|| {
+        let mut observed = Observed::new();
+        time(&mut jobs, &mut observed, progress);
+        observed
+    });
     let mut levels: Vec<Vec<(Load, Option<Timing>)>> = vec![Vec::new(); cases.len()];
     for job in &jobs {
         let (case, level) = job.at;

@@ -5,64 +5,23 @@
 //! a particle sees is always a box of neighbours. All axes are longer by [`MARGIN`], also where
 //! nothing goes on: functions of weight zero may stand there.
 
-use super::{algebra::Vector, grid::Grid};
-use std::ops::Range;
+mod view;
 
-/// Nodes by which an axis is longer: one fewer than the functions that a patch has along an axis.
-pub(super) const MARGIN: usize = 3;
+pub(super) use view::{Layout, MARGIN, Node, View, ViewMut};
 
-/// One node: four numbers that share a cache line.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(align(32))]
-pub(super) struct Node(pub(super) [f64; 4]);
+use super::{algebra::Vector, grid::Grid, threads::Rows};
+
+/// Nodes that are not worth a thread of their own.
+const FEW: usize = 1 << 14;
+
+/// Nodes of a piece where a grid has one row only.
+const PIECE: usize = 1 << 12;
 
 /// A field of nodes.
 #[derive(Debug, Default)]
 pub(super) struct Packed {
     nodes: Vec<Node>,
-    strides: [usize; 3],
-}
-
-/// A field as a loop reads it.
-#[derive(Debug, Clone, Copy)]
-pub struct View<'a> {
-    nodes: &'a [Node],
-    /// Distance of neighbours along each axis.
-    pub(super) strides: [usize; 3],
-}
-
-/// A field as a loop adds to it.
-#[derive(Debug)]
-pub struct ViewMut<'a> {
-    nodes: &'a mut [Node],
-    /// Distance of neighbours along each axis.
-    pub(super) strides: [usize; 3],
-}
-
-impl View<'_> {
-    /// K nodes in a row.
-    #[inline(always)]
-    pub(super) fn row<const K: usize>(&self, start: usize) -> &[Node] {
-        &self.nodes[start..start + K]
-    }
-}
-
-impl ViewMut<'_> {
-    /// K nodes in a row.
-    #[inline(always)]
-    pub(super) fn row<const K: usize>(&mut self, start: usize) -> &mut [Node] {
-        &mut self.nodes[start..start + K]
-    }
-}
-
-/// Number of the node with these indices.
-#[inline(always)]
-pub(super) fn number<const D: usize>(index: &[usize; D], strides: &[usize; 3]) -> usize {
-    let mut number = index[0];
-    for axis in 1..D {
-        number += index[axis] * strides[axis];
-    }
-    number
+    layout: Layout,
 }
 
 /// Nodes along each axis, one where there is no axis.
@@ -71,65 +30,52 @@ fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
 }
 
 impl Packed {
-    /// Takes the shape of `grid`, with zero everywhere.
-    pub(super) fn clear<const D: usize>(&mut self, grid: &Grid<D>) {
-        if self.shape(grid) {
-            self.nodes.fill(Node::default());
-        }
-    }
-
-    /// Takes the shape of `grid` and returns whether it had it before; if not, there is zero
-    /// everywhere.
-    fn shape<const D: usize>(&mut self, grid: &Grid<D>) -> bool {
-        let (mut total, before) = (1, (self.nodes.len(), self.strides));
-        for axis in 0..D {
-            self.strides[axis] = total;
-            total *= grid.counts[axis] + MARGIN;
-        }
-        self.strides[D..].fill(total);
-        if before == (total, self.strides) {
-            return true;
-        }
-        self.nodes.clear();
-        self.nodes.resize(total, Node::default());
-        false
+    /// The field in the shape of `grid`, whatever stands there yet.
+    pub(super) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> ViewMut<'_> {
+        let layout = Layout::of(grid);
+        self.nodes.resize(layout.strides[3], Node::default());
+        self.layout = layout;
+        ViewMut { nodes: &mut self.nodes, layout }
     }
 
     /// The field, to be read.
     pub(super) fn view(&self) -> View<'_> {
-        View { nodes: &self.nodes, strides: self.strides }
+        View { nodes: &self.nodes, layout: self.layout }
     }
 
-    /// The field, to be added to.
-    pub(super) fn view_mut(&mut self) -> ViewMut<'_> {
-        ViewMut { nodes: &mut self.nodes, strides: self.strides }
-    }
-
-    /// Where each row of nodes of the grid is here, in the order of nodes.
-    fn places<const D: usize>(
+    /// Unpacks the field into a column of the grid: `value` of the four numbers of each node.
+    pub(super) fn unpack<const D: usize, T: Send>(
         &self,
         grid: &Grid<D>,
-    ) -> impl Iterator<Item = Range<usize>> + use<D> {
-        let ([across, rows, planes], [_, row, plane]) = (counts(grid), self.strides);
-        (0..rows * planes).map(move |k| {
-            let start = k % rows * row + k / rows * plane;
-            start..start + across
-        })
-    }
-
-    /// The rows of nodes of the grid, in order.
-    pub(super) fn rows<const D: usize>(&self, grid: &Grid<D>) -> impl Iterator<Item = &[Node]> {
-        self.places(grid).map(|place| &self.nodes[place])
+        column: &mut [T],
+        value: impl Fn(&[f64; 4]) -> T + Sync,
+    ) {
+        let ([across, rows, _], [_, row, plane, _]) = (counts(grid), self.layout.strides);
+        let length = if D == 1 { PIECE } else { across };
+        Rows { length, few: FEW }.each(column, &|k, there| {
+            let start = if D == 1 { k * PIECE } else { k % rows * row + k / rows * plane };
+            for (there, Node(lanes)) in there.iter_mut().zip(&self.nodes[start..]) {
+                *there = value(lanes);
+            }
+        });
     }
 
     /// Takes over a field of vectors.
     pub(super) fn pack<const D: usize>(&mut self, grid: &Grid<D>, field: &[Vector<D>]) {
-        self.shape(grid);
-        let ([across, rows, planes], [_, row, plane]) = (counts(grid), self.strides);
-        for (k, here) in self.nodes.chunks_exact_mut(row).enumerate() {
+        self.shaped(grid);
+        let ([across, rows, planes], [_, row, plane, _]) = (counts(grid), self.layout.strides);
+        let piece = |k: usize| {
+            let from = across.min(k * PIECE);
+            &field[from..across.min(from + PIECE)]
+        };
+        let row_of_field = |k: usize| {
             let (j, k) = (k % (plane / row), k / (plane / row));
             let is_there = j < rows && k < planes;
-            let there = if is_there { &field[(j + k * rows) * across..][..across] } else { &[] };
+            if is_there { &field[(j + k * rows) * across..][..across] } else { &[] }
+        };
+        let length = if D == 1 { PIECE } else { row };
+        Rows { length, few: FEW }.each(&mut self.nodes, &|k, here| {
+            let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
             for (Node(lanes), value) in here.iter_mut().zip(there) {
                 *lanes = [0.0; 4];
@@ -137,7 +83,7 @@ impl Packed {
             }
             // A function of weight zero may stand here, and must not meet what an earlier pass left.
             beyond.fill(Node::default());
-        }
+        });
         for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {
                 self.nodes[beyond] = self.nodes[node];
@@ -163,7 +109,7 @@ impl Packed {
         grid: &Grid<D>,
         axis: usize,
     ) -> impl Iterator<Item = (usize, usize)> + use<D> {
-        let (stride, count) = (self.strides[axis], grid.counts[axis]);
+        let (stride, count) = (self.layout.strides[axis], grid.counts[axis]);
         let (length, total) = (stride * (count + MARGIN), self.nodes.len());
         (0..total).step_by(length).flat_map(move |block| {
             (0..MARGIN * stride).map(move |k| {
@@ -198,15 +144,17 @@ mod tests {
             packed.pack(&grid, &field);
             let reach = |axis: usize| counts[axis] + if periodic[axis] { MARGIN } else { 0 };
             for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
-                let at = number(&[i, j], &packed.strides);
+                let at = packed.layout.number(&[i, j]);
                 let node = grid.node(&[i % counts[0], j % counts[1]]);
                 prop_assert_eq!(packed.view().row::<1>(at)[0].0, [node as f64, 1.0, 0.0, 0.0]);
 
                 let mut one = Packed::default();
-                one.clear(&grid);
-                one.view_mut().row::<1>(at)[0].0[3] = 1.0;
+                let mut view = one.shaped(&grid);
+                view.clear();
+                view.row::<1>(at)[0].0[3] = 1.0;
                 one.fold(&grid);
-                let found: Vec<f64> = one.rows(&grid).flatten().map(|node| node.0[3]).collect();
+                let mut found = vec![0.0; grid.nodes()];
+                one.unpack(&grid, &mut found, |lanes| lanes[3]);
                 let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
                 prop_assert_eq!(found, expected);
             }

@@ -1,0 +1,117 @@
+//! Fours for every processor.
+
+use super::width::{FOUR, Four, Width};
+use crate::mpm::grid::floor;
+use std::ops::{Add, AddAssign, Mul, Sub};
+
+/// Arrays, for every processor.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::mpm) struct Plain;
+
+/// An array of four.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::mpm) struct Array([f64; FOUR]);
+
+impl Array {
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let [a, b, c, d] = self.0;
+        Self([f(a), f(b), f(c), f(d)])
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let ([a, b, c, d], [e, g, h, i]) = (self.0, other.0);
+        Self([f(a, e), f(b, g), f(c, h), f(d, i)])
+    }
+}
+
+impl Add for Array {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, |a, b| a + b)
+    }
+}
+
+impl Add<f64> for Array {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, term: f64) -> Self {
+        self.map(|a| a + term)
+    }
+}
+
+impl AddAssign for Array {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sub for Array {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, |a, b| a - b)
+    }
+}
+
+impl Mul for Array {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, |a, b| a * b)
+    }
+}
+
+impl Mul<f64> for Array {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        self.map(|a| a * factor)
+    }
+}
+
+impl From<Array> for [f64; FOUR] {
+    #[inline(always)]
+    fn from(Array(values): Array) -> Self {
+        values
+    }
+}
+
+impl Four for Array {
+    #[inline(always)]
+    fn floor(self) -> Self {
+        self.map(floor)
+    }
+
+    #[inline(always)]
+    fn are_in(self, low: f64, high: f64) -> bool {
+        self.0.iter().all(|&x| x >= low && x < high)
+    }
+
+    #[inline(always)]
+    fn inverse_above(self, smallest: f64) -> Self {
+        self.map(|x| if x > smallest { 1.0 / x } else { 0.0 })
+    }
+}
+
+impl Width for Plain {
+    type Four = Array;
+
+    #[inline(always)]
+    fn four(self, values: [f64; FOUR]) -> Array {
+        Array(values)
+    }
+
+    #[inline(always)]
+    fn all(self, value: f64) -> Array {
+        Array([value; FOUR])
+    }
+}

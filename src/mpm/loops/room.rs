@@ -1,0 +1,94 @@
+//! The two ways between particles and nodes, each a pass that threads may share, and what these keep.
+
+use super::{
+    blocks::{Block, Blocks, share},
+    gather::Gather,
+    halves::halves,
+    scatter::Scatter,
+};
+use crate::mpm::{
+    algebra::Vector,
+    basis::Basis,
+    four,
+    grid::Grid,
+    kernel::{Maps, Takes},
+    packed::{Packed, ViewMut},
+    particles::Particles,
+};
+use std::marker::PhantomData;
+
+/// What a pass needs besides particles and grid.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    /// Two fields of nodes, packed.
+    fields: [Packed; 2],
+    /// The same for the second colour of blocks.
+    others: [Packed; 2],
+    pub(super) blocks: Blocks,
+}
+
+/// Those of two fields that are wanted, in the shape of `grid`; nothing in place of the others.
+fn views<'a, const D: usize>(
+    fields: &'a mut [Packed; 2],
+    grid: &Grid<D>,
+    wanted: [bool; 2],
+) -> [ViewMut<'a>; 2] {
+    let mut wanted = wanted.into_iter();
+    fields.each_mut().map(|field| match wanted.next() {
+        Some(true) => field.shaped(grid),
+        _ => ViewMut::none(),
+    })
+}
+
+impl Room {
+    /// What `maps` says, in packed fields.
+    pub(super) fn scatter<B: Basis, const D: usize>(
+        &mut self,
+        particles: &Particles<D>,
+        maps: &Maps<'_, D>,
+        grid: &Grid<D>,
+    ) -> &[Packed; 2] {
+        let Self { fields, others, blocks } = self;
+        blocks.cut::<B, D>(grid, particles);
+        let wanted = [maps.mass || maps.momentum.is_some(), maps.force.is_some()];
+        let [white, black] = &blocks.colours;
+        let add = |block: &Block, mut fields: [ViewMut<'_>; 2]| {
+            fields.iter_mut().for_each(ViewMut::clear);
+            let these = block.particles.clone();
+            four::run(Scatter::<D, B> { grid, particles, these, maps, fields, basis: PhantomData });
+        };
+        share(white, views(fields, grid, wanted), &add);
+        if !black.is_empty() {
+            share(black, views(others, grid, wanted), &add);
+            let others = others.each_ref().map(Packed::view);
+            share(black, views(fields, grid, wanted), &|block, fields| {
+                for (mut field, other) in fields.into_iter().zip(&others) {
+                    field.add(other, block.nodes.clone());
+                }
+            });
+        }
+        for (field, _) in fields.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
+            field.fold(grid);
+        }
+        fields
+    }
+
+    /// What `takes` says, from `field` in place of the velocities of nodes.
+    pub(super) fn gather<B: Basis, const D: usize>(
+        &mut self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        field: &[Vector<D>],
+        takes: Takes<'_, D>,
+    ) {
+        let fields = &mut self.fields;
+        fields[0].pack(grid, field);
+        if takes.change.is_some() {
+            fields[1].pack(grid, &grid.acceleration);
+        }
+        let fields = fields.each_ref().map(Packed::view);
+        halves(0..particles.len(), takes, &|these, takes| {
+            four::run(Gather::<D, B> { grid, particles, these, takes, fields, basis: PhantomData });
+        });
+    }
+}

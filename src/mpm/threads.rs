@@ -1,0 +1,67 @@
+//! Work that threads share by halves, each half again, until it is not worth one's while. What is shared
+//! decides nothing: every number is computed by one thread, whichever, from the same ones.
+
+/// Runs both, at once if there is a thread to spare. Where there is none, nothing goes to another
+/// thread, which would have to be woken.
+pub(super) fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    if rayon::current_num_threads() == 1 {
+        one();
+        other();
+    } else {
+        rayon::join(one, other);
+    }
+}
+
+/// Rows of a field, which threads share.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rows {
+    /// Entries of a row; the last may have fewer.
+    pub(super) length: usize,
+    /// Entries that are not worth a thread of their own.
+    pub(super) few: usize,
+}
+
+impl Rows {
+    /// Calls `work` with each row of `field` and its number.
+    pub(super) fn each<T: Send>(self, field: &mut [T], work: &(impl Fn(usize, &mut [T]) + Sync)) {
+        self.each_from(0, field, work);
+    }
+
+    fn each_from<T: Send>(
+        self,
+        first: usize,
+        field: &mut [T],
+        work: &(impl Fn(usize, &mut [T]) + Sync),
+    ) {
+        let middle = field.len().div_ceil(self.length) / 2;
+        if field.len() <= self.few || middle == 0 {
+            let rows = field.chunks_mut(self.length).enumerate();
+            return rows.for_each(|(k, row)| work(first + k, row));
+        }
+        let (low, high) = field.split_at_mut(middle * self.length);
+        both(|| self.each_from(first, low, work), || self.each_from(first + middle, high, work));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rayon::ThreadPoolBuilder;
+    use rstest::rstest;
+
+    #[rstest]
+    fn each_row_is_met_once(
+        #[values(0, 1, 7, 8, 9, 1000)] total: usize,
+        #[values(1, 8)] length: usize,
+        #[values(1, 3)] threads: usize,
+    ) {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut field = vec![0; total];
+        pool.install(|| {
+            Rows { length, few: 16 }
+                .each(&mut field, &|k, row| row.iter_mut().for_each(|entry| *entry += k + 1));
+        });
+        let expected: Vec<usize> = (0..total).map(|i| i / length + 1).collect();
+        assert_eq!(field, expected);
+    }
+}
