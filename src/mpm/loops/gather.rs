@@ -4,7 +4,7 @@ use super::sight::{ALL, Several, Sight};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     basis::{Basis, Patches},
-    four::{Four, LANES, Pass, Width},
+    four::{FOUR, Four, LANES, Pass, Width},
     grid::Grid,
     kernel::Takes,
     packed::View,
@@ -12,7 +12,8 @@ use crate::mpm::{
 };
 use std::{marker::PhantomData, ops::Range};
 
-/// Takes what `takes` says from two packed fields: velocities, and accelerations.
+/// Takes what `takes` says from two packed fields: velocities, and accelerations; from one where
+/// [`are_beside`] says so.
 pub(super) struct Gather<'a, const D: usize, B> {
     pub(super) grid: &'a Grid<D>,
     pub(super) particles: &'a Particles<D>,
@@ -23,15 +24,27 @@ pub(super) struct Gather<'a, const D: usize, B> {
     pub(super) basis: PhantomData<B>,
 }
 
-/// The first D of four numbers.
+/// Whether velocities and accelerations stand in one field, side by side, where both are wanted: four
+/// numbers hold both in 1-D and 2-D, and the nodes are visited once.
+pub(super) const fn are_beside<const D: usize>() -> bool {
+    2 * D <= FOUR
+}
+
+/// D of four numbers, from `first` on.
 #[inline(always)]
-fn vector<const D: usize>(four: impl Into<[f64; 4]>) -> Vector<D> {
+fn part<const D: usize>(four: impl Into<[f64; FOUR]>, first: usize) -> Vector<D> {
     let lanes = four.into();
     let mut vector = Vector::zeros();
     for axis in 0..D {
-        vector[axis] = lanes[axis];
+        vector[axis] = lanes[(first + axis) % FOUR];
     }
     vector
+}
+
+/// The first D of four numbers.
+#[inline(always)]
+fn vector<const D: usize>(four: impl Into<[f64; FOUR]>) -> Vector<D> {
+    part(four, 0)
 }
 
 /// Writes these columns, number by number: a matrix that went by memory as a whole would be waited for.
@@ -99,12 +112,13 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         taken: &mut Taken<W, D>,
     ) {
         let ([velocity, acceleration], takes) = (&self.fields, &self.takes);
-        if takes.change.is_some() {
+        let beside = takes.change.is_some() && are_beside::<D>();
+        if takes.change.is_some() && !beside {
             for lane in lanes.clone() {
                 put::<B, _>(&mut taken.change[lane], patches.gather(width, lane, acceleration));
             }
         }
-        let mut is_summed = takes.mix.is_none() && takes.carried.is_none();
+        let mut is_summed = takes.mix.is_none() && takes.carried.is_none() && !beside;
         if takes.moment.is_some() {
             patches.lever(width, &lanes, self.grid.h, mean);
             for lane in lanes.clone() {
@@ -144,8 +158,10 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         if let Some(value) = &mut takes.value {
             let value = value[first..].iter_mut();
             if let Some(dt) = takes.change {
-                for (value, change) in value.zip(&taken.change) {
-                    *value += vector::<D>(*change * dt);
+                let (change, at) =
+                    if are_beside::<D>() { (&taken.velocity, D) } else { (&taken.change, 0) };
+                for (value, change) in value.zip(change) {
+                    *value += part::<D>(*change * dt, at);
                 }
             }
         }

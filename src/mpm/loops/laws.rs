@@ -1,7 +1,7 @@
 //! What every basis keeps in the loops: a pass that does several things has the bits of passes that do
 //! one each, both widths have the same bits, and sums are those over the nodes one by one.
 
-use super::{Loops, gather::Gather, scatter::Scatter};
+use super::{Loops, gather::Gather, room::pack, scatter::Scatter};
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     basis::{Basis, BasisName, with_basis},
@@ -179,8 +179,7 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     };
     let best = take(&|takes| kernel.g2p_all(&start, &particles, takes));
     let mut room = [Packed::default(), Packed::default()];
-    room[0].pack(&start, &start.velocity);
-    room[1].pack(&start, &start.acceleration);
+    pack(&mut room, &start, &start.velocity, true);
     let fields = room.each_ref().map(Packed::view);
     let gather = |level: Option<Level>| {
         take(&|takes| {

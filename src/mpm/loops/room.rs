@@ -2,7 +2,7 @@
 
 use super::{
     blocks::{Block, Blocks, share},
-    gather::Gather,
+    gather::{Gather, are_beside},
     halves::halves,
     scatter::Scatter,
 };
@@ -38,6 +38,20 @@ fn views<'a, const D: usize>(
         Some(true) => field.shaped(grid),
         _ => ViewMut::none(),
     })
+}
+
+/// Packs velocities, and accelerations too if they are wanted.
+pub(super) fn pack<const D: usize>(
+    [first, second]: &mut [Packed; 2],
+    grid: &Grid<D>,
+    velocity: &[Vector<D>],
+    wants_acceleration: bool,
+) {
+    let acceleration = wants_acceleration.then_some(&*grid.acceleration);
+    first.pack(grid, velocity, acceleration.filter(|_| are_beside::<D>()));
+    if let Some(acceleration) = acceleration.filter(|_| !are_beside::<D>()) {
+        second.pack(grid, acceleration, None);
+    }
 }
 
 impl Room {
@@ -82,10 +96,7 @@ impl Room {
         takes: Takes<'_, D>,
     ) {
         let fields = &mut self.fields;
-        fields[0].pack(grid, field);
-        if takes.change.is_some() {
-            fields[1].pack(grid, &grid.acceleration);
-        }
+        pack(fields, grid, field, takes.change.is_some());
         let fields = fields.each_ref().map(Packed::view);
         halves(0..particles.len(), takes, &|these, takes| {
             four::run(Gather::<D, B> { grid, particles, these, takes, fields, basis: PhantomData });

@@ -60,26 +60,32 @@ impl Packed {
         });
     }
 
-    /// Takes over a field of vectors.
-    pub(super) fn pack<const D: usize>(&mut self, grid: &Grid<D>, field: &[Vector<D>]) {
+    /// Takes over a field of vectors, and perhaps another one, whose numbers then stand `beside` those
+    /// of the first.
+    pub(super) fn pack<const D: usize>(
+        &mut self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        beside: Option<&[Vector<D>]>,
+    ) {
         self.shaped(grid);
         let ([across, rows, planes], [_, row, plane, _]) = (counts(grid), self.layout.strides);
-        let piece = |k: usize| {
-            let from = across.min(k * PIECE);
-            &field[from..across.min(from + PIECE)]
-        };
+        let piece = |k: usize| across.min(k * PIECE)..across.min((k + 1) * PIECE);
         let row_of_field = |k: usize| {
             let (j, k) = (k % (plane / row), k / (plane / row));
-            let is_there = j < rows && k < planes;
-            if is_there { &field[(j + k * rows) * across..][..across] } else { &[] }
+            let (from, is_there) = ((j + k * rows) * across, j < rows && k < planes);
+            if is_there { from..from + across } else { 0..0 }
         };
         let length = if D == 1 { PIECE } else { row };
         Rows { length, few: FEW }.each(&mut self.nodes, &|k, here| {
             let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
-            for (Node(lanes), value) in here.iter_mut().zip(there) {
+            for (Node(lanes), value) in here.iter_mut().zip(&field[there.clone()]) {
                 *lanes = [0.0; 4];
                 lanes[..D].copy_from_slice(value.as_slice());
+            }
+            for (Node(lanes), value) in here.iter_mut().zip(beside.map_or(&[][..], |b| &b[there])) {
+                lanes[D..2 * D].copy_from_slice(value.as_slice());
             }
             // A function of weight zero may stand here, and must not meet what an earlier pass left.
             beyond.fill(Node::default());
@@ -141,12 +147,13 @@ mod tests {
             let grid = grid(counts, periodic);
             let field: Vec<_> = (0..grid.nodes()).map(|i| Vector::<2>::new(i as f64, 1.0)).collect();
             let mut packed = Packed::default();
-            packed.pack(&grid, &field);
+            packed.pack(&grid, &field, Some(&field));
             let reach = |axis: usize| counts[axis] + if periodic[axis] { MARGIN } else { 0 };
             for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
                 let at = packed.layout.number(&[i, j]);
                 let node = grid.node(&[i % counts[0], j % counts[1]]);
-                prop_assert_eq!(packed.view().row::<1>(at)[0].0, [node as f64, 1.0, 0.0, 0.0]);
+                let there = packed.view().row::<1>(at)[0].0;
+                prop_assert_eq!(there, [node as f64, 1.0, node as f64, 1.0]);
 
                 let mut one = Packed::default();
                 let mut view = one.shaped(&grid);
