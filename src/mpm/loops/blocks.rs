@@ -2,8 +2,8 @@
 //!
 //! Particles that lie next to each other in memory mostly see neighbouring layers of nodes: those across
 //! the last axis. So the particles of a large scene are cut into blocks, and these have two colours in
-//! turn. Blocks of one colour see no node in common: each has its own stretch of one field, and they
-//! may run at once. The other colour has a second field, which is added to the first.
+//! turn. Blocks of one colour see no node in common: each has its own stretch of the field, and they
+//! may run at once. Then the blocks of the other colour add to what these have left.
 //!
 //! Where blocks are cut depends on the particles alone, and never on the number of threads: the bits do not
 //! either. Particles in no order at all, and small scenes, are one block.
@@ -24,6 +24,9 @@ const LEAST: usize = 1 << 15;
 
 /// Chunks of such a block: particles whose layers are looked up together.
 pub(super) const CHUNKS: usize = 8;
+
+/// Particles that are looked at together.
+const TOGETHER: usize = 8;
 
 /// Numbers of blocks that are tried, largest first.
 const COUNTS: [usize; 5] = [64, 32, 16, 8, 4];
@@ -62,6 +65,12 @@ impl Span {
     const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
     const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
+    #[inline(always)]
+    fn meet(&mut self, x: f64) {
+        self.low = if x < self.low { x } else { self.low };
+        self.high = if x > self.high { x } else { self.high };
+    }
+
     fn with(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
@@ -70,12 +79,16 @@ impl Span {
     fn of<B: Basis, const D: usize>(particles: &Particles<D>, these: Range<usize>) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
-            for x in x {
-                let x = x[D - 1];
-                span.low = if x < span.low { x } else { span.low };
-                span.high = if x > span.high { x } else { span.high };
+            // Several at a time: one would wait for the one before.
+            let (many, rest) = x.as_chunks::<TOGETHER>();
+            let mut spans = [span; TOGETHER];
+            for several in many {
+                for (span, x) in spans.iter_mut().zip(several) {
+                    span.meet(x[D - 1]);
+                }
             }
-            return span;
+            rest.iter().for_each(|x| span.meet(x[D - 1]));
+            return spans.into_iter().fold(span, Self::with);
         }
         for (p, x) in these.zip(x) {
             let of_domain = |r: &Matrix<D>| r.row(D - 1).iter().map(|r| r.abs()).sum();

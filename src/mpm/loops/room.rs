@@ -22,8 +22,6 @@ use std::marker::PhantomData;
 pub(super) struct Room {
     /// Two fields of nodes, packed.
     fields: [Packed; 2],
-    /// The same for the second colour of blocks.
-    others: [Packed; 2],
     pub(super) blocks: Blocks,
 }
 
@@ -62,25 +60,19 @@ impl Room {
         maps: &Maps<'_, D>,
         grid: &Grid<D>,
     ) -> &[Packed; 2] {
-        let Self { fields, others, blocks } = self;
+        let Self { fields, blocks } = self;
         blocks.cut::<B, D>(grid, particles);
         let wanted = [maps.mass || maps.momentum.is_some(), maps.force.is_some()];
-        let [white, black] = &blocks.colours;
-        let add = |block: &Block, mut fields: [ViewMut<'_>; 2]| {
-            fields.iter_mut().for_each(ViewMut::clear);
+        let add = |block: &Block, fields: [ViewMut<'_>; 2]| {
             let these = block.particles.clone();
             four::run(Scatter::<D, B> { grid, particles, these, maps, fields, basis: PhantomData });
         };
-        share(white, views(fields, grid, wanted), &add);
-        if !black.is_empty() {
-            share(black, views(others, grid, wanted), &add);
-            let others = others.each_ref().map(Packed::view);
-            share(black, views(fields, grid, wanted), &|block, fields| {
-                for (mut field, other) in fields.into_iter().zip(&others) {
-                    field.add(other, block.nodes.clone());
-                }
-            });
-        }
+        let [white, black] = &blocks.colours;
+        share(white, views(fields, grid, wanted), &|block, mut fields| {
+            fields.iter_mut().for_each(ViewMut::clear);
+            add(block, fields);
+        });
+        share(black, views(fields, grid, wanted), &add);
         for (field, _) in fields.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
             field.fold(grid);
         }

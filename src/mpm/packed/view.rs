@@ -1,7 +1,6 @@
 //! Packed fields as loops see them: all of a field, or a stretch of it.
 
 use crate::mpm::grid::Grid;
-use std::ops::Range;
 
 /// Nodes by which an axis is longer: one fewer than the functions that a patch has along an axis.
 pub(in crate::mpm) const MARGIN: usize = 3;
@@ -94,18 +93,5 @@ impl ViewMut<'_> {
         let before = layout.before.max(at);
         let (low, high) = nodes.split_at_mut(nodes.len().min(before - layout.before));
         (Self { nodes: low, layout }, Self { nodes: high, layout: Layout { before, ..layout } })
-    }
-
-    /// Adds nodes `these` of a whole field that are at hand here.
-    pub(in crate::mpm) fn add(&mut self, field: &View<'_>, these: Range<usize>) {
-        let before = self.layout.before;
-        let Some(here) = self.nodes.get_mut(these.start - before..these.end - before) else {
-            return;
-        };
-        for (Node(sum), Node(more)) in here.iter_mut().zip(&field.nodes[these]) {
-            for (sum, more) in sum.iter_mut().zip(more) {
-                *sum += more;
-            }
-        }
     }
 }
