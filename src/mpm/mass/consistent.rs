@@ -4,7 +4,7 @@
 //! It is what order p + 1 needs with a basis of degree p > 1. Nodes without mass have no row, held
 //! nodes none in the component that is held: there, walls must be at rest. A node that too few
 //! particles see makes the matrix singular, and the run fails with that reason. Assembling allocates
-//! in every step.
+//! in every step; where the factor has its entries is found anew only if those of the matrix have moved.
 
 use super::contract::MassMatrix;
 use crate::{
@@ -12,7 +12,11 @@ use crate::{
     subject::Failure,
 };
 use nalgebra::DVector;
-use nalgebra_sparse::{CooMatrix, CscMatrix, factorization::CscCholesky};
+use nalgebra_sparse::{
+    CooMatrix, CscMatrix,
+    factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky},
+    pattern::SparsityPattern,
+};
 
 /// The consistent mass matrix.
 #[derive(Default)]
@@ -26,11 +30,18 @@ struct Factor {
     /// Row of each node; None where it has none.
     row: Vec<Option<usize>>,
     rows: usize,
+    /// Where the matrix has entries.
+    pattern: SparsityPattern,
     cholesky: CscCholesky<f64>,
 }
 
 impl Factor {
-    fn new(free: &[bool], entries: &[(usize, usize, f64)]) -> Result<Self, Failure> {
+    /// The factor after `last`, that of the step before.
+    fn after(
+        last: Option<Self>,
+        free: &[bool],
+        entries: &[(usize, usize, f64)],
+    ) -> Result<Self, Failure> {
         let mut rows = 0;
         let mut number = |free: &bool| {
             rows += usize::from(*free);
@@ -43,10 +54,12 @@ impl Factor {
                 matrix.push(i, j, mass);
             }
         }
-        let singular = "the consistent mass matrix is singular: too few particles see some node";
-        let cholesky = CscCholesky::factor(&CscMatrix::from(&matrix))
-            .map_err(|_| Failure::Solve(singular.to_owned()))?;
-        Ok(Self { row, rows, cholesky })
+        let (pattern, values) = CscMatrix::from(&matrix).into_pattern_and_values();
+        let cholesky = factorised(last, &pattern, &values).map_err(|_| {
+            let why = "the consistent mass matrix is singular: too few particles see some node";
+            Failure::Solve(why.to_owned())
+        })?;
+        Ok(Self { row, rows, pattern, cholesky })
     }
 
     fn solve<const D: usize>(&self, axis: usize, field: &mut [Vector<D>]) {
@@ -60,6 +73,19 @@ impl Factor {
         for (value, row) in field.iter_mut().zip(&self.row) {
             value[axis] = row.map_or(0.0, |row| side[row]);
         }
+    }
+}
+
+/// The Cholesky factor, in the place of that of a matrix with the same pattern if there is one: the steps
+/// of the factorisation, and so its bits, are the same.
+fn factorised(
+    last: Option<Factor>,
+    pattern: &SparsityPattern,
+    values: &[f64],
+) -> Result<CscCholesky<f64>, CholeskyError> {
+    match last.filter(|last| last.pattern == *pattern) {
+        Some(Factor { mut cholesky, .. }) => cholesky.refactor(values).map(|()| cholesky),
+        None => CscCholesky::factor_numerical(CscSymbolicCholesky::factor(pattern.clone()), values),
     }
 }
 
@@ -85,10 +111,10 @@ impl<const D: usize> MassMatrix<D> for Consistent {
         kernel.mass_entries(grid, particles, &mut |i, j, mass| entries.push((i, j, mass)));
         let free = free(grid, boundary);
         let along = |axis: usize| free.iter().map(|f| f[axis] > 0.0).collect::<Vec<bool>>();
-        self.factors.clear();
+        let mut last = std::mem::take(&mut self.factors).into_iter();
         let same = (1..D).all(|axis| along(axis) == along(0));
         for axis in 0..if same { 1 } else { D } {
-            self.factors.push(Factor::new(&along(axis), &entries)?);
+            self.factors.push(Factor::after(last.next(), &along(axis), &entries)?);
         }
         // Every pair of nodes is visited.
         Ok(1 + kernel.support())
