@@ -49,23 +49,32 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
     if !stated && made.is_none() {
         return None;
     }
-    let at = move |x: f64, t: f64| {
-        let body = (&scene.from[..], &scene.to[..]);
-        let on = |set: &Region| set.force_density(0, &[x], t, body) / scene.density;
-        let sets: f64 = scene.sets.iter().map(on).sum();
-        let declared = scene.body_force.as_ref().map_or(0.0, |b| b[0].eval(&[x, t]));
-        declared + scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t])) + sets
-    };
-    let Some(made) = made else { return Some(fem::pointwise(at)) };
     let mut forcing = None;
     Some(Box::new(move |t, places, values| {
-        let labels = || places.iter().map(std::slice::from_ref);
-        let forcing = forcing.get_or_insert_with(|| Forcing::new(&made, labels()));
-        forcing.at(t, values, |force| force[0]);
+        match &made {
+            None => values.fill(0.0),
+            Some(made) => {
+                let labels = || places.iter().map(std::slice::from_ref);
+                let forcing = forcing.get_or_insert_with(|| Forcing::new(made, labels()));
+                forcing.at(t, values, |force| force[0]);
+            }
+        }
         if stated {
-            values.iter_mut().zip(places).for_each(|(value, x)| *value += at(*x, t));
+            add_stated(&scene, t, places, values);
         }
     }))
+}
+
+/// Adds what the scene states (m/s2) at each place; gravity, the same everywhere, is computed once.
+fn add_stated(scene: &Scene, t: f64, places: &[f64], values: &mut [f64]) {
+    let gravity = scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t]));
+    let body = (&scene.from[..], &scene.to[..]);
+    for (value, x) in values.iter_mut().zip(places) {
+        let on = |set: &Region| set.force_density(0, &[*x], t, body) / scene.density;
+        let sets: f64 = scene.sets.iter().map(on).sum();
+        let declared = scene.body_force.as_ref().map_or(0.0, |b| b[0].eval(&[*x, t]));
+        *value += declared + gravity + sets;
+    }
 }
 
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
