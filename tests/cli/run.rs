@@ -108,16 +108,16 @@ fn out_writes_the_report_the_figures_and_the_json() {
 fn one_thread_and_two_give_the_same_bytes() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
-    let run = |jobs: &str, format: &str| {
+    let run = |jobs: &str| {
         let arguments = ["run", "bar.yaml", "steffen-bar-small-load", "--jobs", jobs];
-        let out = ["--out", jobs, "--format", format];
-        let found = folder.call(&[&arguments[..], &out[..]].concat());
+        let found = folder.call(&[&arguments[..], &["--out", jobs]].concat());
         assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
         found.out
     };
-    assert_eq!(run("1", "text"), run("2", "text"));
-    assert_eq!(run("1", "json"), run("2", "json"));
+    assert_eq!(run("1"), run("2"));
     let files = folder.files("1");
+    // What `--format json` prints is one of them.
+    assert!(files.contains(&"report.json".to_owned()), "{files:?}");
     assert_eq!(files, folder.files("2"));
     for file in files {
         let read = |jobs: &str| folder.read(&format!("{jobs}/{file}"));
@@ -156,10 +156,13 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
 
 #[test]
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
+    // So many suites that most of them have yet to be printed when the reader goes.
     let folder = Folder::new();
-    for arguments in
-        [&["run", "steffen-bar-small-load"][..], &["list"], &["explain", "oedometer"], &["check"]]
-    {
+    for number in 0..40 {
+        let suite = BAR.replace("short-bar", &format!("bar-{number}"));
+        folder.write(&format!("verification/{number}.yaml"), suite);
+    }
+    for arguments in [&["run"][..], &["list"], &["explain", "oedometer"], &["check"]] {
         let mut command = folder.command(arguments);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().expect("the program starts");
