@@ -114,6 +114,7 @@ impl<const N: usize> Places for Hoisted<Jet<N>> {
 }
 
 /// The derivatives from the jets of the components, whose last variable is the time.
+#[inline]
 fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut Derivatives) {
     let time = N - 1;
     for (i, jet) in components.enumerate() {

@@ -9,6 +9,7 @@ pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 /// Largest number of terms of the series below: enough for stretches up to about ten.
 const MOST_TERMS: i32 = 1000;
 
+#[inline]
 pub(super) fn tensor<T: Number, const D: usize>(
     component: impl Fn(usize, usize) -> T,
 ) -> Tensor<T, D> {
@@ -22,17 +23,20 @@ pub(super) fn tensor<T: Number, const D: usize>(
 }
 
 /// The sum over all axes.
+#[inline]
 pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
     (1..D).fold(term(0), |sum, i| sum + term(i))
 }
 
 /// 1 on the diagonal, 0 elsewhere.
+#[inline]
 pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
 }
 
 /// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer dimensions than three it is that of F with
 /// ones on the rest of its diagonal.
+#[inline]
 pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j: usize) -> T {
     match D {
         1 => T::from(1.0),
@@ -47,10 +51,12 @@ pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j:
 }
 
 /// det F, by its first row and the cofactors of that.
+#[inline]
 pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor<T, D>) -> T {
     sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
+#[inline]
 pub(super) fn product<T: Number, const D: usize>(
     a: &Tensor<T, D>,
     b: &Tensor<T, D>,

@@ -43,6 +43,7 @@ const GAUSS_3: [GaussPoint; 3] =
 
 impl Element {
     /// Polynomial degree k; the displacement is of order k + 1.
+    #[inline]
     pub fn degree(self) -> usize {
         match self {
             Self::Linear => 1,
@@ -51,6 +52,7 @@ impl Element {
     }
 
     /// Number of nodes of one element.
+    #[inline]
     pub(super) fn nodes(self) -> usize {
         self.degree() + 1
     }

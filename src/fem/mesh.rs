@@ -44,6 +44,7 @@ impl Mesh {
     }
 
     /// Kind of the elements.
+    #[inline]
     pub(super) fn element(&self) -> Element {
         self.element
     }
@@ -54,6 +55,7 @@ impl Mesh {
     }
 
     /// Quadrature points of an element.
+    #[inline]
     pub(super) fn points(&self) -> &[Point] {
         &self.points
     }
@@ -74,16 +76,19 @@ impl Mesh {
     }
 
     /// Index of the first node of a cell. The others follow it.
+    #[inline]
     pub(super) fn first_node(&self, cell: usize) -> usize {
         cell * self.element.degree()
     }
 
     /// Nodal values of a cell.
+    #[inline]
     pub(super) fn local<'a>(&self, cell: usize, nodal: &'a [f64]) -> &'a [f64] {
         &nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
     /// Nodal values of a cell, to be changed.
+    #[inline]
     pub(super) fn local_mut<'a>(&self, cell: usize, nodal: &'a mut [f64]) -> &'a mut [f64] {
         &mut nodal[self.first_node(cell)..][..self.element.nodes()]
     }
@@ -102,6 +107,7 @@ impl Mesh {
 }
 
 /// `sum_a weight_a nodal_a` over the nodes of an element, from left to right.
+#[inline]
 pub(super) fn dot(weight: &PerNode, nodal: &[f64]) -> f64 {
     weight.iter().zip(nodal).map(|(weight, value)| weight * value).sum()
 }

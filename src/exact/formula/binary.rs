@@ -34,6 +34,7 @@ impl Binary {
     }
 
     /// The value for the arguments `a` and `b`.
+    #[inline]
     pub fn apply<T: Number>(self, a: T, b: T) -> T {
         match self {
             Self::Add => a + b,

@@ -25,6 +25,7 @@ impl<const N: usize> Jet<N> {
     ///
     /// # Panics
     /// If `index` is not below `N`.
+    #[inline]
     pub fn variable(value: f64, index: usize) -> Self {
         let mut jet = Self::from(value);
         jet.gradient[index] = 1.0;
@@ -32,6 +33,7 @@ impl<const N: usize> Jet<N> {
     }
 
     /// The value, without derivatives.
+    #[inline]
     pub fn value(&self) -> f64 {
         self.value
     }
@@ -40,6 +42,7 @@ impl<const N: usize> Jet<N> {
     ///
     /// # Panics
     /// If `i` is not below `N`.
+    #[inline]
     pub fn d(&self, i: usize) -> f64 {
         self.gradient[i]
     }
@@ -48,11 +51,13 @@ impl<const N: usize> Jet<N> {
     ///
     /// # Panics
     /// If `i` or `j` is not below `N`.
+    #[inline]
     pub fn dd(&self, i: usize, j: usize) -> f64 {
         self.hessian[i][j]
     }
 
     /// Builds a jet from its value and the formulas of its derivatives; `second` is symmetric.
+    #[inline]
     fn build(
         value: f64,
         first: impl Fn(usize) -> f64,
@@ -70,6 +75,7 @@ impl<const N: usize> Jet<N> {
     }
 
     /// The chain rule for a function of one argument with derivatives `f1` and `f2` at `self`.
+    #[inline]
     fn chain(&self, value: f64, f1: f64, f2: f64) -> Self {
         let jet = Self::build(
             value,
@@ -97,6 +103,7 @@ impl<const N: usize> Jet<N> {
 
 impl<const N: usize> From<f64> for Jet<N> {
     /// A constant.
+    #[inline]
     fn from(value: f64) -> Self {
         Self { value, gradient: [0.0; N], hessian: [[0.0; N]; N] }
     }
@@ -105,6 +112,7 @@ impl<const N: usize> From<f64> for Jet<N> {
 impl<const N: usize> Neg for Jet<N> {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self::build(-self.value, |i| -self.gradient[i], |i, j| -self.hessian[i][j])
     }
@@ -113,6 +121,7 @@ impl<const N: usize> Neg for Jet<N> {
 impl<const N: usize> Add for Jet<N> {
     type Output = Self;
 
+    #[inline]
     fn add(self, b: Self) -> Self {
         Self::build(
             self.value + b.value,
@@ -125,6 +134,7 @@ impl<const N: usize> Add for Jet<N> {
 impl<const N: usize> Sub for Jet<N> {
     type Output = Self;
 
+    #[inline]
     fn sub(self, b: Self) -> Self {
         Self::build(
             self.value - b.value,
@@ -139,6 +149,7 @@ impl<const N: usize> Sub for Jet<N> {
 impl<const N: usize> Mul for Jet<N> {
     type Output = Self;
 
+    #[inline]
     fn mul(self, b: Self) -> Self {
         Self::build(
             self.value * b.value,
@@ -157,6 +168,7 @@ impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
     /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''.
+    #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
         let mut gradient = [0.0; N];
@@ -175,10 +187,12 @@ impl<const N: usize> Div for Jet<N> {
 }
 
 impl<const N: usize> Number for Jet<N> {
+    #[inline]
     fn value(&self) -> f64 {
         self.value
     }
 
+    #[inline]
     fn unary(self, function: Unary) -> Self {
         let value = function.value(self.value);
         let (first, second) = function.derivatives(self.value, value);
@@ -195,6 +209,7 @@ impl<const N: usize> Number for Jet<N> {
         Self { value: libm::atan2(self.value, x.value), ..quotient }
     }
 
+    #[inline]
     fn powi(self, exponent: i32) -> Self {
         let n = f64::from(exponent);
         // x^0 and x^1 have vanishing derivatives, where the general rule says 0 * infinity at 0.

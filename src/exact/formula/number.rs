@@ -54,12 +54,14 @@ pub trait Number:
     fn pow(self, exponent: Self) -> Self;
 
     /// The smaller of the two, `self` if they are equal, NaN if one is.
+    #[inline]
     #[must_use]
     fn min(self, other: Self) -> Self {
         if self.value() <= other.value() || self.value().is_nan() { self } else { other }
     }
 
     /// The larger of the two, `self` if they are equal, NaN if one is.
+    #[inline]
     #[must_use]
     fn max(self, other: Self) -> Self {
         if self.value() >= other.value() || self.value().is_nan() { self } else { other }
@@ -88,10 +90,12 @@ pub trait Number:
 }
 
 impl Number for f64 {
+    #[inline]
     fn value(&self) -> f64 {
         *self
     }
 
+    #[inline]
     fn unary(self, function: Unary) -> Self {
         function.value(self)
     }
@@ -100,11 +104,13 @@ impl Number for f64 {
         libm::atan2(self, x)
     }
 
+    #[inline]
     fn powi(self, exponent: i32) -> Self {
         let power = whole_power(self, exponent.unsigned_abs());
         if exponent < 0 { 1.0 / power } else { power }
     }
 
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         match whole(exponent) {
             Some(exponent) => Number::powi(self, exponent),
@@ -114,12 +120,14 @@ impl Number for f64 {
 }
 
 /// `exponent` as an integer, if it is one.
+#[inline]
 pub(super) fn whole(exponent: f64) -> Option<i32> {
     let fits = exponent % 1.0 == 0.0 && libm::fabs(exponent) <= f64::from(i32::MAX);
     fits.then_some(exponent as i32)
 }
 
 /// `base` to a power by repeated squaring; anything to the power 0 is 1.
+#[inline]
 fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     let mut power = 1.0;
     loop {

@@ -95,6 +95,7 @@ pub(super) fn run<T: Number>(
 }
 
 /// The value of an operand.
+#[inline]
 pub(super) fn read<T: Number>(operand: Operand, variables: &[T], registers: &[T]) -> T {
     match operand {
         Operand::Constant(value) => T::from(value),

@@ -21,6 +21,7 @@ pub struct Slope<const N: usize> {
 
 impl<const N: usize> Slope<N> {
     /// A value that varies as `gradient` says.
+    #[inline]
     pub fn new(value: f64, gradient: [f64; N]) -> Self {
         Self { value, gradient }
     }
@@ -29,10 +30,12 @@ impl<const N: usize> Slope<N> {
     ///
     /// # Panics
     /// If `i` is not below `N`.
+    #[inline]
     pub fn d(&self, i: usize) -> f64 {
         self.gradient[i]
     }
 
+    #[inline]
     fn build(value: f64, first: impl Fn(usize) -> f64) -> Self {
         let mut slope = Self::from(value);
         for i in 0..N {
@@ -41,6 +44,7 @@ impl<const N: usize> Slope<N> {
         slope
     }
 
+    #[inline]
     fn chain(&self, value: f64, f1: f64) -> Self {
         Self::build(value, |i| f1 * self.gradient[i])
     }
@@ -48,6 +52,7 @@ impl<const N: usize> Slope<N> {
 
 impl<const N: usize> From<f64> for Slope<N> {
     /// A constant.
+    #[inline]
     fn from(value: f64) -> Self {
         Self { value, gradient: [0.0; N] }
     }
@@ -56,6 +61,7 @@ impl<const N: usize> From<f64> for Slope<N> {
 impl<const N: usize> Neg for Slope<N> {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self::build(-self.value, |i| -self.gradient[i])
     }
@@ -64,6 +70,7 @@ impl<const N: usize> Neg for Slope<N> {
 impl<const N: usize> Add for Slope<N> {
     type Output = Self;
 
+    #[inline]
     fn add(self, b: Self) -> Self {
         Self::build(self.value + b.value, |i| self.gradient[i] + b.gradient[i])
     }
@@ -72,6 +79,7 @@ impl<const N: usize> Add for Slope<N> {
 impl<const N: usize> Sub for Slope<N> {
     type Output = Self;
 
+    #[inline]
     fn sub(self, b: Self) -> Self {
         Self::build(self.value - b.value, |i| self.gradient[i] - b.gradient[i])
     }
@@ -82,6 +90,7 @@ impl<const N: usize> Sub for Slope<N> {
 impl<const N: usize> Mul for Slope<N> {
     type Output = Self;
 
+    #[inline]
     fn mul(self, b: Self) -> Self {
         let slope = |i: usize| self.value * b.gradient[i] + b.value * self.gradient[i];
         Self::build(self.value * b.value, slope)
@@ -93,6 +102,7 @@ impl<const N: usize> Mul for Slope<N> {
 impl<const N: usize> Div for Slope<N> {
     type Output = Self;
 
+    #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
         Self::build(value, |i| (self.gradient[i] - value * b.gradient[i]) / b.value)
@@ -100,10 +110,12 @@ impl<const N: usize> Div for Slope<N> {
 }
 
 impl<const N: usize> Number for Slope<N> {
+    #[inline]
     fn value(&self) -> f64 {
         self.value
     }
 
+    #[inline]
     fn unary(self, function: Unary) -> Self {
         let value = function.value(self.value);
         let (first, _) = function.derivatives(self.value, value);
@@ -120,6 +132,7 @@ impl<const N: usize> Number for Slope<N> {
         Self { value: libm::atan2(self.value, x.value), ..quotient }
     }
 
+    #[inline]
     fn powi(self, exponent: i32) -> Self {
         let n = f64::from(exponent);
         let first = if exponent == 0 { 0.0 } else { n * Number::pow(self.value, n - 1.0) };
