@@ -70,27 +70,48 @@ pub(super) fn run<T: Number>(
     variables: &[T],
     registers: &mut [T],
 ) {
+    // An operand where it is. A jet is long: to copy it takes longer than many an action.
+    macro_rules! operand {
+        ($operand:expr, $constant:ident) => {
+            match *$operand {
+                Operand::Constant(value) => {
+                    $constant = T::from(value);
+                    &$constant
+                }
+                Operand::Variable(index) => &variables[index],
+                Operand::Register(index) => &registers[index],
+            }
+        };
+    }
     let mut at = start;
     while let Some(Instruction { action, to }) = code.get(at) {
         at += 1;
-        let get = |operand| read(operand, variables, registers);
-        let result = match action {
-            Action::Copy(a) => get(*a),
-            Action::Negate(a) => -get(*a),
-            Action::Unary(function, a) => get(*a).unary(*function),
-            Action::Binary(function, a, b) => function.apply(get(*a), get(*b)),
-            Action::Powi(a, exponent) => get(*a).powi(*exponent),
+        let (one, other);
+        match action {
+            Action::Copy(a) => registers[*to] = *operand!(a, one),
+            Action::Negate(a) => registers[*to] = -*operand!(a, one),
+            Action::Unary(function, a) => registers[*to] = operand!(a, one).unary(*function),
+            Action::Binary(function, a, b) => {
+                let (a, b) = (operand!(a, one), operand!(b, other));
+                // No common place for the results: each is written where it belongs.
+                match function {
+                    Binary::Add => registers[*to] = *a + *b,
+                    Binary::Subtract => registers[*to] = *a - *b,
+                    Binary::Multiply => registers[*to] = *a * *b,
+                    _ => registers[*to] = function.apply(*a, *b),
+                }
+            }
+            Action::Powi(a, exponent) => registers[*to] = operand!(a, one).powi(*exponent),
             Action::Next(end) => {
-                let sum = registers[*to] + get(end.term);
+                let sum = registers[*to] + *operand!(&end.term, one);
                 let index = registers[to + 1].value();
                 if index < end.last {
                     registers[to + 1] = T::from(index + 1.0);
                     at = end.body;
                 }
-                sum
+                registers[*to] = sum;
             }
-        };
-        registers[*to] = result;
+        }
     }
 }
 
