@@ -4,15 +4,18 @@
 #[path = "common/columns.rs"]
 mod columns;
 mod common;
+#[path = "common/interrupted.rs"]
+mod interrupted;
 
 use columns::columns;
-use common::{DT, free_body, in_dimension, methods};
+use common::{DT, H, free_body, in_dimension, methods};
+use interrupted::goes_on;
 use mpm_verify::{
     mpm::{
-        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Driven,
-        Effect, EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, Particles,
-        Placement, Prescribed, Pressure, Roller, SchemeName, SetForce, Setup, Side, Solver, Tally,
-        ThermalExpansion, Traction, TransferName, Vector,
+        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Conductor, Counted, Damping,
+        Driven, Effect, EffectName, Fixed, Friction, Gravity, Grid, Heat, HeatSource, LocalDamping,
+        NeoHookean, Particles, Placement, Prescribed, Pressure, Roller, SchemeName, SetForce,
+        Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
     },
     subject::{Column, Holder, Profile, Subject},
     suite::{Hold, StudyPlan, Suite, embedded, profiles},
@@ -24,7 +27,7 @@ type Boxed<const D: usize> = Box<dyn Effect<D>>;
 
 /// On the cells of the free body.
 fn viscosity(size: f64) -> ArtificialViscosity {
-    let (linear, quadratic, length, speed) = (size, size, common::H, 1.16);
+    let (linear, quadratic, length, speed) = (size, size, H, 1.16);
     ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }
 }
 
@@ -296,6 +299,83 @@ fn the_readme_says_what_each_wall_adds_and_which_suites_verify_it() {
         (name, row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
     });
     are_in_the_readme(&rows, has_wall);
+}
+
+fn every_effect_goes_on<const D: usize>(scheme: SchemeName) {
+    let method = (BasisName::ContiguousGimp, TransferName::Apic);
+    for &name in EffectName::ALL {
+        let make = || {
+            let mut setup = free_body::<D>(method, scheme);
+            add(name, &mut setup, 0.1);
+            Solver::new(setup).unwrap()
+        };
+        assert!(goes_on(make, DT, &format!("{D}-D {scheme:?} `{}`", name.name())));
+    }
+    let make = || {
+        let mut setup = free_body::<D>(method, scheme);
+        add(EffectName::Heat, &mut setup, 0.1);
+        setup.effects.push(Box::new(ThermalExpansion::of_deformation(0.1, 0.0)));
+        setup.material = Box::new(NeoHookean::new(1.0, 0.3));
+        Solver::new(setup).unwrap()
+    };
+    assert!(goes_on(make, DT, &format!("{D}-D {scheme:?} expansion of a deformation")));
+}
+
+#[rstest]
+fn an_interrupted_run_with_any_effect_gives_the_bits_of_a_whole_one(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    in_dimension!(dimension, every_effect_goes_on(scheme));
+}
+
+/// The body slides along the wall and into it.
+#[rstest]
+fn an_interrupted_run_at_any_wall_gives_the_bits_of_a_whole_one(
+    #[values("fixed", "roller", "velocity", "friction")] name: &str,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(TransferName::Flip, TransferName::Apic)] transfer: TransferName,
+) {
+    assert!(WALLS.contains(&name));
+    let make = || {
+        let mut setup = free_body::<2>((BasisName::Linear, transfer), scheme);
+        setup.particles.x.iter_mut().for_each(|x| x[1] -= 2.0 * H);
+        setup.particles.v.iter_mut().for_each(|v| v[1] -= 1.5);
+        setup.boundary = vec![wall(name, &setup.grid)];
+        Solver::new(setup).unwrap()
+    };
+    assert!(goes_on(make, DT, &format!("{name} {scheme:?} {transfer:?}")));
+}
+
+/// Two bodies, of which one moves into the other.
+#[rstest]
+fn an_interrupted_run_of_two_bodies_gives_the_bits_of_a_whole_one(
+    #[values(None, Some(0.0), Some(0.3))] friction: Option<f64>,
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    let make = || {
+        let setup = |k: f64| {
+            let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), scheme);
+            setup.particles.x.iter_mut().for_each(|x| x[0] += 1.5 * H * k);
+            setup.particles.v.iter_mut().for_each(|v| v[0] -= k);
+            setup
+        };
+        Bodies::new(vec![setup(-1.0), setup(1.0)], friction).unwrap()
+    };
+    assert!(goes_on(make, DT, &format!("{friction:?} {scheme:?}")));
+}
+
+#[test]
+fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
+    let make = || {
+        let Setup { kernel, grid, mut particles, .. } =
+            free_body::<2>((BasisName::Cpdi, TransferName::Flip), SchemeName::Musl);
+        let heat =
+            Heat::new((0.1, 1.0), &mut particles, |x| (libm::sin(9.0 * x[0]), Vector::zeros()));
+        let source: HeatSource<2> = Box::new(|t, _, into| into.fill(t));
+        Conductor::new(kernel, grid, particles, vec![Box::new(heat.with_source(source))]).unwrap()
+    };
+    assert!(goes_on(make, DT, "heat alone"));
 }
 
 /// The passes that a counting kernel sees are those that the work counter of reports is made of.

@@ -3,7 +3,7 @@
 use super::mass::MassMatrix;
 use super::mesh::{Mesh, dot};
 use super::setup::{Field, Setup, SetupError};
-use crate::subject::{Census, Failure, Samples, Site, Start, Subject};
+use crate::subject::{Census, Checkpoint, Failure, Samples, Site, Start, Subject};
 
 /// A bar, discretised by finite elements, at some instant.
 pub struct Bar {
@@ -214,6 +214,18 @@ impl Subject for Bar {
             left_domain: None,
             min_j: self.min_j,
         }
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { displacement, velocity, acceleration, def_grad, .. } = self;
+        for column in [displacement, velocity, acceleration, def_grad] {
+            checkpoint.visit(&mut column[..]);
+        }
+        for number in [&mut self.time, &mut self.lag, &mut self.min_j] {
+            checkpoint.visit(number);
+        }
+        checkpoint.visit(&mut self.transfers);
+        true
     }
 }
 

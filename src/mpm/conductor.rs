@@ -4,7 +4,7 @@ use super::{
     basis::Domain, effect::Effect, grid::Grid, kernel::Kernel, particles::Particles,
     whereabouts::Whereabouts,
 };
-use crate::subject::{Census, Failure, Profile, Samples, Subject};
+use crate::subject::{Census, Checkpoint, Failure, Profile, Samples, Subject};
 
 /// A body at rest with the effects that advance what they keep: the masses of the grid are taken
 /// once, and a step is what the effects make of it.
@@ -81,5 +81,16 @@ impl<const D: usize> Subject for Conductor<D> {
             left_domain: Some(0),
             min_j: 1.0,
         }
+    }
+    /// The grid has its masses from the start.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
+        checkpoint.visit(particles);
+        for effect in effects {
+            effect.checkpoint(checkpoint);
+        }
+        checkpoint.visit(time);
+        checkpoint.visit(transfers);
+        true
     }
 }

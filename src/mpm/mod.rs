@@ -17,6 +17,7 @@ mod algebra;
 mod basis;
 mod bodies;
 mod boundary;
+mod checkpoint;
 mod combination;
 mod conductor;
 mod counted;

@@ -32,7 +32,7 @@ pub struct Solver<const D: usize> {
     /// How fast the grid carries each particle (m/s), from the visit that asks for it until
     /// positions move.
     pub(super) carried: Vec<Vector<D>>,
-    visited: Visited,
+    pub(super) visited: Visited,
 }
 
 impl<const D: usize> Solver<D> {

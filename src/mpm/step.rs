@@ -1,7 +1,7 @@
 //! Steps: the stages in their order, and how a run starts.
 
 use super::{setup::Setup, solver::Solver, stage::Stage};
-use crate::subject::{Census, Failure, Samples, Start, Subject, Totals};
+use crate::subject::{Census, Checkpoint, Failure, Samples, Start, Subject, Totals};
 
 impl<const D: usize> Solver<D> {
     fn run_all(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
@@ -88,5 +88,9 @@ impl<const D: usize> Subject for Solver<D> {
             left_domain: Some(self.whereabouts.left_domain),
             min_j: self.min_j,
         }
+    }
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        checkpoint.visit(self);
+        true
     }
 }

@@ -5,7 +5,7 @@ use super::{
     grid::{Grid, floor},
     particles::Particles,
 };
-use crate::subject::{Column, Failure, Site};
+use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
 
 /// The cells of all particles, with counters.
 #[derive(Debug)]
@@ -76,6 +76,15 @@ impl<const D: usize> Whereabouts<D> {
             None
         });
         miss(left_domain, missing)
+    }
+}
+
+impl<const D: usize> Memory for Whereabouts<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { cells, crossings, left_domain } = self;
+        checkpoint.visit(&mut cells[..]);
+        checkpoint.visit(crossings);
+        checkpoint.visit(left_domain);
     }
 }
 

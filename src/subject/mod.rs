@@ -5,8 +5,10 @@
 //! and flat (`f64` slices, no type of this crate's algebra), so that a solver in another language
 //! can stand behind it.
 
+mod checkpoint;
 mod profile;
 
+pub use checkpoint::{Checkpoint, Memory};
 pub use profile::{Column, Holder, Profile};
 
 use crate::named::named;
@@ -31,6 +33,13 @@ pub trait Subject {
     /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
     fn totals(&self) -> Option<Totals> {
         None
+    }
+
+    /// Shows to `checkpoint` all that the steps to come depend on and that setting up does not give again:
+    /// with it, a subject that was set up alike goes on from here and gives the same bits. False from one
+    /// that cannot.
+    fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
+        false
     }
 }
 

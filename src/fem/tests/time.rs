@@ -9,7 +9,7 @@ use crate::fem::pointwise;
 use crate::subject::Subject;
 use crate::{
     fem::{Bar, Setup},
-    subject::Start,
+    subject::{Checkpoint, Samples, Start},
 };
 
 /// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
@@ -111,4 +111,37 @@ fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Sta
     let worst: Vec<f64> = (0..100).map(|_| worst_of_period()).collect();
     assert!(worst[0] < 0.02, "{worst:?}");
     assert!(worst.iter().all(|&now| now < 1.02 * worst[0]), "{worst:?}");
+}
+
+/// All that a look at a bar shows, bit by bit.
+fn bits(bar: &Bar) -> (Vec<u64>, String) {
+    let mut samples = Samples::default();
+    bar.sample(&mut samples);
+    let numbers = samples.displacement.iter().chain(&samples.velocity).map(|x| x.to_bits());
+    (numbers.collect(), format!("{:?} {}", bar.census(), bar.time()))
+}
+
+#[rstest]
+fn an_interrupted_run_gives_the_bits_of_a_whole_one(
+    #[values(Linear, Quadratic)] element: Element,
+    #[values(Lumped, Consistent)] mass: Mass,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    let body_force = || Some(pointwise(|x, t| libm::sin(x + 9.0 * t)));
+    let make = || {
+        let setup = Setup { start, body_force: body_force(), ..vibrating_bar(6, element, mass) };
+        Bar::new(setup).unwrap()
+    };
+    let (mut whole, mut other) = (make(), make());
+    (0..7).for_each(|_| whole.step(0.01).unwrap());
+    let mut left = Checkpoint::empty();
+    assert!(whole.checkpoint(&mut left));
+    let left = left.into_bytes();
+    let mut left = Checkpoint::of(&left);
+    assert!(other.checkpoint(&mut left) && left.is_used_up());
+    for _ in 0..5 {
+        whole.step(0.01).unwrap();
+        other.step(0.01).unwrap();
+        assert_eq!(bits(&whole), bits(&other));
+    }
 }

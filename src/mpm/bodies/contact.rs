@@ -18,7 +18,7 @@
 use super::{coupling::Coupling, meeting::Meeting};
 use crate::{
     mpm::{algebra::Vector, grid::Grid, scheme::SchemeName, setup::Setup, solver::Solver},
-    subject::Column,
+    subject::{Checkpoint, Column, Memory},
 };
 
 /// Contact between all bodies of a scene.
@@ -142,6 +142,19 @@ enum Touch {
     Sticks,
 }
 
+impl Memory for Touch {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let mut number = *self as u64;
+        checkpoint.visit(&mut number);
+        match number {
+            0 => *self = Self::Free,
+            1 => *self = Self::Slides,
+            2 => *self = Self::Sticks,
+            _ => checkpoint.refuse(),
+        }
+    }
+}
+
 impl<const D: usize> Coupling<D> for Contact<D> {
     fn name(&self) -> Option<&'static str> {
         Some("contact")
@@ -158,6 +171,11 @@ impl<const D: usize> Coupling<D> for Contact<D> {
             all("normal", &self.outwards),
             all("mapped velocity", &self.mapped),
         ]
+    }
+
+    /// How the last push left bodies: what strains them next is held so.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.touches[..]);
     }
 
     fn reads_velocity(&self) -> bool {

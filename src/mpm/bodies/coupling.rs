@@ -1,6 +1,9 @@
 //! What couples bodies at the nodes where they meet.
 
-use crate::{mpm::solver::Solver, subject::Column};
+use crate::{
+    mpm::solver::Solver,
+    subject::{Checkpoint, Column},
+};
 
 /// A coupling of two or more bodies. Each method comes after all bodies have taken a stage.
 pub(super) trait Coupling<const D: usize>: Send {
@@ -9,6 +12,9 @@ pub(super) trait Coupling<const D: usize>: Send {
 
     /// What it keeps for nodes.
     fn columns(&self) -> Vec<Column>;
+
+    /// Shows what it remembers from step to step.
+    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether it reads velocities before accelerations.
     fn reads_velocity(&self) -> bool;

@@ -19,7 +19,7 @@ mod shared;
 mod state;
 
 use super::{setup::Setup, solver::Solver, stage::Stage};
-use crate::subject::{Census, Failure, Profile, Samples, Subject, Totals};
+use crate::subject::{Census, Checkpoint, Failure, Profile, Samples, Subject, Totals};
 use contact::Contact;
 use coupling::Coupling;
 use failure::among;
@@ -144,5 +144,13 @@ impl<const D: usize> Subject for Bodies<D> {
             left_domain: all().map(|census| census.left_domain).sum(),
             min_j: all().map(|census| census.min_j).fold(f64::INFINITY, f64::min),
         }
+    }
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { solvers, coupling } = self;
+        checkpoint.visit(&mut solvers[..]);
+        if let Some(coupling) = coupling {
+            coupling.checkpoint(checkpoint);
+        }
+        true
     }
 }

@@ -1,6 +1,9 @@
 //! What a boundary condition is to the rest of the solver.
 
-use crate::{mpm::algebra::Vector, subject::Column};
+use crate::{
+    mpm::algebra::Vector,
+    subject::{Checkpoint, Column},
+};
 
 /// An advance of the grid's velocities: `v += dt a`.
 ///
@@ -27,6 +30,9 @@ pub struct Advance {
 pub trait Boundary<const D: usize>: Send {
     /// What the condition keeps for its nodes.
     fn columns(&self) -> Vec<Column>;
+
+    /// Shows what it remembers from step to step.
+    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether [`Boundary::hold_advance`] reads velocities: they are then mapped before forces.
     fn reads_velocity(&self) -> bool {

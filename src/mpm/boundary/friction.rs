@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     mpm::{algebra::Vector, grid::Grid},
-    subject::Column,
+    subject::{Checkpoint, Column, Memory},
 };
 
 /// A face of the grid with friction.
@@ -65,9 +65,26 @@ impl Friction {
     }
 }
 
+impl Memory for Touch {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let mut number = *self as u64;
+        checkpoint.visit(&mut number);
+        match number {
+            0 => *self = Self::Free,
+            1 => *self = Self::Slides,
+            2 => *self = Self::Sticks,
+            _ => checkpoint.refuse(),
+        }
+    }
+}
+
 impl<const D: usize> Boundary<D> for Friction {
     fn columns(&self) -> Vec<Column> {
         vec![Column::of_nodes("touch", &self.nodes)]
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        self.nodes.iter_mut().for_each(|(_, touch)| checkpoint.visit(touch));
     }
 
     fn reads_velocity(&self) -> bool {

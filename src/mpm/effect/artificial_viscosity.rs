@@ -10,7 +10,10 @@
 //! new stresses, which a law in rate form adds to the old ones, it is taken out again.
 
 use super::{contract::Effect, name::EffectName};
-use crate::{mpm::particles::Particles, subject::Column};
+use crate::{
+    mpm::particles::Particles,
+    subject::{Checkpoint, Column},
+};
 
 /// An artificial viscosity.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +37,10 @@ impl<const D: usize> Effect<D> for ArtificialViscosity {
 
     fn columns(&self) -> Vec<Column> {
         vec![Column::of_particles("q", &self.q)]
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.q);
     }
 
     fn before_stress(&mut self, particles: &mut Particles<D>) {

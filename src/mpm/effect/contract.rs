@@ -3,7 +3,7 @@
 use super::name::EffectName;
 use crate::{
     mpm::{grid::Grid, kernel::Kernel, material::Material, particles::Particles},
-    subject::{Column, Failure},
+    subject::{Checkpoint, Column, Failure},
 };
 
 /// A pass between stages. Hooks are empty unless an effect fills them.
@@ -15,6 +15,9 @@ pub trait Effect<const D: usize>: Send {
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
+
+    /// Shows what it remembers from step to step.
+    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether it reads F: the column exists only then, or if a basis or a material asks for it.
     fn reads_deformation(&self) -> bool {

@@ -11,7 +11,7 @@ use crate::{
         boundary::{VelocityField, continued},
         particles::Particles,
     },
-    subject::Column,
+    subject::{Checkpoint, Column},
 };
 
 /// A velocity v(X, t) (m/s) that a set of particles has.
@@ -35,6 +35,10 @@ impl<const D: usize> Effect<D> for Driven<D> {
 
     fn columns(&self) -> Vec<Column> {
         vec![Column::of_particles("driven", &self.members)]
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        self.members.iter_mut().for_each(|(_, x)| checkpoint.visit(x));
     }
 
     fn drive_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {

@@ -22,7 +22,7 @@
 use super::{contract::Effect, name::EffectName, thermal_face::ThermalFace};
 use crate::{
     mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles},
-    subject::{Column, Failure, Site},
+    subject::{Checkpoint, Column, Failure, Site},
 };
 
 /// Fills in the heat per unit mass and time (W/kg) of every particle at a time (s), from their
@@ -133,6 +133,11 @@ impl<const D: usize> Effect<D> for Heat<D> {
         ];
         columns.extend(self.faces.iter().flat_map(ThermalFace::columns));
         columns
+    }
+
+    /// Of the nodes nothing is remembered.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.slope[..]);
     }
 
     fn advance(

@@ -12,7 +12,7 @@
 use super::{contract::Effect, name::EffectName};
 use crate::{
     mpm::{algebra::Matrix, material::Material, particles::Particles},
-    subject::Column,
+    subject::{Checkpoint, Column},
 };
 
 /// Expansion by temperature; an effect that keeps temperatures comes before it.
@@ -54,6 +54,14 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
         match &self.law {
             Law::OfDeformation { elastic } => vec![Column::of_particles("Fe", elastic)],
             Law::InRateForm { before, .. } => vec![Column::of_particles("T before", before)],
+        }
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        match &mut self.law {
+            // Overwritten before it is read.
+            Law::OfDeformation { .. } => {}
+            Law::InRateForm { before, .. } => checkpoint.visit(&mut before[..]),
         }
     }
 

@@ -1,6 +1,9 @@
 //! What a material is to the rest of the solver.
 
-use crate::{mpm::particles::Particles, subject::Column};
+use crate::{
+    mpm::particles::Particles,
+    subject::{Checkpoint, Column},
+};
 
 /// A constitutive law, with the state that only it reads. It meets the solver between stages: one
 /// virtual call per step.
@@ -12,6 +15,9 @@ pub trait Material<const D: usize>: Send {
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
+
+    /// Shows what the law remembers.
+    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Energy that all particles store, over the whole body (J); `None` where what stress has done is
     /// no function of the state. What a law dissipates is not stored.

@@ -18,7 +18,7 @@ use crate::{
         algebra::{Matrix, Vector, det},
         particles::Particles,
     },
-    subject::Column,
+    subject::{Checkpoint, Column, Memory},
 };
 
 /// Isotropic elasto-plasticity with linear hardening.
@@ -46,6 +46,20 @@ impl Flowed {
         inverse_metric: Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
         strain: 0.0,
     };
+}
+
+impl Default for Flowed {
+    fn default() -> Self {
+        Self::NOT
+    }
+}
+
+impl Memory for Flowed {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { inverse_metric, strain } = self;
+        checkpoint.visit(inverse_metric);
+        checkpoint.visit(strain);
+    }
 }
 
 impl J2 {
@@ -91,6 +105,10 @@ impl<const D: usize> Material<D> for J2 {
 
     fn columns(&self) -> Vec<Column> {
         vec![Column::of_particles("plastic flow", &self.flowed)]
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.flowed);
     }
 
     /// That of the elastic strain, `K/2 tr(eps)^2 + mu |dev eps|^2`.

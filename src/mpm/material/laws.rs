@@ -174,7 +174,23 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
+/// Bit for bit: what it has flowed, hardened or heated is all in its checkpoint.
+fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
+    let step = |k: i32| scattered::<D>(0.1, f64::from(k));
+    for dt in [SLOW, 1.0, FAST] {
+        let mut whole = Specimen::<D>::new(plan);
+        (0..3).for_each(|k| _ = whole.flow(&(step(k) / dt), dt));
+        let mut other = whole.interrupted(plan);
+        for k in 3..6 {
+            let [a, b] = [&mut whole, &mut other].map(|one| one.flow(&(step(k) / dt), dt));
+            assert_eq!(a, b, "{plan:?}");
+            assert_eq!((whole.energy(), whole.j()), (other.energy(), other.j()), "{plan:?}");
+        }
+    }
+}
+
 fn hold<const D: usize>(plan: MaterialPlan) {
+    an_interrupted_run_goes_on::<D>(plan);
     rest_keeps_the_stress::<D>(plan);
     no_strain_means_no_stress::<D>(plan);
     waves_have_their_speed::<D>(plan);

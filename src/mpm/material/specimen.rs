@@ -1,9 +1,12 @@
 //! One particle of each registered material, for the tests of the family.
 
 use super::{LinearElastic, Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    particles::{Block, Particles},
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector},
+        particles::{Block, Particles},
+    },
+    subject::Checkpoint,
 };
 
 /// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
@@ -45,6 +48,19 @@ impl<const D: usize> Specimen<D> {
     /// The stress after a step in which F becomes `step * F`.
     pub(super) fn deform(&mut self, step: &Matrix<D>, dt: f64) -> Matrix<D> {
         self.flow(&((step - Matrix::identity()) / dt), dt)
+    }
+
+    /// Another one, made of `plan`, that goes on from the state of this one.
+    pub(super) fn interrupted(&mut self, plan: MaterialPlan) -> Self {
+        let mut checkpoint = Checkpoint::empty();
+        self.0.checkpoint(&mut checkpoint);
+        checkpoint.visit(&mut self.1);
+        let (left, mut other) = (checkpoint.into_bytes(), Self::new(plan));
+        let mut checkpoint = Checkpoint::of(&left);
+        other.0.checkpoint(&mut checkpoint);
+        checkpoint.visit(&mut other.1);
+        assert!(checkpoint.is_used_up());
+        other
     }
 
     /// The stored energy (J), of a volume of one.

@@ -9,7 +9,7 @@ use crate::{
         kernel::{Divergence, Kernel, Maps, Shown},
         particles::Particles,
     },
-    subject::Column,
+    subject::{Checkpoint, Column},
 };
 
 /// What a transfer is made of.
@@ -183,6 +183,11 @@ pub trait Transfer<const D: usize>: Send + Sync {
     /// The same, to be changed.
     fn carried_mut(&mut self) -> &mut [Matrix<D>] {
         &mut []
+    }
+
+    /// Shows what it remembers from step to step.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(self.carried_mut());
     }
 
     /// A natural size of what is carried, where velocities are of the size `speed` (m/s) and cells of

@@ -1,0 +1,285 @@
+//! The state of a subject in the middle of a run, as bytes: written down, and taken back bit by bit.
+//!
+//! One visit does both ([`Memory::visit`]), so that nothing can be written and not be read again.
+//! Numbers are eight bytes each, the lowest first, whatever the machine; nothing is named. So bytes
+//! mean something to the same program and the same set-up only, and whoever keeps them must see to that.
+
+use super::{Samples, Totals};
+
+/// What a checkpoint can hold.
+pub trait Memory {
+    /// Shows each number to `checkpoint`, which writes it down or replaces it.
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>);
+}
+
+/// A state that is being written down, or taken back.
+#[derive(Debug)]
+pub struct Checkpoint<'a>(Way<'a>);
+
+#[derive(Debug)]
+enum Way<'a> {
+    Out(Vec<u8>),
+    /// What is still to be read.
+    In(&'a [u8]),
+    /// What was read is no such state: from here on nothing is replaced.
+    Misfit,
+}
+
+impl<'a> Checkpoint<'a> {
+    /// Nothing yet, to be written.
+    pub fn empty() -> Self {
+        Self(Way::Out(Vec::new()))
+    }
+
+    /// What [`Checkpoint::into_bytes`] gave, to be taken back by the same visits.
+    pub fn of(bytes: &'a [u8]) -> Self {
+        Self(Way::In(bytes))
+    }
+
+    /// What was written.
+    pub fn into_bytes(self) -> Vec<u8> {
+        match self.0 {
+            Way::Out(bytes) => bytes,
+            Way::In(_) | Way::Misfit => Vec::new(),
+        }
+    }
+
+    /// Whether all that was to be read has been, and has fitted. If not, what has been visited is spoilt.
+    pub fn is_used_up(&self) -> bool {
+        matches!(self.0, Way::In([]))
+    }
+
+    /// Writes `memory` down, or takes it back.
+    pub fn visit<T: Memory + ?Sized>(&mut self, memory: &mut T) {
+        memory.visit(self);
+    }
+
+    /// Notes something that setting up gives again: it must be the same when the rest is taken back.
+    pub fn same(&mut self, number: usize) {
+        let mut found = number as u64;
+        self.visit(&mut found);
+        if found != number as u64 {
+            self.refuse();
+        }
+    }
+
+    /// What has just been read cannot be.
+    pub fn refuse(&mut self) {
+        self.0 = Way::Misfit;
+    }
+
+    fn is_misfit(&self) -> bool {
+        matches!(self.0, Way::Misfit)
+    }
+
+    fn word(&mut self, word: u64) -> u64 {
+        match &mut self.0 {
+            Way::Out(bytes) => bytes.extend_from_slice(&word.to_le_bytes()),
+            Way::In(bytes) => {
+                if let Some((first, rest)) = bytes.split_first_chunk() {
+                    *bytes = rest;
+                    return u64::from_le_bytes(*first);
+                }
+                self.refuse();
+            }
+            Way::Misfit => {}
+        }
+        word
+    }
+}
+
+impl Memory for u64 {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        *self = checkpoint.word(*self);
+    }
+}
+
+impl Memory for f64 {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        *self = Self::from_bits(checkpoint.word(self.to_bits()));
+    }
+}
+
+impl Memory for bool {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        match checkpoint.word(u64::from(*self)) {
+            0 => *self = false,
+            1 => *self = true,
+            _ => checkpoint.refuse(),
+        }
+    }
+}
+
+/// As long as it is.
+impl<T: Memory> Memory for [T] {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.same(self.len());
+        if !checkpoint.is_misfit() {
+            for entry in self {
+                entry.visit(checkpoint);
+            }
+        }
+    }
+}
+
+impl<T: Memory, const N: usize> Memory for [T; N] {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        for entry in self {
+            entry.visit(checkpoint);
+        }
+    }
+}
+
+/// As long as it was: for what grows during a run. No entry may take no bytes.
+impl<T: Memory + Default> Memory for Vec<T> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let mut len = self.len() as u64;
+        len.visit(checkpoint);
+        if matches!(checkpoint.0, Way::In(_)) {
+            self.clear();
+            for _ in 0..len {
+                let mut entry = T::default();
+                entry.visit(checkpoint);
+                if checkpoint.is_misfit() {
+                    return;
+                }
+                self.push(entry);
+            }
+        } else {
+            for entry in self {
+                entry.visit(checkpoint);
+            }
+        }
+    }
+}
+
+impl<T: Memory + Default> Memory for Option<T> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let mut is_there = self.is_some();
+        is_there.visit(checkpoint);
+        if is_there {
+            self.get_or_insert_default().visit(checkpoint);
+        } else {
+            *self = None;
+        }
+    }
+}
+
+impl<A: Memory, B: Memory> Memory for (A, B) {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        self.0.visit(checkpoint);
+        self.1.visit(checkpoint);
+    }
+}
+
+impl Memory for Totals {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            mass,
+            momentum,
+            momentum_size,
+            angular_momentum,
+            angular_momentum_size,
+            kinetic_energy,
+            strain_energy,
+        } = self;
+        for number in [mass, momentum_size, angular_momentum_size, kinetic_energy] {
+            checkpoint.visit(number);
+        }
+        checkpoint.visit(momentum);
+        checkpoint.visit(angular_momentum);
+        checkpoint.visit(strain_energy);
+    }
+}
+
+impl Memory for Samples {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            dimension,
+            label,
+            displacement,
+            velocity,
+            weight,
+            stress,
+            deformation_gradient,
+            temperature,
+        } = self;
+        checkpoint.same(*dimension);
+        for column in [label, displacement, velocity, weight] {
+            checkpoint.visit(column);
+        }
+        for column in [stress, deformation_gradient, temperature] {
+            checkpoint.visit(column);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use rstest::rstest;
+
+    type All = (Vec<f64>, ([u64; 2], (Option<f64>, (bool, Vec<(f64, Totals)>))));
+
+    fn written(memory: &mut (impl Memory + ?Sized)) -> Vec<u8> {
+        let mut checkpoint = Checkpoint::empty();
+        checkpoint.visit(memory);
+        checkpoint.into_bytes()
+    }
+
+    /// Whether it fitted.
+    fn taken_back(memory: &mut (impl Memory + ?Sized), bytes: &[u8]) -> bool {
+        let mut checkpoint = Checkpoint::of(bytes);
+        checkpoint.visit(memory);
+        checkpoint.is_used_up()
+    }
+
+    fn some(x: f64, n: u64) -> All {
+        let totals =
+            Totals { mass: x, momentum: [-x, 0.0, x], strain_energy: Some(x), ..Totals::default() };
+        let account = vec![(-0.0, totals), (x, Totals { strain_energy: None, ..totals })];
+        (
+            vec![x; (n % 7) as usize],
+            ([n, 1], (n.is_multiple_of(2).then_some(x), (n.is_multiple_of(3), account))),
+        )
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+
+        /// NaN, -0 and all; whatever was there before.
+        #[test]
+        fn every_bit_comes_back(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
+            let bytes = written(&mut some(x, n));
+            let mut back = some(0.5, m);
+            prop_assert!(taken_back(&mut back, &bytes));
+            prop_assert_eq!(written(&mut back), bytes);
+        }
+
+        /// Whatever is read, the visit ends, and says if it does not fit.
+        #[test]
+        fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+            bytes.push(0);
+            bytes.truncate(bytes.len() / 8 * 8 + 1);
+            prop_assert!(!taken_back(&mut some(1.0, 0), &bytes), "no whole number of words");
+        }
+    }
+
+    #[test]
+    fn what_is_cut_short_or_too_long_does_not_fit() {
+        let bytes = written(&mut some(1.5, 6));
+        for end in 0..bytes.len() {
+            assert!(!taken_back(&mut some(1.5, 6), &bytes[..end]), "{end}");
+        }
+        assert!(!taken_back(&mut some(1.5, 6), &[&bytes[..], &[0]].concat()));
+    }
+
+    #[rstest]
+    #[case::shorter(&mut [0.0; 2])]
+    #[case::longer(&mut [0.0; 4])]
+    fn a_column_of_another_length_is_left_alone(#[case] column: &mut [f64]) {
+        assert!(!taken_back(column, &written(&mut [1.0, 2.0, 3.0][..])));
+        assert!(column.iter().all(|entry| *entry == 0.0));
+    }
+}
