@@ -9,7 +9,9 @@ macro_rules! named {
         $($(#[$member_meta:meta])* $member:ident = $text:literal,)+
     }) => {
         $(#[$meta])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Deserialize)]
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Deserialize, serde::Serialize,
+        )]
         pub enum $names {
             $($(#[$member_meta])* #[serde(rename = $text)] $member,)+
         }

@@ -5,7 +5,10 @@
 //! momenta (which may themselves be zero). A law without an energy leaves that sum NaN.
 
 use super::norm::larger;
-use crate::{named::named, subject::Totals};
+use crate::{
+    named::named,
+    subject::{Checkpoint, Memory, Totals},
+};
 use serde::{Deserialize, Serialize};
 
 named! {
@@ -76,6 +79,15 @@ pub(super) struct Balance {
     start: Totals,
     change: [f64; Conserved::ALL.len()],
     size: [f64; Conserved::ALL.len()],
+}
+
+impl Memory for Balance {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { start, change, size } = self;
+        checkpoint.visit(start);
+        checkpoint.visit(change);
+        checkpoint.visit(size);
+    }
 }
 
 impl Balance {

@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
+//! | [`keeper`](Keeper) | a run that is interrupted and goes on |
 //! | [`conservation`](Drift) | what a free motion keeps, watched over a run |
 //! | [`level`](Level), [`claim`](Claim) | what is judged, and against what |
 //! | [`axis`](Axis) | which spacing is refined |
@@ -32,6 +33,7 @@ mod figures;
 mod fit;
 mod floor;
 mod judge;
+mod keeper;
 mod level;
 mod limits;
 mod norm;
@@ -44,6 +46,7 @@ mod richardson;
 mod run;
 mod secular;
 mod shape;
+mod shown;
 mod stability;
 mod student;
 #[cfg(test)]
@@ -64,6 +67,7 @@ pub use expectation::{Bounds, Expectation, Seen};
 pub use fit::Interval;
 pub use floor::{Floor, FloorCause, Probe};
 pub use judge::{Judgement, judge};
+pub use keeper::{Keeper, Nobody};
 pub use level::Level;
 pub use limits::{Limits, Measured};
 pub use norm::Norms;
@@ -73,11 +77,12 @@ pub use outcome::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, Suite
 pub use pairwise::observed_order;
 pub use quantity::{Quantity, errors_of};
 pub use richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
-pub use run::{Comparison, Run, errors, run};
+pub use run::{Comparison, errors, resume, run};
+pub use shown::Run;
 pub use stability::{
     Critical, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
-    StabilityLimit, StabilityRow, StabilityStudy, Trial, Wanted, amplification, spectral_radius,
-    stability_limit, trial,
+    StabilityLimit, StabilityRow, StabilityStudy, Trial, Wanted, amplification, resume_trial,
+    spectral_radius, stability_limit, trial,
 };
 pub use student::two_sided_95;
 pub use verdict::{UnknownVerdict, Verdict};

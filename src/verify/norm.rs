@@ -12,6 +12,7 @@
 //!
 //! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
 
+use crate::subject::{Checkpoint, Memory};
 use serde::{Deserialize, Serialize};
 
 /// Norms of one field of errors. All are NaN where there is nothing to measure: an empty field
@@ -26,6 +27,15 @@ pub struct Norms {
     pub l2: f64,
     /// Largest length.
     pub linf: f64,
+}
+
+impl Memory for Norms {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { rms, l1, l2, linf } = self;
+        for norm in [rms, l1, l2, linf] {
+            checkpoint.visit(norm);
+        }
+    }
 }
 
 impl Norms {

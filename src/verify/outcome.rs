@@ -2,7 +2,7 @@
 
 use super::{
     axis::Axis, conservation::Conserved, figures::figures, floor::Floor, judge::Judgement,
-    observer::History, quantity::Quantity, richardson::Richardson, run::Run,
+    observer::History, quantity::Quantity, richardson::Richardson, shown::Run,
     stability::StabilityStudy, verdict::Verdict, yardstick::Yardstick,
 };
 use crate::subject::Profile;

@@ -3,50 +3,17 @@
 use super::{
     clock::Clock,
     conservation::{Balance, Drift},
-    fit::Interval,
+    keeper::{Keeper, Nobody, keep_if_due, resumed},
     norm::{Norms, larger},
     observer::{History, displacement_at},
     quantity::{Quantity, errors_of},
     secular::energy_rate,
+    shown::Run,
 };
 use crate::{
     exact::Truth,
-    subject::{Census, Failure, Samples, Subject, Totals},
+    subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals},
 };
-use serde::{Deserialize, Serialize};
-
-/// What a run has shown.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Run {
-    /// Errors of the displacement at the end (m); all NaN if the run failed.
-    pub errors: Norms,
-    /// Largest RMS error over the instants (m); NaN if the run failed.
-    pub max_rms: f64,
-    /// Errors of the compared quantity at the end; all NaN if the run failed.
-    pub at_end: Norms,
-    /// The largest of each over the instants; all NaN if the run failed.
-    pub largest: Norms,
-    /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
-    pub drift: Option<Drift>,
-    /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
-    pub account: Vec<(f64, Totals)>,
-    /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
-    pub energy_rate: Option<Interval>,
-    /// Counters at the end, or at the failure.
-    pub census: Census,
-    /// Steps taken.
-    pub steps: u64,
-    /// Why and when the run ended early.
-    pub failure: Option<String>,
-    /// The observed label, if one was asked for and the run came to its end.
-    pub history: Option<History>,
-    /// Displacement at the observed place at the end (m), if it could be interpolated.
-    pub displacement: Option<Vec<f64>>,
-    /// Its distance (m) from the exact one.
-    pub observed_error: Option<f64>,
-    /// Largest speed towards the end, over [`Comparison::at_rest`], where that is given.
-    pub unrest: Option<f64>,
-}
 
 /// What is compared in a run, besides the displacement.
 #[derive(Debug, Clone, Copy, Default)]
@@ -72,12 +39,39 @@ pub fn run(
     clock: &Clock,
     comparison: &Comparison<'_>,
 ) -> Run {
-    let mut watch = Watch::new(subject, truth, comparison);
-    for step in 1..=clock.steps {
+    let watch = Watch::new(subject, truth, comparison);
+    go(subject, watch, clock, 0, &mut Nobody)
+}
+
+/// The same run of a subject that `make` makes, from where `keeper` has something that was left of it.
+///
+/// # Errors
+/// Those of `make`.
+pub fn resume<E>(
+    make: impl FnMut() -> Result<Box<dyn Subject>, E>,
+    truth: &dyn Truth,
+    clock: &Clock,
+    comparison: &Comparison<'_>,
+    keeper: &mut dyn Keeper,
+) -> Result<Run, E> {
+    let watch = |subject: &dyn Subject| Watch::new(subject, truth, comparison);
+    let (mut subject, watch, done) = resumed(make, watch, clock.steps, keeper)?;
+    Ok(go(subject.as_mut(), watch, clock, done, keeper))
+}
+
+fn go(
+    subject: &mut dyn Subject,
+    mut watch: Watch<'_>,
+    clock: &Clock,
+    done: u64,
+    keeper: &mut dyn Keeper,
+) -> Run {
+    for step in done + 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
             return watch.failed(subject, step, clock.time(step), &failure);
         }
         watch.look(subject, clock, step);
+        keep_if_due(keeper, (step, clock.steps), &mut watch, subject);
     }
     watch.finished(subject, clock)
 }
@@ -200,6 +194,37 @@ impl<'a> Watch<'a> {
     }
 }
 
+/// What is seen at an instant is seen anew at the next one, and the last step ends at one.
+impl Memory for Watch<'_> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            truth: _,
+            comparison: _,
+            samples: _,
+            errors,
+            max_rms,
+            at_end,
+            largest,
+            balance,
+            account,
+            unrest,
+            history,
+        } = self;
+        for norms in [errors, at_end, largest] {
+            checkpoint.visit(norms);
+        }
+        checkpoint.visit(max_rms);
+        if let Some(balance) = balance {
+            checkpoint.visit(balance);
+        }
+        checkpoint.visit(account);
+        checkpoint.visit(unrest);
+        if let Some((_, history)) = history {
+            checkpoint.visit(&mut history.velocity);
+        }
+    }
+}
+
 /// Largest speed (m/s) of a label; NaN if any is.
 fn fastest(samples: &Samples) -> f64 {
     let speed = |v: &[f64]| v.iter().fold(0.0, |all, v| libm::hypot(all, *v));
@@ -214,6 +239,7 @@ pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::subject::Census;
     use approx::assert_relative_eq;
 
     /// One label whose speed goes up and down while its displacement fades.

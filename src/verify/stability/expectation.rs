@@ -4,7 +4,7 @@ use super::{
     figure::RunFigure,
     limit::StabilityLimit,
     outcome::{Critical, StabilityRow},
-    trial::Trial,
+    shown::Trial,
     verdict::Stability,
 };
 use crate::verify::figures::figures;

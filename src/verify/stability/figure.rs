@@ -1,6 +1,6 @@
 //! Figures of a run that expectations may speak of.
 
-use super::trial::Trial;
+use super::shown::Trial;
 use crate::named::named;
 
 named! {

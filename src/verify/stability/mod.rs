@@ -17,6 +17,7 @@ mod figure;
 mod limit;
 mod outcome;
 mod radius;
+mod shown;
 mod trial;
 mod verdict;
 
@@ -26,5 +27,6 @@ pub use figure::RunFigure;
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
 pub use radius::{Radius, spectral_radius};
-pub use trial::{Scales, Trial, trial};
+pub use shown::{Scales, Trial};
+pub use trial::{resume_trial, trial};
 pub use verdict::Stability;

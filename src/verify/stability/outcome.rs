@@ -1,6 +1,6 @@
 //! The results of a stability study.
 
-use super::{figure::RunFigure, limit::StabilityLimit, trial::Trial, verdict::Stability};
+use super::{figure::RunFigure, limit::StabilityLimit, shown::Trial, verdict::Stability};
 use crate::verify::figures::figures;
 
 /// Results of a stability study: one row for each value of the parameter that is swept.

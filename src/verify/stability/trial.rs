@@ -7,64 +7,17 @@
 
 use super::{
     checkerboard::{checkerboard, stress_spread},
+    shown::{Scales, Trial},
     verdict::Stability,
 };
 use crate::{
-    subject::{Failure, Samples, Subject},
+    subject::{Checkpoint, Failure, Memory, Samples, Subject},
     verify::{
         conservation::{Balance, Conserved, Drift},
+        keeper::{Keeper, Nobody, keep_if_due, resumed},
         norm::larger,
     },
 };
-
-/// What a trial measures with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scales {
-    /// Wave speed (m/s).
-    pub speed: f64,
-    /// Stiffness against uniaxial strain (Pa).
-    pub modulus: f64,
-    /// Largest energy, over that at the start, of a run that is stable.
-    pub stable_below: f64,
-    /// Energy, over that at the start, beyond which a run is unstable and ends.
-    pub unstable_above: f64,
-    /// Whether the kinetic energy is that about the centre of mass: where nothing holds the body, a
-    /// common velocity is no size of its motion.
-    pub centred: bool,
-}
-
-/// What a run has shown. Figures of a run that failed are those up to its last step.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trial {
-    /// How it ended.
-    pub verdict: Stability,
-    /// Why, where it did not come to its end: what broke, which particle, when.
-    pub why: Option<String>,
-    /// Steps taken.
-    pub steps: u64,
-    /// The largest energy over that at the start.
-    pub energy: f64,
-    /// The energy at the end over that at the start.
-    pub energy_kept: f64,
-    /// Kinetic energy at the end over that at the start; NaN where there was none.
-    pub kinetic_kept: f64,
-    /// The largest relative change of the momentum.
-    pub momentum: f64,
-    /// The largest relative change of the angular momentum.
-    pub angular_momentum: f64,
-    /// The smallest J met.
-    pub least_j: f64,
-    /// The largest speed met, over the wave speed.
-    pub speed: f64,
-    /// The largest less the smallest mean normal stress over the largest in magnitude, at the end.
-    pub stress_spread: f64,
-    /// Changes of the pressure from particle to particle over its size, at the end.
-    pub checkerboard: f64,
-    /// The largest stress over the modulus, at the end.
-    pub stress: f64,
-    /// The largest displacement (m), at the end.
-    pub displacement: f64,
-}
 
 /// Steps after which the state is looked at: each of the first ones, and then at equal distances.
 /// Growth that matters in ten thousand steps is slow, and fast growth is over in these first ones.
@@ -74,9 +27,36 @@ const EVERY: u64 = 16;
 /// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
 /// unstable or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
-    let mut watch = Watch::new(subject, *scales);
-    let mut lengths = dt.iter().cycle();
-    for step in 1..=steps {
+    let watch = Watch::new(subject, *scales);
+    go(subject, watch, dt, (0, steps), &mut Nobody)
+}
+
+/// The same trial of a subject that `make` makes, from where `keeper` has something that was left of it.
+///
+/// # Errors
+/// Those of `make`.
+pub fn resume_trial<E>(
+    make: impl FnMut() -> Result<Box<dyn Subject>, E>,
+    dt: &[f64],
+    steps: u64,
+    scales: &Scales,
+    keeper: &mut dyn Keeper,
+) -> Result<Trial, E> {
+    let watch = |subject: &dyn Subject| Watch::new(subject, *scales);
+    let (mut subject, watch, done) = resumed(make, watch, steps, keeper)?;
+    Ok(go(subject.as_mut(), watch, dt, (done, steps), keeper))
+}
+
+fn go(
+    subject: &mut dyn Subject,
+    mut watch: Watch,
+    dt: &[f64],
+    (done, steps): (u64, u64),
+    keeper: &mut dyn Keeper,
+) -> Trial {
+    let scales = watch.scales;
+    let mut lengths = dt.iter().cycle().skip(done as usize % dt.len().max(1));
+    for step in done + 1..=steps {
         let dt = *lengths.next().unwrap_or(&f64::NAN);
         watch.time += dt;
         if let Err(failure) = subject.step(dt) {
@@ -88,6 +68,7 @@ pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales)
                 return watch.grown(subject, step);
             }
         }
+        keep_if_due(keeper, (step, steps), &mut watch, subject);
     }
     let verdict = if watch.energy <= scales.stable_below {
         Stability::Stable
@@ -193,6 +174,29 @@ impl Watch {
             checkerboard: checkerboard(&self.samples),
             stress: largest(&self.samples.stress, d * d) / self.scales.modulus,
             displacement: largest(&self.samples.displacement, d),
+        }
+    }
+}
+
+impl Memory for Watch {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            scales: _,
+            time,
+            samples,
+            balance,
+            reference,
+            kinetic_start,
+            energy,
+            last,
+            speed,
+        } = self;
+        for number in [time, reference, kinetic_start, energy, last, speed] {
+            checkpoint.visit(number);
+        }
+        checkpoint.visit(samples);
+        if let Some(balance) = balance {
+            checkpoint.visit(balance);
         }
     }
 }

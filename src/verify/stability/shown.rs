@@ -1,0 +1,53 @@
+//! What a trial has shown, and what it measures with.
+
+use super::verdict::Stability;
+use serde::{Deserialize, Serialize};
+
+/// What a trial measures with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Wave speed (m/s).
+    pub speed: f64,
+    /// Stiffness against uniaxial strain (Pa).
+    pub modulus: f64,
+    /// Largest energy, over that at the start, of a run that is stable.
+    pub stable_below: f64,
+    /// Energy, over that at the start, beyond which a run is unstable and ends.
+    pub unstable_above: f64,
+    /// Whether the kinetic energy is that about the centre of mass: where nothing holds the body, a
+    /// common velocity is no size of its motion.
+    pub centred: bool,
+}
+
+/// What a run has shown. Figures of a run that failed are those up to its last step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// How it ended.
+    pub verdict: Stability,
+    /// Why, where it did not come to its end: what broke, which particle, when.
+    pub why: Option<String>,
+    /// Steps taken.
+    pub steps: u64,
+    /// The largest energy over that at the start.
+    pub energy: f64,
+    /// The energy at the end over that at the start.
+    pub energy_kept: f64,
+    /// Kinetic energy at the end over that at the start; NaN where there was none.
+    pub kinetic_kept: f64,
+    /// The largest relative change of the momentum.
+    pub momentum: f64,
+    /// The largest relative change of the angular momentum.
+    pub angular_momentum: f64,
+    /// The smallest J met.
+    pub least_j: f64,
+    /// The largest speed met, over the wave speed.
+    pub speed: f64,
+    /// The largest less the smallest mean normal stress over the largest in magnitude, at the end.
+    pub stress_spread: f64,
+    /// Changes of the pressure from particle to particle over its size, at the end.
+    pub checkerboard: f64,
+    /// The largest stress over the modulus, at the end.
+    pub stress: f64,
+    /// The largest displacement (m), at the end.
+    pub displacement: f64,
+}
