@@ -96,10 +96,13 @@ pub(super) struct RunArgs {
     /// network
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
-    /// Keep finished levels in this folder, and take from it those that are there: an interrupted
-    /// run goes on where it was
+    /// Keep finished levels and the states of running ones in this folder, and take from it those
+    /// that are there: an interrupted run goes on where it was
     #[arg(long, value_name = "DIR")]
     pub(super) resume: Option<PathBuf>,
+    /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
+    #[arg(long, value_name = "TIME", value_parser = seconds, requires = "resume")]
+    pub(super) checkpoint_every: Option<f64>,
     /// Threads to use; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N")]
     pub(super) jobs: Option<usize>,

@@ -11,7 +11,7 @@ use mpm_verify::{
     suite::{Extent, Kept, Runner, Suite, yaml::Source},
     verify::SuiteOutcome,
 };
-use std::{fs, io, path::Path};
+use std::{fs, io, path::Path, time::Duration};
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
 /// if something later cannot be used.
@@ -28,7 +28,7 @@ pub(super) fn run(args: &RunArgs) -> u8 {
         output::complain(&message);
         return BAD_INPUT;
     }
-    let kept = match args.resume.as_deref().map(open).transpose() {
+    let kept = match args.resume.as_deref().map(|folder| open(folder, args)).transpose() {
         Ok(kept) => kept,
         Err(message) => {
             output::complain(&message);
@@ -113,6 +113,9 @@ fn one(suite: &Suite, args: &RunArgs, kept: Option<&Kept>, bar: &ProgressBar) ->
         bar.suspend(|| output::complain(&format!("warning: {warning}")));
     }
     let outcome = runner.run(&|| bar.inc(1));
+    for line in kept.map(Kept::take_told).unwrap_or_default() {
+        bar.suspend(|| output::complain(&format!("note: {line}")));
+    }
     if args.format == Format::Text && !args.brief {
         bar.suspend(|| output::print(&format!("{}\n", report::text(&outcome))));
     }
@@ -125,8 +128,13 @@ fn prepare(folder: &Path) -> Result<(), String> {
 }
 
 /// Opens the folder of `--resume`.
-fn open(folder: &Path) -> Result<Kept, String> {
-    Kept::open(folder).map_err(|error| format!("error: --resume {}: {error}", folder.display()))
+fn open(folder: &Path, args: &RunArgs) -> Result<Kept, String> {
+    let kept = Kept::open(folder)
+        .map_err(|error| format!("error: --resume {}: {error}", folder.display()))?;
+    let Some(every) = args.checkpoint_every else { return Ok(kept) };
+    let every = Duration::try_from_secs_f64(every)
+        .map_err(|error| format!("error: --checkpoint-every: {error}"))?;
+    Ok(kept.with_checkpoints_every(every))
 }
 
 /// The first name that two suites have.

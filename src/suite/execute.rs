@@ -18,7 +18,9 @@ use super::{
 };
 use crate::{
     exact::{Problem, Truth},
-    verify::{self, Axis, CaseOutcome, Clock, Comparison, LevelOutcome, Run, SuiteOutcome},
+    verify::{
+        self, Axis, CaseOutcome, Clock, Comparison, Keeper, LevelOutcome, Nobody, Run, SuiteOutcome,
+    },
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -102,7 +104,9 @@ impl<'a> Runner<'a> {
                 outcome
             }
             StudyPlan::Stability(plan) => {
-                stability::case(plan, &plan.cases[index], self.extent, progress)
+                let Suite { name, fingerprint, .. } = self.suite;
+                let (suite, how) = ((name.as_str(), *fingerprint), (self.extent, self.kept));
+                stability::case(suite, plan, &plan.cases[index], how, progress)
             }
         }
     }
@@ -169,12 +173,15 @@ impl<'a> Runner<'a> {
     ) -> Result<LevelOutcome, String> {
         let clock = Clock::new(case.until, level.dt, plan.instants)
             .ok_or("the time step makes no sense")?;
-        let run = || run_of(plan, case, truth, level, &clock);
+        let run = |keeper: &mut dyn Keeper| run_of(plan, case, truth, level, &clock, keeper);
         let run = match self.kept {
-            None => run(),
+            None => run(&mut Nobody),
             Some(kept) => {
                 let Suite { name, fingerprint, .. } = self.suite;
-                kept.level(&format!("{name} {fingerprint:016x} {} {level:?}", case.name), run)
+                let what =
+                    format!("{name}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
+                let key = format!("{name} {fingerprint:016x} {} {level:?}", case.name);
+                kept.level(&key, &what, run)
             }
         };
         Ok(level_of(plan, level, clock.dt(), run?))
@@ -206,11 +213,12 @@ fn run_of(
     truth: &dyn Truth,
     level: LevelPlan,
     clock: &Clock,
+    keeper: &mut dyn Keeper,
 ) -> Result<Run, String> {
-    let mut subject = subject(plan, case.method, level)?;
+    let make = || subject(plan, case.method, level);
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
     let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref(), at_rest: rest };
-    Ok(verify::run(&mut *subject, truth, clock, &comparison))
+    verify::resume(make, truth, clock, &comparison, keeper)
 }
 
 fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> LevelOutcome {
@@ -226,4 +234,67 @@ fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> Leve
     let error = error_of(plan, &run);
     let (usable, order, safe_step) = (!excluded, None, None);
     LevelOutcome { cells, h, spacing, dt, ppc, run, error, usable, order, safe_step }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suite::{checkpoints::Interruption, embedded};
+    use rstest::rstest;
+
+    fn load(name: &str) -> Suite {
+        Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap()
+    }
+
+    /// Every kind of subject and all that a judge gathers: histories, the totals of a run, a state of rest,
+    /// temperatures, F and stress; bodies in contact, walls with friction and driven ones, plastic flow.
+    #[rstest]
+    #[case("vibrating-bar")]
+    #[case("vibrating-bar-long")]
+    #[case("column-hencky-small-load")]
+    #[case("fem-vibrating-bar")]
+    #[case("heat-convection")]
+    #[case("thermal-expansion-mms")]
+    #[case("two-bar-impact")]
+    #[case("sticking-block")]
+    #[case("plastic-wave")]
+    #[case("rotating-block")]
+    #[case("simple-shear")]
+    fn an_interrupted_level_shows_what_a_whole_one_does(#[case] name: &str) {
+        let suite = load(name);
+        let StudyPlan::Convergence(plan) = &suite.study else { panic!("{name} has levels") };
+        let level = plan.refine.levels[0];
+        for case in plan.cases.first().into_iter().chain(plan.cases.last()) {
+            let runner = Runner::new(&suite);
+            let truth = runner.truth(plan, case).unwrap();
+            let clock = Clock::new(case.until, level.dt, plan.instants).unwrap();
+            let run = |keeper: &mut dyn Keeper| {
+                format!("{:?}", run_of(plan, case, truth, level, &clock, keeper).unwrap())
+            };
+            Interruption::holds(clock.steps, run, &case.name);
+        }
+    }
+
+    /// Cut short, after more steps than there are, and of another level.
+    #[test]
+    fn a_level_starts_anew_if_what_is_left_is_no_state_of_it() {
+        let suite = load("vibrating-bar");
+        let StudyPlan::Convergence(plan) = &suite.study else { panic!("it has levels") };
+        let case = &plan.cases[0];
+        let runner = Runner::new(&suite);
+        let truth = runner.truth(plan, case).unwrap();
+        let clock = Clock::new(case.until, plan.refine.levels[0].dt, plan.instants).unwrap();
+        let run = |level: usize, keeper: &mut dyn Keeper| {
+            let level = plan.refine.levels[level];
+            format!("{:?}", run_of(plan, case, truth, level, &clock, keeper).unwrap())
+        };
+        let coarsest = |keeper: &mut dyn Keeper| run(0, keeper);
+        let (whole, state) = Interruption::holds(clock.steps, coarsest, "level 0");
+        let (_, of_another) = Interruption::holds(clock.steps, |keeper| run(1, keeper), "level 1");
+        let torn = state[..state.len() / 2].to_vec();
+        let beyond = [&clock.steps.to_le_bytes(), &state[8..]].concat();
+        for state in [torn, beyond, of_another] {
+            Interruption::is_refused(state, coarsest, &whole);
+        }
+    }
 }

@@ -1,26 +1,36 @@
-//! Finished levels of a long run, kept on disk: an interrupted run goes on where it was.
+//! Finished levels of a long run, kept on disk: an interrupted run goes on where it was. Of levels that
+//! have not ended, see [`checkpoints`](super::checkpoints).
 //!
 //! What a level has shown is written as soon as it has ended, under a name made of all that it depends
 //! on: the program itself, bit by bit, the text of the suite, the case and the level. So nothing that
 //! was computed otherwise is ever taken for it, and a run that goes on prints what it would have printed
 //! uninterrupted, byte by byte. A file is written whole or not at all: to another name first.
 
-use super::yaml::{read_again, written};
-use crate::verify::Run;
+use super::{
+    checkpoints::LevelKeeper,
+    fingerprint::fingerprint,
+    notes::Notes,
+    yaml::{read_again, written},
+};
+use crate::verify::Keeper;
+use serde::{Serialize, de::DeserializeOwned};
 use std::{
-    fmt::Display,
     fs, io,
     path::{Path, PathBuf},
-    sync::{Mutex, PoisonError},
+    time::Duration,
 };
 
-/// A folder of finished levels.
+/// A folder of finished levels, and of states of running ones.
 #[derive(Debug)]
 pub struct Kept {
     folder: PathBuf,
     program: u64,
-    complaint: Mutex<Option<String>>,
+    every: Duration,
+    notes: Notes,
 }
+
+/// How often the state of a running level is kept: shorter ones never are.
+const EVERY: Duration = Duration::from_secs(10);
 
 impl Kept {
     /// Uses a folder, and makes it if it is not there.
@@ -30,54 +40,62 @@ impl Kept {
     pub fn open(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let program = fingerprint(&fs::read(std::env::current_exe()?)?);
-        Ok(Self { folder: folder.to_owned(), program, complaint: Mutex::new(None) })
+        Ok(Self { folder: folder.to_owned(), program, every: EVERY, notes: Notes::default() })
     }
 
-    /// What a level has shown: from the folder, or else by running it. `key` says all that it depends
-    /// on, besides the program.
-    pub(super) fn level(
+    /// Keeps the state of running levels so often, not every ten seconds.
+    #[must_use]
+    pub fn with_checkpoints_every(self, every: Duration) -> Self {
+        Self { every, ..self }
+    }
+
+    /// What a level has shown: from the folder, or else by running it, with who keeps its state on the
+    /// way. `key` says all that it depends on, besides the program; messages call it `what`.
+    pub(super) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
-        run: impl FnOnce() -> Result<Run, String>,
-    ) -> Result<Run, String> {
+        what: &str,
+        run: impl FnOnce(&mut dyn Keeper) -> Result<T, String>,
+    ) -> Result<T, String> {
         let key = format!("{:016x} {key}", self.program);
         let path = self.folder.join(format!("{:016x}.level", fingerprint(key.as_bytes())));
+        let mut keeper = LevelKeeper::new(&self.notes, self.every, &path, &key, what);
         if let Some(found) = fs::read_to_string(&path).ok().and_then(|text| read(&text, &key)) {
+            // A run may have been killed between the two.
+            keeper.forget();
             return Ok(found);
         }
-        let found = run()?;
-        if let Err(error) = self.save(&path, &key, &found) {
-            let mut first = self.complaint.lock().unwrap_or_else(PoisonError::into_inner);
-            first.get_or_insert(error);
+        let found = run(&mut keeper)?;
+        match save(&path, &key, &found) {
+            Ok(()) => keeper.forget(),
+            Err(error) => self.notes.complain(&error),
         }
         Ok(found)
     }
 
     /// Why something could not be kept, if so.
     pub fn complaint(&self) -> Option<String> {
-        self.complaint.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        Some(format!("{}: {}", self.folder.display(), self.notes.complaint()?))
     }
 
-    fn save(&self, path: &Path, key: &str, run: &Run) -> Result<(), String> {
-        let says = |error: &dyn Display| format!("{}: {error}", self.folder.display());
-        let text = written(run).map_err(|error| says(&error))?;
-        let unfinished = path.with_extension(format!("{}", std::process::id()));
-        fs::write(&unfinished, format!("# {key}\n{text}"))
-            .and_then(|()| fs::rename(&unfinished, path))
-            .map_err(|error| says(&error))
+    /// What became of states that were left by an interrupted run: one line for each, told once.
+    pub fn take_told(&self) -> Vec<String> {
+        self.notes.take_told()
     }
+}
+
+fn save(path: &Path, key: &str, level: &impl Serialize) -> Result<(), String> {
+    let text = written(level)?;
+    let unfinished = path.with_extension(format!("{}", std::process::id()));
+    fs::write(&unfinished, format!("# {key}\n{text}"))
+        .and_then(|()| fs::rename(&unfinished, path))
+        .map_err(|error| error.to_string())
 }
 
 /// None if the text is of another level, or no level at all.
-fn read(text: &str, key: &str) -> Option<Run> {
+fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
     let rest = text.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix('\n')?;
     read_again(rest)
-}
-
-/// FNV-1a (Fowler, Noll & Vo), 64 bits.
-pub(super) fn fingerprint(bytes: &[u8]) -> u64 {
-    let next = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, next)
 }
 
 #[cfg(test)]
@@ -85,7 +103,7 @@ mod tests {
     use super::*;
     use crate::{
         subject::{Census, Totals},
-        verify::{Drift, History, Interval, Norms},
+        verify::{Drift, History, Interval, Norms, Run},
     };
     use proptest::prelude::*;
 
@@ -128,16 +146,16 @@ mod tests {
         fn what_is_kept_is_what_was_there(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
             let run = some(x, Some(why));
             let text = format!("# key\n{}", written(&run).unwrap());
-            prop_assert_eq!(shown(&read(&text, "key").unwrap()), shown(&run));
+            prop_assert_eq!(shown(&read::<Run>(&text, "key").unwrap()), shown(&run));
         }
     }
 
     #[test]
     fn what_is_torn_or_of_another_level_is_not_taken() {
         let text = format!("# key\n{}", written(&some(1.5, None)).unwrap());
-        assert!(read(&text, "key").is_some());
-        assert!(read(&text, "another").is_none());
-        assert!(read(&text[..text.len() / 2], "key").is_none());
-        assert!(read("", "key").is_none());
+        assert!(read::<Run>(&text, "key").is_some());
+        assert!(read::<Run>(&text, "another").is_none());
+        assert!(read::<Run>(&text[..text.len() / 2], "key").is_none());
+        assert!(read::<Run>("", "key").is_none());
     }
 }

@@ -3,9 +3,9 @@
 use super::{
     bar_limits,
     binder::{Binder, Parameter},
-    cases, comparable, damping, force,
-    kept::fingerprint,
-    law,
+    cases, comparable, damping,
+    fingerprint::fingerprint,
+    force, law,
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite},
     path::Path,
     refine, rest, scene, size, stability, steps, truth, truthless, viscosity,

@@ -6,9 +6,10 @@ use super::{
 };
 use crate::{
     exact::Random,
-    subject::Perturbable,
+    subject::{Perturbable, Subject},
     suite::{
         dispatch::{perturbable, safe_step_of},
+        kept::Kept,
         method::Method,
         plan::Extent,
         setup::Body,
@@ -16,8 +17,9 @@ use crate::{
         step_rule::ROUNDS,
     },
     verify::{
-        CaseOutcome, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow,
-        StabilityStudy, Study, Trial, amplification, spectral_radius, stability_limit, trial,
+        CaseOutcome, Critical, Keeper, Nobody, Prediction, Scales, Stability, StabilityLimit,
+        StabilityRow, StabilityStudy, Study, Trial, amplification, resume_trial, spectral_radius,
+        stability_limit,
     },
 };
 use rayon::prelude::*;
@@ -42,14 +44,18 @@ const DEFECT: f64 = 1e-5;
 /// Seed of the perturbations at the start.
 const SEED: u64 = 8;
 
-/// Runs a case.
+/// Runs a case of `suite`, whose name and text that stands for. Of what is `kept` runs are taken, and
+/// added to it.
 pub(in crate::suite) fn case(
+    (suite, text): (&str, u64),
     plan: &StabilityPlan,
     case: &StabilityCase,
-    extent: Extent,
+    (extent, kept): (Extent, Option<&Kept>),
     progress: &(dyn Fn() + Sync),
 ) -> CaseOutcome {
-    let job = Job { plan, method: case.method, extent };
+    let name = format!("{suite}::{}", case.name);
+    let key = format!("{suite} {text:016x} {} {extent:?}", case.name);
+    let job = Job { plan, method: case.method, extent, kept, name, key };
     let rows: Vec<StabilityRow> = plan
         .values
         .par_iter()
@@ -97,6 +103,11 @@ struct Job<'a> {
     plan: &'a StabilityPlan,
     method: Method,
     extent: Extent,
+    kept: Option<&'a Kept>,
+    /// What messages call it.
+    name: String,
+    /// All that its runs depend on, besides their parameters.
+    key: String,
 }
 
 impl Job<'_> {
@@ -144,12 +155,24 @@ impl Job<'_> {
 
     /// The run with these values of the parameters.
     fn run(&self, values: &Values<'_>) -> Result<Trial, String> {
+        let run = |keeper: &mut dyn Keeper| self.run_keeping(values, keeper);
+        let Some(kept) = self.kept else { return run(&mut Nobody) };
+        let said: Vec<String> =
+            values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let what = format!("{}, {}", self.name, said.join(", "));
+        kept.level(&format!("{} {values:?}", self.key), &what, run)
+    }
+
+    fn run_keeping(&self, values: &Values<'_>, keeper: &mut dyn Keeper) -> Result<Trial, String> {
         let setting = self.setting(values)?;
-        let mut subject = self.subject(&setting)?;
-        if setting.perturb > 0.0 {
-            perturb(subject.as_mut(), &setting);
-        }
-        Ok(trial(subject.as_mut(), &setting.dt, setting.steps, &setting.scales))
+        let make = || -> Result<Box<dyn Subject>, String> {
+            let mut subject = self.subject(&setting)?;
+            if setting.perturb > 0.0 {
+                perturb(subject.as_mut(), &setting);
+            }
+            Ok(subject)
+        };
+        resume_trial(make, &setting.dt, setting.steps, &setting.scales, keeper)
     }
 
     /// The limit of what is sought: predicted and confirmed where the body is frozen, else observed.
@@ -224,4 +247,30 @@ fn perturb(subject: &mut dyn Perturbable, setting: &Setting) {
         *number += setting.perturb * size * random.between(-1.0, 1.0);
     }
     subject.set_state(&state);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suite::{StudyPlan, Suite, checkpoints::Interruption, embedded};
+    use rstest::rstest;
+
+    /// Runs that come to their end, and runs that fail by name; steps of two lengths.
+    #[rstest]
+    #[case("extreme-compression")]
+    #[case("varying-step")]
+    fn an_interrupted_run_shows_what_a_whole_one_does(#[case] name: &str) {
+        let suite = Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap();
+        let StudyPlan::Stability(plan) = &suite.study else { panic!("{name} is of stability") };
+        let (kept, name, key) = (None, String::new(), String::new());
+        let job =
+            Job { plan, method: plan.cases[0].method, extent: Extent::Usual, kept, name, key };
+        for value in plan.values.first().into_iter().chain(plan.values.last()) {
+            let mut values = vec![(plan.swept.as_str(), *value)];
+            values.extend(plan.sought.iter().map(|(name, from, _)| (name.as_str(), *from)));
+            let run = |keeper: &mut dyn Keeper| job.run_keeping(&values, keeper).unwrap();
+            let steps = run(&mut Nobody).steps;
+            Interruption::holds(steps, |keeper| format!("{:?}", run(keeper)), &plan.swept);
+        }
+    }
 }
