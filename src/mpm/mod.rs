@@ -33,6 +33,7 @@ mod loops;
 mod mass;
 mod material;
 mod moments;
+mod null_space;
 mod order;
 mod packed;
 mod particles;

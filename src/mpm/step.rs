@@ -80,6 +80,10 @@ impl<const D: usize> Subject for Solver<D> {
         Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
     }
 
+    fn null_space_energy(&self) -> Option<f64> {
+        Some(Self::null_space_energy(self))
+    }
+
     fn census(&self) -> Census {
         Census {
             particles: Some(self.setup.particles.len() as u64),

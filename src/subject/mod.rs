@@ -41,6 +41,13 @@ pub trait Subject {
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
+
+    /// Kinetic energy (J) of the part of the velocities that the discretisation cannot see: of
+    /// particles, the part in the null space of their map to the grid. It may take as much as some tens of
+    /// steps, and is asked for only where a figure wants it; `None` from a subject that does not say.
+    fn null_space_energy(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// A subject whose step can be looked at as a map from state to state, on a configuration that does

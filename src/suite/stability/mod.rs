@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! model    a study, checked
-//! model    a study, checked
 //! recipe   values of the parameters -> a set-up, by reading the suite's words once more
+//! scales   what a run is measured with
 //! plan     words -> cases, each with what is expected of every row
 //! expect   what is expected
 //! run      cases -> outcomes: runs, predictions, limits
@@ -16,6 +16,7 @@ mod plan;
 mod recipe;
 mod rows;
 mod run;
+mod scales;
 
 pub use model::{StabilityCase, StabilityPlan};
 pub(super) use plan::plan;

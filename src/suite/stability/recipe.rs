@@ -3,7 +3,7 @@
 //! Any parameter can be swept, because nothing is computed before its value is known: the words of the
 //! suite are read once more for every value.
 
-use super::model::Recipe;
+use super::{model::Recipe, scales::scales};
 use crate::{
     suite::{
         binder::Binder,
@@ -19,13 +19,6 @@ use crate::{
     },
     verify::Scales,
 };
-
-/// Energy, over that at the start, up to which a run is stable: what the exchange between velocities
-/// and stresses makes of a random start just below the limit of a leapfrog, with room to spare.
-const STABLE_BELOW: f64 = 1e3;
-
-/// Energy beyond which a run is unstable.
-const UNSTABLE_ABOVE: f64 = 1e8;
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
 const PERTURBATION: f64 = 1e-9;
@@ -189,28 +182,6 @@ fn perturbation(binder: &Binder<'_>, words: &StabilityWords) -> Result<f64, Comp
         .perturb
         .as_ref()
         .map_or(Ok(default), |text| binder.positive(&path, text, "the size of the perturbation"))
-}
-
-fn scales(binder: &Binder<'_>, words: &StabilityWords, scene: &Scene) -> Result<Scales, Complaint> {
-    let modulus = scene.each().iter().map(|body| body.material.wave_modulus()).fold(0.0, f64::max);
-    let path = Path::top("run");
-    let bound = |key: &str, text: &Option<NumberText>, default: f64| {
-        let at = path.then(key);
-        text.as_ref().map_or(Ok(default), |text| binder.positive(&at, text, "the bound"))
-    };
-    let stable_below = bound("stable_below", &words.run.stable_below, STABLE_BELOW)?;
-    let unstable_above = bound("unstable_above", &words.run.unstable_above, UNSTABLE_ABOVE)?;
-    if !(stable_below <= unstable_above) {
-        let message = format!(
-            "a run is stable below {} and unstable above {}",
-            shown(stable_below),
-            shown(unstable_above)
-        );
-        return Err(binder.complain_key(&path, &message));
-    }
-    let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
-    let centred = scene.faces.iter().all(|face| !face.hold.is_held());
-    Ok(Scales { speed, modulus, stable_below, unstable_above, centred })
 }
 
 /// A frozen body is one that rests: nothing acts on it.

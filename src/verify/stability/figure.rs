@@ -20,6 +20,11 @@ named! {
         LeastJ = "least_j",
         /// The largest speed met, over the wave speed.
         Speed = "speed",
+        /// At the end, the kinetic energy in the null space of the map to the grid over the largest
+        /// kinetic energy of the run.
+        NullShare = "null_share",
+        /// The largest kinetic energy met in the null space over the largest kinetic energy of the run.
+        LargestNullShare = "largest_null_share",
         /// At the end, the part of the stress that changes from particle to particle and no further,
         /// over its mean size.
         Checkerboard = "checkerboard",
@@ -45,12 +50,19 @@ impl RunFigure {
             Self::AngularMomentum => "angular mom.",
             Self::LeastJ => "least J",
             Self::Speed => "largest speed/c",
+            Self::NullShare => "null share",
+            Self::LargestNullShare => "largest null share",
             Self::Checkerboard => "checkerboard",
             Self::StressSpread => "stress spread",
             Self::Stress => "stress/M",
             Self::Displacement => "displacement",
             Self::Steps => "steps",
         }
+    }
+
+    /// Whether it is measured of what the grid cannot see, which is done only where it is asked for.
+    pub fn is_of_null_space(self) -> bool {
+        matches!(self, Self::NullShare | Self::LargestNullShare)
     }
 
     /// Its value in a run.
@@ -63,6 +75,8 @@ impl RunFigure {
             Self::AngularMomentum => trial.angular_momentum,
             Self::LeastJ => trial.least_j,
             Self::Speed => trial.speed,
+            Self::NullShare => trial.null_share,
+            Self::LargestNullShare => trial.largest_null_share,
             Self::Checkerboard => trial.checkerboard,
             Self::StressSpread => trial.stress_spread,
             Self::Stress => trial.stress,

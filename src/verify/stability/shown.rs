@@ -17,6 +17,8 @@ pub struct Scales {
     /// Whether the kinetic energy is that about the centre of mass: where nothing holds the body, a
     /// common velocity is no size of its motion.
     pub centred: bool,
+    /// Whether what the grid cannot see of the velocities is measured at every look.
+    pub null_space: bool,
 }
 
 /// What a run has shown. Figures of a run that failed are those up to its last step.
@@ -42,6 +44,11 @@ pub struct Trial {
     pub least_j: f64,
     /// The largest speed met, over the wave speed.
     pub speed: f64,
+    /// Kinetic energy in the null space of the map to the grid, at the end, over the largest kinetic
+    /// energy met; NaN where it is not measured.
+    pub null_share: f64,
+    /// The largest kinetic energy met in the null space over the largest kinetic energy met.
+    pub largest_null_share: f64,
     /// The largest less the smallest mean normal stress over the largest in magnitude, at the end.
     pub stress_spread: f64,
     /// Changes of the pressure from particle to particle over its size, at the end.

@@ -88,6 +88,11 @@ struct Watch {
     energy: f64,
     last: f64,
     speed: f64,
+    /// The largest kinetic energy met (J).
+    kinetic: f64,
+    /// That in the null space now, and the largest met (J).
+    null: f64,
+    null_most: f64,
 }
 
 impl Watch {
@@ -111,6 +116,9 @@ impl Watch {
             energy: 0.0,
             last: 0.0,
             speed: 0.0,
+            kinetic: 0.0,
+            null: f64::NAN,
+            null_most: 0.0,
         };
         watch.look(subject);
         watch
@@ -118,9 +126,13 @@ impl Watch {
 
     fn look(&mut self, subject: &dyn Subject) {
         subject.sample(&mut self.samples);
-        self.last = (kinetic(subject, self.scales.centred)
-            + stored(&self.samples, self.scales.modulus))
-            / self.reference;
+        let moving = kinetic(subject, self.scales.centred);
+        self.kinetic = larger(self.kinetic, moving);
+        self.last = (moving + stored(&self.samples, self.scales.modulus)) / self.reference;
+        if self.scales.null_space {
+            self.null = subject.null_space_energy().unwrap_or(f64::NAN);
+        }
+        self.null_most = larger(self.null_most, self.null);
         self.energy = larger(self.energy, self.last);
         self.speed = larger(self.speed, fastest(&self.samples) / self.scales.speed);
         if let Some(balance) = &mut self.balance {
@@ -170,6 +182,8 @@ impl Watch {
             angular_momentum: drift.of(Conserved::AngularMomentum),
             least_j: subject.census().min_j,
             speed: self.speed,
+            null_share: self.null / self.kinetic,
+            largest_null_share: self.null_most / self.kinetic,
             stress_spread: stress_spread(&self.samples),
             checkerboard: checkerboard(&self.samples),
             stress: largest(&self.samples.stress, d * d) / self.scales.modulus,
@@ -190,8 +204,13 @@ impl Memory for Watch {
             energy,
             last,
             speed,
+            kinetic,
+            null,
+            null_most,
         } = self;
-        for number in [time, reference, kinetic_start, energy, last, speed] {
+        let most = [kinetic, null, null_most];
+        for number in [time, reference, kinetic_start, energy, last, speed].into_iter().chain(most)
+        {
             checkpoint.visit(number);
         }
         checkpoint.visit(samples);
