@@ -31,6 +31,7 @@ impl<const D: usize> Memory for Particles<D> {
             sigma,
             def_grad,
             domain,
+            domain0: _,
             grad_v,
             temperature,
             spacing: _,

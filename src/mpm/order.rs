@@ -37,14 +37,16 @@ impl<const D: usize> Particles<D> {
     }
 
     fn reorder(&mut self, order: &[usize]) {
-        let Self { x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, grad_v, .. } = self;
+        let Self {
+            x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, domain0, grad_v, ..
+        } = self;
         for column in [x0, x, moved, v] {
             permute(column, order);
         }
         for column in [mass, vol0, vol, &mut self.temperature] {
             permute(column, order);
         }
-        for column in [sigma, def_grad, domain, grad_v] {
+        for column in [sigma, def_grad, domain, domain0, grad_v] {
             permute(column, order);
         }
     }

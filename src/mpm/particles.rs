@@ -31,11 +31,13 @@ pub struct Particles<const D: usize> {
     /// faces, F diag(spacing)/2 (m). They follow F when positions move, not before: a domain that
     /// changed within a step would put forces on nodes that have no mass.
     pub domain: Vec<Matrix<D>>,
+    /// Domains in the reference configuration; empty where all are boxes of the size `spacing`.
+    pub domain0: Vec<Matrix<D>>,
     /// Velocity gradients of the present step (1/s), where the material meets the kernel.
     pub grad_v: Vec<Matrix<D>>,
     /// Temperatures (K); empty unless an effect keeps them.
     pub temperature: Vec<f64>,
-    /// Reference spacing of the particles on each axis (m).
+    /// Reference spacing of the particles on each axis (m); its mean where it is not the same for all.
     pub spacing: Vector<D>,
 }
 
@@ -98,6 +100,7 @@ impl<const D: usize> Particles<D> {
             moved: Vec::new(),
             def_grad: Vec::new(),
             domain: Vec::new(),
+            domain0: Vec::new(),
             temperature: Vec::new(),
             grad_v: vec![Matrix::zeros(); total],
             x0,
@@ -120,6 +123,7 @@ impl<const D: usize> Particles<D> {
         self.vol.push(vol0);
         self.sigma.push(Matrix::zeros());
         self.grad_v.push(Matrix::zeros());
+        self.domain0.extend(self.domain0.first().copied());
     }
 
     /// Adds the column of deformation gradients, F = I, if it is not there yet.
@@ -150,6 +154,9 @@ impl<const D: usize> Particles<D> {
         self.domain.resize(self.len(), Matrix::zeros());
         for (domain, f) in self.domain.iter_mut().zip(&self.def_grad) {
             *domain = Matrix::from_fn(|i, axis| 0.5 * self.spacing[axis] * f[(i, axis)]);
+        }
+        for ((domain, f), own) in self.domain.iter_mut().zip(&self.def_grad).zip(&self.domain0) {
+            *domain = f * own;
         }
     }
 
@@ -208,6 +215,7 @@ impl<const D: usize> Particles<D> {
             Column::of_particles("sigma", &self.sigma),
             Column::of_particles("F", &self.def_grad),
             Column::of_particles("domain", &self.domain),
+            Column::of_particles("domain0", &self.domain0),
             Column::of_particles("grad v", &self.grad_v),
             Column::of_particles("T", &self.temperature),
         ];

@@ -120,7 +120,7 @@ pub(super) fn together(
     if !several {
         return Ok(scene);
     }
-    scene.round = None;
+    (scene.round, scene.quadrilateral) = (None, None);
     for body in &bodies {
         for axis in 0..scene.from.len() {
             scene.from[axis] = scene.from[axis].min(body.from[axis]);

@@ -6,45 +6,75 @@ use super::{
     law,
     model::{Scene, SceneFace},
     path::Path,
+    quadrilateral::quadrilateral,
     wording::shown,
     words::{AnnulusWords, BodyWords, BoxWords, LoadWords, RoundWords, SceneWords},
     yaml::{Complaint, NumberText},
 };
-use crate::exact::Round;
+use crate::{exact::Round, mpm::Quadrilateral};
 
 /// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
 const SHORTEST: f64 = 1e-30;
 const LONGEST: f64 = 1e30;
 
-/// The words of a box, or the round body that stands instead of one.
+/// What a body is.
+pub(super) enum Shape<'a> {
+    /// A box, whose words are read by [`corners`].
+    Box(&'a BoxWords),
+    /// A round body.
+    Round(Round),
+    /// A panel.
+    Quadrilateral(Quadrilateral),
+}
+
+/// What kind of body `words` describe.
 ///
 /// # Errors
 /// A complaint about a body that makes no sense in `dimension` dimensions.
-pub(super) fn round<'a>(
+pub(super) fn shape<'a>(
     binder: &Binder<'_>,
     path: &Path,
     words: &'a BodyWords,
     dimension: usize,
-) -> Result<Result<Round, &'a BoxWords>, Complaint> {
-    let (kind, flat, centre, radii) = match words {
-        BodyWords::Box(words) => return Ok(Err(words)),
+) -> Result<Shape<'a>, Complaint> {
+    let of_kind = |kind: &str, flat: usize| {
+        let at = path.then(kind);
+        if dimension == flat {
+            return Ok(at);
+        }
+        let message = format!("the scene is {dimension}-D, and `{kind}` a body in {flat}-D");
+        let others = ["`box`", "`box`, `annulus`, `disk` or `quadrilateral`", "`box` or `ball`"];
+        let help = format!("in {dimension}-D a body is a {}", others[dimension - 1]);
+        Err(binder.complain_key(&at, &message).with_help(&help))
+    };
+    let (at, centre, radii) = match words {
+        BodyWords::Box(words) => return Ok(Shape::Box(words)),
+        BodyWords::Quadrilateral(words) => {
+            let at = of_kind("quadrilateral", 2)?;
+            return quadrilateral(binder, &at, words, dimension).map(Shape::Quadrilateral);
+        }
         BodyWords::Annulus(AnnulusWords { centre, inner, outer }) => {
-            ("annulus", 2, centre, [Some(("inner", inner)), Some(("outer", outer))])
+            let radii = [Some(("inner", inner)), Some(("outer", outer))];
+            (of_kind("annulus", 2)?, centre, radii)
         }
         BodyWords::Disk(RoundWords { centre, radius }) => {
-            ("disk", 2, centre, [None, Some(("radius", radius))])
+            (of_kind("disk", 2)?, centre, [None, Some(("radius", radius))])
         }
         BodyWords::Ball(RoundWords { centre, radius }) => {
-            ("ball", 3, centre, [None, Some(("radius", radius))])
+            (of_kind("ball", 3)?, centre, [None, Some(("radius", radius))])
         }
     };
-    if dimension != flat {
-        let message = format!("the scene is {dimension}-D, and `{kind}` a body in {flat}-D");
-        let others = ["`box`", "`box`, `annulus` or `disk`", "`box` or `ball`"][dimension - 1];
-        let complaint = binder.complain_key(&path.then(kind), &message);
-        return Err(complaint.with_help(&format!("in {dimension}-D a body is a {others}")));
-    }
-    let path = path.then(kind);
+    round(binder, &at, centre, radii, dimension).map(Shape::Round)
+}
+
+/// The round body at `path`, with an inner radius if it has one.
+fn round(
+    binder: &Binder<'_>,
+    path: &Path,
+    centre: &[NumberText],
+    radii: [Option<(&str, &NumberText)>; 2],
+    dimension: usize,
+) -> Result<Round, Complaint> {
     let centre = binder.point(&path.then("centre"), centre, dimension)?;
     let mut lengths = [0.0; 2];
     for (length, given) in lengths.iter_mut().zip(radii) {
@@ -54,7 +84,7 @@ pub(super) fn round<'a>(
     }
     let [inner, outer] = lengths;
     if inner < outer {
-        return Ok(Ok(Round { centre, inner, outer }));
+        return Ok(Round { centre, inner, outer });
     }
     let message = format!("the outer radius is {}, the inner {}", shown(outer), shown(inner));
     let complaint = binder.complain(&path.then("outer"), &message);

@@ -3,7 +3,8 @@
 //! A box is filled with equal shares of itself. A round body takes the lattice that fills the cells
 //! of the grid, `h/n` apart with n particles along a cell, and of it the particles whose reference
 //! position lies inside: each has its whole share, so the rim is a stair, and volume and mass are
-//! those of the body but for a share that falls with h.
+//! those of the body but for a share that falls with h. A quadrilateral is filled by its bilinear map, and
+//! knows no grid.
 
 use super::model::Scene;
 use crate::mpm::{Block, Particles, Vector};
@@ -15,6 +16,9 @@ pub(super) fn particles<const D: usize>(
     h: f64,
     per_axis: usize,
 ) -> Particles<D> {
+    if let Some(panel) = &scene.quadrilateral {
+        return panel.fill(scene.density, h, per_axis);
+    }
     Particles::fill_where(&block(scene, origin, h), h, per_axis, |x0| holds(scene, x0))
 }
 

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     exact::{
-        Motion,
+        Motion, Round,
         heat::{Conduction, Temperature, ThermalCondition, ThermalFace},
     },
     mpm::{FrameName, Kind},
@@ -25,8 +25,9 @@ pub(super) fn heat(
     words: &HeatWords,
     scene: &Scene,
 ) -> Result<SceneHeat, Complaint> {
-    if let Some(round) = &scene.round {
-        let message = format!("heat flows in a `box`, and the body is of kind `{}`", round.name());
+    let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");
+    if let Some(kind) = scene.round.as_ref().map(Round::name).or(panel) {
+        let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
         return Err(binder.complain_key(path, &message));
     }
     if scene.heat.is_some() {

@@ -58,6 +58,7 @@ mod plan;
 pub mod pricing;
 mod probe;
 pub mod profiles;
+mod quadrilateral;
 mod reference;
 mod refine;
 mod rest;

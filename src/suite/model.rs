@@ -13,7 +13,7 @@ use super::{
 use crate::{
     exact::{Expansion, Problem, Region, Round, formula::Formula, heat::Conduction},
     fem::{Element, Mass},
-    mpm::{MaterialPlan, Placement},
+    mpm::{MaterialPlan, Placement, Quadrilateral},
     verify::{Expectation, Quantity},
 };
 
@@ -117,8 +117,10 @@ pub struct Scene {
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// The body, if it is no box.
+    /// The body, if it is round.
     pub round: Option<Round>,
+    /// The same, if it is a panel with four sides.
+    pub quadrilateral: Option<Quadrilateral>,
     /// Grid that the suite asks for, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
     /// The material, but for its density.

@@ -3,7 +3,7 @@
 use super::{
     binder::Binder,
     bodies::{self, Listed},
-    body,
+    body::{self, Shape},
     coordinates::coordinates_and_time,
     damping,
     expansion::expansion,
@@ -13,6 +13,7 @@ use super::{
     material::material,
     model::{Scene, SceneFace},
     path::Path,
+    quadrilateral::faces_are_sides,
     rest, sets, surface, viscosity,
     wording::shown,
     words::{LoadWords, SceneWords, SetWords},
@@ -44,17 +45,18 @@ fn body(binder: &Binder<'_>, own: &Listed<'_>, words: &SceneWords) -> Result<Sce
     let path = Path::top("scene");
     let dimension = dimension(binder, &path, &words.dimension)?;
     let at = own.at.then("body");
-    let (from, to, round) = match body::round(binder, &at, own.body, dimension)? {
-        Ok(round) => {
+    let (mut round, mut quadrilateral) = (None, None);
+    let (from, to) = match body::shape(binder, &at, own.body, dimension)? {
+        Shape::Box(words) => body::corners(binder, &at.then("box"), words, dimension)?,
+        Shape::Round(found) => {
             if words.bodies.is_none() {
-                body::rims_are_free(binder, &path, words, &round)?;
+                body::rims_are_free(binder, &path, words, &found)?;
             }
-            let (from, to) = round.corners();
-            (from, to, Some(round))
+            round.insert(found).corners()
         }
-        Err(words) => {
-            let (from, to) = body::corners(binder, &at.then("box"), words, dimension)?;
-            (from, to, None)
+        Shape::Quadrilateral(found) => {
+            faces_are_sides(binder, &path, words, &found)?;
+            quadrilateral.insert(found).ends()
         }
     };
     let grid = words
@@ -77,6 +79,7 @@ fn body(binder: &Binder<'_>, own: &Listed<'_>, words: &SceneWords) -> Result<Sce
             faces(binder, &path, words, dimension)?
         },
         round,
+        quadrilateral,
         sets,
         gravity: None,
         body_force: None,

@@ -144,9 +144,13 @@ fn corner(c: &[f64]) -> String {
 
 fn body(scene: &Scene) -> String {
     let (from, to) = (corner(&scene.from), corner(&scene.to));
-    let body = match &scene.round {
-        None => format!("({from}) to ({to}) m"),
-        Some(round) => {
+    let body = match (&scene.round, &scene.quadrilateral) {
+        (_, Some(panel)) => {
+            let corners = panel.corners().iter().map(|c| format!("({})", corner(c.as_slice())));
+            format!("quadrilateral {} m", corners.collect::<Vec<_>>().join(", "))
+        }
+        (None, None) => format!("({from}) to ({to}) m"),
+        (Some(round), None) => {
             let (kind, centre, outer) = (round.name(), corner(&round.centre), round.outer);
             let inner =
                 if round.inner > 0.0 { format!("{} to ", round.inner) } else { String::new() };

@@ -9,6 +9,7 @@ use super::{
     law, meetings,
     model::{Scene, SceneFace},
     path::Path,
+    quadrilateral::refuse_truth,
     words::{ConvergenceWords, EquationName, ExactWords},
     yaml::{Complaint, NumberText},
 };
@@ -31,6 +32,9 @@ pub(super) fn exact(
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Complaint> {
+    if scene.each().iter().any(|body| body.quadrilateral.is_some()) {
+        refuse_truth(binder, words)?;
+    }
     if !scene.bodies.is_empty() {
         meetings::refuse(binder, words)?;
     }

@@ -14,6 +14,7 @@ mod heat;
 mod laws;
 mod materials;
 mod numbers;
+mod panels;
 mod periods;
 mod quantities;
 mod random;

@@ -106,7 +106,7 @@ fn the_published_force_is_refused() {
 #[case::a_radius_of_zero(&[("inner: 0.75", "inner: ▸0")], &["the radius is 0, and must be above zero"])]
 #[case::a_body_of_another_dimension(
     &[("{annulus: {centre: [0, 0], inner: 0.75, outer: 1.25}}", "{▸ball: {centre: [0, 0, 0], radius: 1}}")],
-    &["the scene is 2-D, and `ball` a body in 3-D", "`box`, `annulus` or `disk`"]
+    &["the scene is 2-D, and `ball` a body in 3-D", "`box`, `annulus`, `disk` or `quadrilateral`"]
 )]
 #[case::a_rim_that_is_held(
     &[("  loads:", "  boundary: {▸left: fixed}\n  loads:")],

@@ -15,12 +15,13 @@ pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<
         sigma,
         def_grad,
         domain,
+        domain0,
         grad_v,
         temperature,
         spacing,
     } = particles;
     let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
-    let matrices = [sigma, def_grad, domain, grad_v].into_iter().flatten().flatten();
+    let matrices = [sigma, def_grad, domain, domain0, grad_v].into_iter().flatten().flatten();
     let scalars = [mass, vol0, vol].into_iter().flatten();
     (temperature, vectors.chain(matrices).chain(scalars).chain(spacing).copied().collect())
 }

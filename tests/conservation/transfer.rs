@@ -37,6 +37,7 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
         def_grad: vec![Matrix::identity(); rows.len()],
         moved: Vec::new(),
         domain: vec![Matrix::identity() * (0.5 * H); rows.len()],
+        domain0: Vec::new(),
         grad_v: vec![Matrix::zeros(); rows.len()],
         temperature: Vec::new(),
         spacing: Vector::from_element(H),

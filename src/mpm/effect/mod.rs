@@ -10,6 +10,7 @@ mod driven;
 mod gravity;
 mod heat;
 mod local_damping;
+mod mapped_face;
 mod name;
 mod pressure;
 mod set_force;

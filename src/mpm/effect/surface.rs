@@ -12,6 +12,7 @@
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, wherever linear fields are. Not the weights at the surface
 //!   point itself: just beyond a node they belong in part to a node that no particle gives any mass.
 
+use super::mapped_face::MappedFace;
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     boundary::Side,
@@ -44,8 +45,10 @@ pub(super) struct Surface {
     outwards: f64,
     /// Share of the face that each particle stands for (m^(D-1)).
     pub(super) area: f64,
-    /// Half a spacing along the axis (m).
+    /// Half a spacing along the axis (m), but of a mapped body.
     depth: f64,
+    /// Of a mapped body, the column of the domains that ends on the face, and its sign.
+    column: Option<(usize, f64)>,
     /// How far the numbers of particles go down from this layer to the one below it.
     below: usize,
 }
@@ -62,6 +65,12 @@ impl Surface {
             Side::Low => -1.0,
             Side::High => 1.0,
         };
+        if let Some(mapped) = MappedFace::of(particles, axis, outwards) {
+            let MappedFace { layer, column, area } = mapped;
+            let below = if column.0 == 0 { 1 } else { layer.len() };
+            let column = Some(column);
+            return Self { layer, placement, axis, outwards, area, depth: 0.0, column, below };
+        }
         let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
         let height = |p: usize| outwards * x0[p][axis];
         let top = (0..x0.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
@@ -73,7 +82,8 @@ impl Surface {
             _ => 0,
         };
         let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
-        Self { layer, placement, axis, outwards, area, depth: 0.5 * spacing, below }
+        let depth = 0.5 * spacing;
+        Self { layer, placement, axis, outwards, area, depth, column: None, below }
     }
 
     /// The outward normal, in the reference configuration.
@@ -81,9 +91,17 @@ impl Surface {
         Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
     }
 
+    /// From particle `p` to the middle of its share of the face, in the reference configuration (m).
+    fn to_face<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
+        match self.column {
+            Some((column, sign)) => particles.domain0[p].column(column) * sign,
+            None => self.normal() * self.depth,
+        }
+    }
+
     /// The middle of the share of the face that particle `p` stands for, X_s (m).
     pub(super) fn label<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
-        particles.x0[p] + self.normal() * self.depth
+        particles.x0[p] + self.to_face(particles, p)
     }
 
     /// F at the surface above particle `p`: continued from the particle and the one below it, along
@@ -93,8 +111,8 @@ impl Surface {
         if self.placement == Placement::Particles {
             return here;
         }
-        let below =
-            if self.outwards > 0.0 { p.checked_sub(self.below) } else { Some(p + self.below) };
+        let high = self.column.map_or(self.outwards, |(_, sign)| sign) > 0.0;
+        let below = if high { p.checked_sub(self.below) } else { Some(p + self.below) };
         let below = below.and_then(|q| particles.def_grad.get(q)).unwrap_or(&here);
         here * 1.5 - below * 0.5
     }
@@ -125,7 +143,7 @@ impl Surface {
 
     /// From particle `p` to the surface, in the configuration that the basis sees (m).
     fn arm<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
-        let arm = self.normal() * self.depth;
+        let arm = self.to_face(particles, p);
         match particles.def_grad.get(p) {
             Some(f) if particles.moved.is_empty() => f * arm,
             _ => arm,

@@ -87,7 +87,9 @@ impl Span {
                     span.meet(x[D - 1]);
                 }
             }
-            rest.iter().for_each(|x| span.meet(x[D - 1]));
+            for x in rest {
+                span.meet(x[D - 1]);
+            }
             return spans.into_iter().fold(span, Self::with);
         }
         for (p, x) in these.zip(x) {

@@ -19,7 +19,8 @@ pub(in crate::suite) use head::{Head, StudyName};
 pub(in crate::suite) use refine::{RefineWords, RunWords};
 pub(in crate::suite) use scene::{
     AnnulusWords, BodyWords, BoundaryWords, BoxWords, ExpansionWords, HeatWords, LoadWords,
-    OneBodyWords, RoundWords, SceneWords, SetWords, ThermalWords, ViscosityWords,
+    OneBodyWords, QuadrilateralWords, RoundWords, SceneWords, SetWords, ThermalWords,
+    ViscosityWords,
 };
 pub(in crate::suite) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
 pub(in crate::suite) use step::StepWords;

@@ -50,6 +50,7 @@ pub(in crate::suite) enum BodyWords {
     Annulus(AnnulusWords),
     Disk(RoundWords),
     Ball(RoundWords),
+    Quadrilateral(QuadrilateralWords),
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -57,6 +58,13 @@ pub(in crate::suite) enum BodyWords {
 pub(in crate::suite) struct BoxWords {
     pub(in crate::suite) from: Vec<NumberText>,
     pub(in crate::suite) to: Vec<NumberText>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::suite) struct QuadrilateralWords {
+    /// Four, counter-clockwise.
+    pub(in crate::suite) corners: Vec<Vec<NumberText>>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
