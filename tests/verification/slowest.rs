@@ -1,6 +1,8 @@
 //! Where the time of the gate goes: printed, and part of no verdict.
 
 use std::{
+    cmp::Reverse,
+    collections::BTreeMap,
     sync::{Mutex, PoisonError},
     time::Duration,
 };
@@ -15,7 +17,7 @@ pub(crate) fn record(time: Duration, case: &str) {
     CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
 }
 
-/// The slowest cases and the time of all, if there are enough of them to ask.
+/// The slowest cases and suites, and the time of all, if there are enough of them to ask.
 pub(crate) fn summary() -> String {
     let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
     if cases.len() <= SHOWN {
@@ -28,8 +30,15 @@ pub(crate) fn summary() -> String {
         cases.len(),
         all.as_secs_f64()
     );
-    for (time, case) in cases.iter().take(SHOWN) {
-        text += &format!("{:>8.2} s  {case}\n", time.as_secs_f64());
+    let line = |time: &Duration, name: &str| format!("{:>8.2} s  {name}\n", time.as_secs_f64());
+    text.extend(cases.iter().take(SHOWN).map(|(time, case)| line(time, case)));
+    let mut suites = BTreeMap::<&str, Duration>::new();
+    for (time, case) in &cases {
+        *suites.entry(case.split("::").next().unwrap_or(case)).or_default() += *time;
     }
+    let mut suites: Vec<_> = suites.into_iter().collect();
+    suites.sort_by_key(|(_, time)| Reverse(*time));
+    text += "of suites:\n";
+    text.extend(suites.iter().take(SHOWN).map(|(suite, time)| line(time, suite)));
     text + "\n"
 }
