@@ -34,6 +34,7 @@ pub struct Field {
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 const ROW: f64 = 17.0;
+/// Least width of a field: wider where the name of a column is.
 const FIELD: f64 = 62.0;
 /// Between rows whose names begin with another word.
 const GAP: f64 = 5.0;
@@ -71,7 +72,10 @@ impl Map {
         let names = self.rows.iter().map(|(name, _)| name.as_str());
         let names = names.chain([self.z_label.as_str()]).map(|name| text::width(name, TEXT));
         let left = LEFT + names.fold(0.0, f64::max) + 10.0;
-        let width = (left + FIELD * self.columns.len() as f64).max(left + BAR_WIDTH) + LEFT;
+        let field =
+            self.columns.iter().map(|name| text::width(name, TEXT) + 8.0).fold(FIELD, f64::max);
+        let across = field * self.columns.len() as f64;
+        let width = (left + across).max(left + BAR_WIDTH) + LEFT;
         let heading = text::wrap(&self.title, 1.12 * TITLE, width - 2.0 * LEFT, 3);
         let head = TOP + 17.0 * heading.len() as f64 + 34.0;
         let (places, bottom) = self.places(head);
@@ -92,15 +96,15 @@ impl Map {
             let line = Element::text(at, "middle", line).at("font-size", TITLE);
             svg.add(&line.set("font-weight", "bold"));
         }
-        let middle = left + FIELD * self.columns.len() as f64 / 2.0;
+        let middle = left + across / 2.0;
         svg.add(&Element::text((middle, head - 22.0), "middle", &self.x_label));
         for (k, column) in self.columns.iter().enumerate() {
-            let at = (left + FIELD * (k as f64 + 0.5), head - 6.0);
+            let at = (left + field * (k as f64 + 0.5), head - 6.0);
             svg.add(&Element::text(at, "middle", column));
         }
         let range = self.range();
         for ((name, fields), y) in self.rows.iter().zip(places) {
-            svg.add(&row(name, fields, (left, y), range));
+            svg.add(&row(name, fields, (left, y, field), range));
         }
         svg.add(&self.bar((left, bottom + 16.0), range));
         svg.render() + "\n"
@@ -154,18 +158,23 @@ impl Map {
     }
 }
 
-fn row(name: &str, fields: &[Field], (x, y): (f64, f64), (low, high): (f64, f64)) -> Element {
+fn row(
+    name: &str,
+    fields: &[Field],
+    (x, y, width): (f64, f64, f64),
+    (low, high): (f64, f64),
+) -> Element {
     let mut group = Element::new("g");
     group.add(&Element::text((x - 8.0, y + ROW - 4.5), "end", name));
     for (k, field) in fields.iter().enumerate() {
-        let at = x + FIELD * k as f64;
+        let at = x + width * k as f64;
         let value = field.value.filter(|value| value.is_finite());
         let known = value.map(|value| colour((value - low) / (high - low)));
         let (fill, ink) = known.unwrap_or((PAPER.to_owned(), NEUTRAL));
         let square =
-            Element::new("rect").at("x", at).at("y", y).at("width", FIELD).at("height", ROW);
+            Element::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
         group.add(&square.set("fill", &fill).set("stroke", GRID).at("stroke-width", 0.5));
-        let middle = (at + FIELD / 2.0, y + ROW - 4.5);
+        let middle = (at + width / 2.0, y + ROW - 4.5);
         group.add(&Element::text(middle, "middle", &field.text).set("fill", ink));
     }
     group
