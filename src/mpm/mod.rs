@@ -52,6 +52,7 @@ mod step;
 mod stress;
 mod threads;
 mod totals;
+mod touch;
 mod transfer;
 mod visits;
 mod whereabouts;

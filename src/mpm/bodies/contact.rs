@@ -17,8 +17,10 @@
 
 use super::{coupling::Coupling, meeting::Meeting};
 use crate::{
-    mpm::{algebra::Vector, grid::Grid, scheme::SchemeName, setup::Setup, solver::Solver},
-    subject::{Checkpoint, Column, Memory},
+    mpm::{
+        algebra::Vector, grid::Grid, scheme::SchemeName, setup::Setup, solver::Solver, touch::Touch,
+    },
+    subject::{Checkpoint, Column},
 };
 
 /// Contact between all bodies of a scene.
@@ -129,30 +131,6 @@ struct Meet<const D: usize> {
     normal: Vector<D>,
     /// Reduced mass (kg): what an impulse is that changes the relative velocity.
     mass: f64,
-}
-
-/// How two bodies touch at a node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Touch {
-    /// Not at all.
-    Free,
-    /// They slide along each other.
-    Slides,
-    /// They move as one.
-    Sticks,
-}
-
-impl Memory for Touch {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let mut number = *self as u64;
-        checkpoint.visit(&mut number);
-        match number {
-            0 => *self = Self::Free,
-            1 => *self = Self::Slides,
-            2 => *self = Self::Sticks,
-            _ => checkpoint.refuse(),
-        }
-    }
 }
 
 impl<const D: usize> Coupling<D> for Contact<D> {

@@ -17,8 +17,8 @@ use super::{
     face::{Side, nodes},
 };
 use crate::{
-    mpm::{algebra::Vector, grid::Grid},
-    subject::{Checkpoint, Column, Memory},
+    mpm::{algebra::Vector, grid::Grid, touch::Touch},
+    subject::{Checkpoint, Column},
 };
 
 /// A face of the grid with friction.
@@ -29,17 +29,6 @@ pub struct Friction {
     /// 1 where the wall is at the low end of the axis, and pushes upwards; -1 at the other.
     inwards: f64,
     coefficient: f64,
-}
-
-/// How a node meets the wall.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Touch {
-    /// Not at all.
-    Free,
-    /// It slides along the wall.
-    Slides,
-    /// It rests at the wall.
-    Sticks,
 }
 
 impl Friction {
@@ -61,19 +50,6 @@ impl Friction {
                 Touch::Slides => field[i][self.axis] = 0.0,
                 Touch::Sticks => field[i] = Vector::zeros(),
             }
-        }
-    }
-}
-
-impl Memory for Touch {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let mut number = *self as u64;
-        checkpoint.visit(&mut number);
-        match number {
-            0 => *self = Self::Free,
-            1 => *self = Self::Slides,
-            2 => *self = Self::Sticks,
-            _ => checkpoint.refuse(),
         }
     }
 }
