@@ -1,6 +1,6 @@
 //! Several corners of domains: hats whose gradients are in proportion to their weights.
 
-use super::{patch::Patches, products::Products};
+use super::{patch::Patches, products::Products, sink::Sink};
 use crate::mpm::{
     algebra::{Vector, array},
     four::{LANES, Width},
@@ -17,6 +17,8 @@ pub struct Corners<const D: usize> {
 }
 
 impl<const D: usize> Patches<D> for Corners<D> {
+    type Sink<'a, W: Width> = Sink<'a, W, 2>;
+
     fn none() -> Self {
         Self { hats: Products::none(), outward: [Vector::zeros(); LANES] }
     }
@@ -43,35 +45,58 @@ impl<const D: usize> Patches<D> for Corners<D> {
     }
 
     #[inline(always)]
-    fn scatter<W: Width>(&self, width: W, lane: usize, value: W::Four, field: &mut ViewMut<'_>) {
-        self.hats.scatter(width, lane, value, field);
+    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::Sink<'_, W> {
+        Products::<D, 2>::sink(width, field)
+    }
+
+    #[inline(always)]
+    fn put<W: Width>(sink: Self::Sink<'_, W>) {
+        Products::<D, 2>::put(sink);
+    }
+
+    #[inline(always)]
+    fn scatter<W: Width>(&self, lane: usize, value: W::Four, sink: &mut Self::Sink<'_, W>) {
+        self.hats.scatter(lane, value, sink);
     }
 
     #[inline(always)]
     fn scatter_affine<W: Width>(
         &self,
-        width: W,
         lane: usize,
         value_and_slope: (W::Four, &[W::Four; D]),
-        field: &mut ViewMut<'_>,
+        sink: &mut Self::Sink<'_, W>,
     ) {
-        self.hats.scatter_affine(width, lane, value_and_slope, field);
+        self.hats.scatter_affine(lane, value_and_slope, sink);
     }
 
     #[inline(always)]
     fn scatter_flux<W: Width>(
         &self,
-        width: W,
         lane: usize,
         flux: &[W::Four; D],
-        field: &mut ViewMut<'_>,
+        sink: &mut Self::Sink<'_, W>,
     ) {
         let outward = &self.outward[lane % LANES];
         let mut value = flux[0] * outward[0];
         for axis in 1..D {
             value += flux[axis] * outward[axis];
         }
-        self.hats.scatter(width, lane, value, field);
+        self.hats.scatter(lane, value, sink);
+    }
+
+    #[inline(always)]
+    fn scatter_all<W: Width>(
+        &self,
+        lane: usize,
+        (value, slope): (W::Four, Option<W::Four>),
+        flux: W::Four,
+        sink: &mut Self::Sink<'_, W>,
+    ) {
+        let value = value + flux * self.outward[lane % LANES][0];
+        match slope {
+            None => self.hats.scatter(lane, value, sink),
+            Some(slope) => self.hats.scatter_affine(lane, (value, &[slope; D]), sink),
+        }
     }
 
     #[inline(always)]

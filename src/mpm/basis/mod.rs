@@ -15,6 +15,7 @@ mod linear;
 mod patch;
 mod product;
 mod products;
+mod sink;
 mod sums;
 
 pub use along::Along;

@@ -54,6 +54,9 @@ pub trait Patch<const D: usize>: Copy {
 /// one of them; the loops over nodes go from patch to patch. Fields of nodes hold four numbers each,
 /// and so do particles: each method does the same to all four.
 pub trait Patches<const D: usize> {
+    /// Where they add to nodes.
+    type Sink<'a, W: Width>;
+
     /// No patches.
     fn none() -> Self;
 
@@ -68,25 +71,38 @@ pub trait Patches<const D: usize> {
     /// The matrix with these columns, times the inverse inertia tensor of patch `lane`.
     fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D];
 
+    /// A field to be added to.
+    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::Sink<'_, W>;
+
+    /// Ends what was added.
+    fn put<W: Width>(sink: Self::Sink<'_, W>);
+
     /// Adds `value N_i` to the nodes of patch `lane`.
-    fn scatter<W: Width>(&self, width: W, lane: usize, value: W::Four, field: &mut ViewMut<'_>);
+    fn scatter<W: Width>(&self, lane: usize, value: W::Four, sink: &mut Self::Sink<'_, W>);
 
     /// Adds `(value + sum_a slope_a lever_a) N_i` to the nodes.
     fn scatter_affine<W: Width>(
         &self,
-        width: W,
         lane: usize,
         value_and_slope: (W::Four, &[W::Four; D]),
-        field: &mut ViewMut<'_>,
+        sink: &mut Self::Sink<'_, W>,
     );
 
     /// Adds `sum_a flux_a dN_i/dx_a` to the nodes.
     fn scatter_flux<W: Width>(
         &self,
-        width: W,
         lane: usize,
         flux: &[W::Four; D],
-        field: &mut ViewMut<'_>,
+        sink: &mut Self::Sink<'_, W>,
+    );
+
+    /// What the others add, in one visit: `(value + slope lever) N_i + flux dN_i/dx`. Along one axis only.
+    fn scatter_all<W: Width>(
+        &self,
+        lane: usize,
+        value_and_slope: (W::Four, Option<W::Four>),
+        flux: W::Four,
+        sink: &mut Self::Sink<'_, W>,
     );
 
     /// `sum_i field_i N_i`.

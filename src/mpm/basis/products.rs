@@ -3,11 +3,11 @@
 //! The weights along each axis are computed once for a particle. Sums over the K^D nodes are taken
 //! axis by axis, so that a node costs a product and a sum for each function, not one for each axis.
 
-use super::{alongs::Alongs, patch::Patches};
+use super::{alongs::Alongs, patch::Patches, sink::Sink};
 use crate::mpm::{
     algebra::{Vector, array},
     four::{FOUR, LANES, Lanes, Width, parts},
-    packed::{Node, View, ViewMut},
+    packed::{View, ViewMut},
 };
 use std::ops::Range;
 
@@ -20,11 +20,6 @@ pub struct Products<const D: usize, const K: usize> {
     pub(super) axes: [Alongs<K>; D],
     /// Weights of the rows of a plane times those of the planes.
     across: [[Lanes; K]; K],
-}
-
-#[inline(always)]
-fn add<W: Width>(width: W, node: &mut Node, value: W::Four) {
-    node.0 = (width.four(node.0) + value).into();
 }
 
 /// Functions `k` of patch `lane`.
@@ -63,6 +58,8 @@ impl<const D: usize, const K: usize> Products<D, K> {
 }
 
 impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
+    type Sink<'a, W: Width> = Sink<'a, W, K>;
+
     fn none() -> Self {
         Self { start: [0; LANES], axes: [Alongs::NONE; D], across: [[Lanes::ZERO; K]; K] }
     }
@@ -103,15 +100,30 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn scatter<W: Width>(&self, width: W, lane: usize, value: W::Four, field: &mut ViewMut<'_>) {
+    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::Sink<'_, W> {
+        Sink::new(width, field)
+    }
+
+    #[inline(always)]
+    fn put<W: Width>(mut sink: Self::Sink<'_, W>) {
+        sink.put();
+    }
+
+    #[inline(always)]
+    fn scatter<W: Width>(&self, lane: usize, value: W::Four, sink: &mut Self::Sink<'_, W>) {
         let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
+        if D == 1 {
+            return sink.hold(start, array(value, |i| value * weights[i]));
+        }
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
-                let term = if D > 1 { value * self.row_weight(lane, j, k) } else { value };
-                let row = field.row::<K>(start + field.layout.row(j, k));
-                for i in 0..K {
-                    add(width, &mut row[i], term * weights[i]);
-                }
+                let term = value * self.row_weight(lane, j, k);
+                sink.add(
+                    start,
+                    (j, k),
+                    #[inline(always)]
+                    |i| term * weights[i],
+                );
             }
         }
     }
@@ -119,28 +131,31 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
     #[inline(always)]
     fn scatter_affine<W: Width>(
         &self,
-        width: W,
         lane: usize,
         (value, slope): (W::Four, &[W::Four; D]),
-        field: &mut ViewMut<'_>,
+        sink: &mut Self::Sink<'_, W>,
     ) {
         let (start, x) = (self.start(lane), &self.axes[0]);
         let (weights, lever) = (of(&x.weight, lane), |axis: usize, k: usize| {
             slope[axis] * self.axes[axis].lever[k].get(lane)
         });
         let growth: [_; K] = array(slope[0], |i| slope[0] * x.arm[i].get(lane));
-        let rise: [_; K] =
-            if D > 1 { array(slope[0], |j| lever(1, j)) } else { [width.all(0.0); K] };
+        if D == 1 {
+            return sink.hold(start, array(value, |i| value * weights[i] + growth[i]));
+        }
+        let rise: [_; K] = array(slope[0], |j| lever(1, j));
         for k in 0..Self::PLANES {
             let value = if D > 2 { value + lever(2, k) } else { value };
             for j in 0..Self::ROWS {
-                let value = if D > 1 { value + rise[j] } else { value };
+                let value = value + rise[j];
                 let weight = self.row_weight(lane, j, k);
                 let term = value * weight;
-                let row = field.row::<K>(start + field.layout.row(j, k));
-                for i in 0..K {
-                    add(width, &mut row[i], term * weights[i] + growth[i] * weight);
-                }
+                sink.add(
+                    start,
+                    (j, k),
+                    #[inline(always)]
+                    |i| term * weights[i] + growth[i] * weight,
+                );
             }
         }
     }
@@ -148,34 +163,50 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
     #[inline(always)]
     fn scatter_flux<W: Width>(
         &self,
-        width: W,
         lane: usize,
         flux: &[W::Four; D],
-        field: &mut ViewMut<'_>,
+        sink: &mut Self::Sink<'_, W>,
     ) {
         let (start, x) = (self.start(lane), &self.axes[0]);
         let (weights, slopes) = (of(&x.weight, lane), of(&x.slope, lane));
         let along: [_; K] = array(flux[0], |i| flux[0] * slopes[i]);
+        if D == 1 {
+            return sink.hold(start, along);
+        }
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
                 let weight = self.row_weight(lane, j, k);
-                let mut across = width.all(0.0);
-                if D > 1 {
-                    let slope = self.axes[1].slope[j].get(lane);
-                    across = flux[1] * (slope * self.weight(lane, 2, k));
-                }
+                let slope = self.axes[1].slope[j].get(lane);
+                let mut across = flux[1] * (slope * self.weight(lane, 2, k));
                 if D > 2 {
                     let slope = self.axes[2].slope[k].get(lane);
                     across += flux[2] * (slope * self.weight(lane, 1, j));
                 }
-                let row = field.row::<K>(start + field.layout.row(j, k));
-                for i in 0..K {
-                    let term =
-                        if D > 1 { along[i] * weight + across * weights[i] } else { along[i] };
-                    add(width, &mut row[i], term);
-                }
+                sink.add(
+                    start,
+                    (j, k),
+                    #[inline(always)]
+                    |i| along[i] * weight + across * weights[i],
+                );
             }
         }
+    }
+
+    #[inline(always)]
+    fn scatter_all<W: Width>(
+        &self,
+        lane: usize,
+        (value, slope): (W::Four, Option<W::Four>),
+        flux: W::Four,
+        sink: &mut Self::Sink<'_, W>,
+    ) {
+        let x = &self.axes[0];
+        let terms = array(value, |i| {
+            let term = value * x.weight[i].get(lane);
+            let term = slope.map_or(term, |slope| term + slope * x.arm[i].get(lane));
+            term + flux * x.slope[i].get(lane)
+        });
+        sink.hold(self.start(lane), terms);
     }
 
     #[inline(always)]

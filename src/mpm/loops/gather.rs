@@ -1,6 +1,10 @@
 //! From nodes to particles: velocity, first moment and gradient in one visit.
 
-use super::sight::{ALL, Several, Sight};
+use super::{
+    part,
+    sight::{ALL, Several, Sight},
+    vector,
+};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     basis::{Basis, Patches},
@@ -28,23 +32,6 @@ pub(super) struct Gather<'a, const D: usize, B> {
 /// numbers hold both in 1-D and 2-D, and the nodes are visited once.
 pub(super) const fn are_beside<const D: usize>() -> bool {
     2 * D <= FOUR
-}
-
-/// D of four numbers, from `first` on.
-#[inline(always)]
-fn part<const D: usize>(four: impl Into<[f64; FOUR]>, first: usize) -> Vector<D> {
-    let lanes = four.into();
-    let mut vector = Vector::zeros();
-    for axis in 0..D {
-        vector[axis] = lanes[(first + axis) % FOUR];
-    }
-    vector
-}
-
-/// The first D of four numbers.
-#[inline(always)]
-fn vector<const D: usize>(four: impl Into<[f64; FOUR]>) -> Vector<D> {
-    part(four, 0)
 }
 
 /// Writes these columns, number by number: a matrix that went by memory as a whole would be waited for.

@@ -1,7 +1,7 @@
 //! What every basis keeps in the loops: a pass that does several things has the bits of passes that do
 //! one each, both widths have the same bits, and sums are those over the nodes one by one.
 
-use super::{Loops, gather::Gather, room::pack, scatter::Scatter};
+use super::{Loops, gather::Gather, room::pack, scatter::Scatter, unpack};
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     basis::{Basis, BasisName, with_basis},
@@ -159,9 +159,7 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
         field.fold(&start);
     }
     let mut plain = start.clone();
-    room[0].unpack(&start, &mut plain.mass, |lanes| lanes[3]);
-    room[0].unpack(&start, &mut plain.velocity, super::vector);
-    room[1].unpack(&start, &mut plain.force, super::vector);
+    unpack(&room, &particles, maps, &mut plain);
     assert_eq!(nodes(&grid), nodes(&plain));
 
     let take = |run: &dyn Fn(Takes<'_, D>)| {

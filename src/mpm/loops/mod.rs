@@ -18,13 +18,15 @@ mod scalars;
 mod scatter;
 mod sight;
 
-use self::{inertia::inertia, room::Room};
+use self::{inertia::inertia, room::Room, scatter::has_one_field};
 use super::{
     algebra::{Matrix, Vector},
     basis::{Basis, BasisName, Domain, with_basis},
+    four::FOUR,
     grid::Grid,
     kernel::{Kernel, Maps, Shown, Takes},
     moments::{Inertia, Moments},
+    packed::Packed,
     particles::Particles,
 };
 use std::{
@@ -57,30 +59,55 @@ impl<B> Loops<B> {
     }
 }
 
+/// D of four numbers, from `first` on.
+#[inline(always)]
+fn part<const D: usize>(four: impl Into<[f64; FOUR]>, first: usize) -> Vector<D> {
+    let lanes = four.into();
+    let mut vector = Vector::zeros();
+    for axis in 0..D {
+        vector[axis] = lanes[(first + axis) % FOUR];
+    }
+    vector
+}
+
 /// The first D of four numbers.
-fn vector<const D: usize>(lanes: &[f64; 4]) -> Vector<D> {
-    Vector::from_fn(|i, _| lanes[i])
+#[inline(always)]
+fn vector<const D: usize>(four: impl Into<[f64; FOUR]>) -> Vector<D> {
+    part(four, 0)
+}
+
+/// Takes what `maps` says out of the packed fields where P2G has left it.
+fn unpack<const D: usize>(
+    fields: &[Packed; 2],
+    particles: &Particles<D>,
+    maps: &Maps<'_, D>,
+    grid: &mut Grid<D>,
+) {
+    if maps.mass {
+        let mut column = std::mem::take(&mut grid.mass);
+        fields[0].unpack(grid, &mut column, |lanes| lanes[3]);
+        grid.mass = column;
+    }
+    if maps.momentum.is_some() {
+        let mut column = std::mem::take(&mut grid.velocity);
+        fields[0].unpack(grid, &mut column, |lanes| vector(*lanes));
+        grid.velocity = column;
+    }
+    if maps.force.is_some() {
+        let mut column = std::mem::take(&mut grid.force);
+        if has_one_field(particles, maps) {
+            fields[0].unpack(grid, &mut column, |lanes| part(*lanes, D));
+        } else {
+            fields[1].unpack(grid, &mut column, |lanes| vector(*lanes));
+        }
+        grid.force = column;
+    }
 }
 
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
         let mut room = self.room();
-        let [momentum, force] = room.scatter::<B, D>(particles, maps, grid);
-        if maps.mass {
-            let mut column = std::mem::take(&mut grid.mass);
-            momentum.unpack(grid, &mut column, |lanes| lanes[3]);
-            grid.mass = column;
-        }
-        if maps.momentum.is_some() {
-            let mut column = std::mem::take(&mut grid.velocity);
-            momentum.unpack(grid, &mut column, vector);
-            grid.velocity = column;
-        }
-        if maps.force.is_some() {
-            let mut column = std::mem::take(&mut grid.force);
-            force.unpack(grid, &mut column, vector);
-            grid.force = column;
-        }
+        unpack(room.scatter::<B, D>(particles, maps, grid), particles, maps, grid);
     }
 
     fn p2g_momentum(
@@ -91,7 +118,8 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         column: &mut [Vector<D>],
     ) {
         let maps = Maps { momentum: Some(shown), ..Maps::default() };
-        self.room().scatter::<B, D>(particles, &maps, grid)[0].unpack(grid, column, vector);
+        self.room().scatter::<B, D>(particles, &maps, grid)[0]
+            .unpack(grid, column, |lanes| vector(*lanes));
     }
 
     fn p2g_point_force(

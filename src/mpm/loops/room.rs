@@ -4,7 +4,7 @@ use super::{
     blocks::{Block, Blocks, share},
     gather::{Gather, are_beside},
     halves::halves,
-    scatter::Scatter,
+    scatter::{Scatter, has_one_field},
 };
 use crate::mpm::{
     algebra::Vector,
@@ -62,7 +62,8 @@ impl Room {
     ) -> &[Packed; 2] {
         let Self { fields, blocks } = self;
         blocks.cut::<B, D>(grid, particles);
-        let wanted = [maps.mass || maps.momentum.is_some(), maps.force.is_some()];
+        let wants_inertia = maps.mass || maps.momentum.is_some();
+        let wanted = [wants_inertia, maps.force.is_some() && !has_one_field(particles, maps)];
         let add = |block: &Block, fields: [ViewMut<'_>; 2]| {
             let these = block.particles.clone();
             four::run(Scatter::<D, B> { grid, particles, these, maps, fields, basis: PhantomData });

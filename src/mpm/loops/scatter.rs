@@ -4,7 +4,7 @@ use super::sight::{Several, Sight};
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
     basis::{Basis, Patches},
-    four::{LANES, Pass, Width},
+    four::{FOUR, LANES, Pass, Width},
     grid::Grid,
     kernel::{Affine, Divergence, Maps},
     moments::Inertia,
@@ -14,7 +14,7 @@ use crate::mpm::{
 use std::{marker::PhantomData, ops::Range};
 
 /// Maps what `maps` says to the nodes of two packed fields: momentum with mass in the last lane, and
-/// force.
+/// force; of one where [`has_one_field`] says so.
 pub(super) struct Scatter<'a, const D: usize, B> {
     pub(super) grid: &'a Grid<D>,
     pub(super) particles: &'a Particles<D>,
@@ -25,16 +25,33 @@ pub(super) struct Scatter<'a, const D: usize, B> {
     pub(super) basis: PhantomData<B>,
 }
 
-/// The columns of a matrix, as fours.
+/// Whether momentum, force and mass stand in one field, if they fit, and the nodes are visited once:
+/// the force follows the momentum there.
+pub(super) fn has_one_field<const D: usize>(particles: &Particles<D>, maps: &Maps<'_, D>) -> bool {
+    let by_gradient = maps.force == Some(Divergence::Gradient) && particles.moved.is_empty();
+    2 * D < FOUR && maps.momentum.is_some() && by_gradient
+}
+
+/// The columns of a matrix, as fours, from lane `from` on.
 #[inline(always)]
-fn columns<W: Width, const D: usize>(width: W, matrix: &Matrix<D>) -> [W::Four; D] {
+fn columns<W: Width, const D: usize>(width: W, matrix: &Matrix<D>, from: usize) -> [W::Four; D] {
     array(width.four([0.0; 4]), |axis| {
         let mut lanes = [0.0; 4];
         for row in 0..D {
-            lanes[row] = matrix[(row, axis)];
+            lanes[(from + row) % FOUR] = matrix[(row, axis)];
         }
         width.four(lanes)
     })
+}
+
+/// Momentum and mass of a particle, as a four.
+#[inline(always)]
+fn inertial<W: Width, const D: usize>(width: W, m: f64, v: &Vector<D>) -> W::Four {
+    let mut lanes = [0.0, 0.0, 0.0, 1.0];
+    for axis in 0..D {
+        lanes[axis] = v[axis];
+    }
+    width.four(lanes) * m
 }
 
 /// `matrix D_p^-1`, as fours: D_p is that of the patch of this lane, if it has all nodes that the
@@ -47,8 +64,8 @@ fn divide<B: Basis, W: Width, const D: usize>(
     h: f64,
 ) -> [W::Four; D] {
     match of_all {
-        None => patches.divide::<W>(lane, &columns(width, matrix)),
-        Some(of_all) => columns(width, &of_all.divide(matrix, h)),
+        None => patches.divide::<W>(lane, &columns(width, matrix, 0)),
+        Some(of_all) => columns(width, &of_all.divide(matrix, h), 0),
     }
 }
 
@@ -62,44 +79,39 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         patches: &Several<B, D>,
         of_all: Option<&Inertia<D>>,
     ) {
-        let (h, maps, field) = (self.grid.h, self.maps, &mut self.fields[0]);
+        let (h, maps) = (self.grid.h, self.maps);
+        let mut sink = Several::<B, D>::sink(width, self.fields[0].again());
         let here = first + lanes.start..first + lanes.end;
         let masses = lanes.zip(&self.particles.mass[here.clone()]);
         let Some(shown) = &maps.momentum else {
             for (lane, m) in masses {
-                patches.scatter(width, lane, width.four([0.0, 0.0, 0.0, *m]), field);
+                patches.scatter(lane, width.four([0.0, 0.0, 0.0, *m]), &mut sink);
             }
-            return;
-        };
-        let value = |m: f64, v: &Vector<D>| {
-            let mut lanes = [0.0, 0.0, 0.0, 1.0];
-            for axis in 0..D {
-                lanes[axis] = v[axis];
-            }
-            width.four(lanes) * m
+            return Several::<B, D>::put(sink);
         };
         let shown_here = masses.zip(&shown.v[here.clone()]);
         match shown.affine {
             None => {
                 for ((lane, m), v) in shown_here {
-                    patches.scatter(width, lane, value(*m, v), field);
+                    patches.scatter(lane, inertial(width, *m, v), &mut sink);
                 }
             }
             Some(Affine::Slope(c)) => {
                 for (((lane, m), v), c) in shown_here.zip(&c[here]) {
-                    let slope = columns(width, c);
+                    let slope = columns(width, c, 0);
                     let slope = array(slope[0], |axis| slope[axis] * *m);
-                    patches.scatter_affine(width, lane, (value(*m, v), &slope), field);
+                    patches.scatter_affine(lane, (inertial(width, *m, v), &slope), &mut sink);
                 }
             }
             Some(Affine::Moment(b)) => {
                 for (((lane, m), v), b) in shown_here.zip(&b[here]) {
                     let slope = divide::<B, W, D>((width, patches, lane), of_all, b, h);
                     let slope = array(slope[0], |axis| slope[axis] * *m);
-                    patches.scatter_affine(width, lane, (value(*m, v), &slope), field);
+                    patches.scatter_affine(lane, (inertial(width, *m, v), &slope), &mut sink);
                 }
             }
         }
+        Several::<B, D>::put(sink);
     }
 
     #[inline(always)]
@@ -111,29 +123,60 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         patches: &Several<B, D>,
         of_all: Option<&Inertia<D>>,
     ) {
-        let (h, particles, field) = (self.grid.h, self.particles, &mut self.fields[1]);
+        let (h, particles) = (self.grid.h, self.particles);
+        let mut sink = Several::<B, D>::sink(width, self.fields[1].again());
         let here = first + lanes.start..first + lanes.end;
-        if divergence == Divergence::Gradient && particles.moved.is_empty() {
+        if divergence == Divergence::Fit {
+            for lane in lanes {
+                let flux = -particles.flux(first + lane);
+                let slope = divide::<B, W, D>((width, patches, lane), of_all, &flux, h);
+                patches.scatter_affine(lane, (width.all(0.0), &slope), &mut sink);
+            }
+        } else if particles.moved.is_empty() {
             // What `flux` does, with one look at the columns for all.
             let sigma = lanes.zip(&particles.sigma[here.clone()]);
             for ((lane, sigma), vol) in sigma.zip(&particles.vol[here]) {
-                let flux = columns(width, &-(sigma * *vol));
-                patches.scatter_flux(width, lane, &flux, field);
+                let flux = columns(width, &-(sigma * *vol), 0);
+                patches.scatter_flux(lane, &flux, &mut sink);
             }
-            return;
-        }
-        if divergence == Divergence::Gradient {
+        } else {
             for lane in lanes {
-                let flux = columns(width, &-particles.flux(first + lane));
-                patches.scatter_flux(width, lane, &flux, field);
+                let flux = columns(width, &-particles.flux(first + lane), 0);
+                patches.scatter_flux(lane, &flux, &mut sink);
             }
-            return;
         }
-        for lane in lanes {
-            let flux = -particles.flux(first + lane);
-            let slope = divide::<B, W, D>((width, patches, lane), of_all, &flux, h);
-            patches.scatter_affine(width, lane, (width.all(0.0), &slope), field);
+        Several::<B, D>::put(sink);
+    }
+
+    /// Mass, momentum and force to one field.
+    #[inline(always)]
+    fn all<W: Width>(
+        &mut self,
+        width: W,
+        (first, lanes): (usize, Range<usize>),
+        patches: &Several<B, D>,
+        of_all: Option<&Inertia<D>>,
+    ) {
+        let (h, particles) = (self.grid.h, self.particles);
+        let Some(shown) = &self.maps.momentum else { return };
+        let mut sink = Several::<B, D>::sink(width, self.fields[0].again());
+        let here = first + lanes.start..first + lanes.end;
+        let inertias = lanes.zip(&particles.mass[here.clone()]).zip(&shown.v[here.clone()]);
+        let fluxes = particles.sigma[here.clone()].iter().zip(&particles.vol[here]);
+        for (((lane, m), v), (sigma, vol)) in inertias.zip(fluxes) {
+            let slope = shown.affine.map(|affine| {
+                let slope = match affine {
+                    Affine::Slope(c) => columns(width, &c[first + lane], 0),
+                    Affine::Moment(b) => {
+                        divide::<B, W, D>((width, patches, lane), of_all, &b[first + lane], h)
+                    }
+                };
+                slope[0] * *m
+            });
+            let flux = columns(width, &-(sigma * *vol), D)[0];
+            patches.scatter_all(lane, (inertial(width, *m, v), slope), flux, &mut sink);
         }
+        Several::<B, D>::put(sink);
     }
 }
 
@@ -146,7 +189,9 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
         let these = std::mem::take(&mut self.these);
         let is_affine = maps.momentum.is_some_and(|shown| shown.affine.is_some())
             || maps.force == Some(Divergence::Fit);
-        let layout = self.fields[usize::from(maps.force.is_some())].layout;
+        let wants_inertia = maps.mass || maps.momentum.is_some();
+        let has_one_field = has_one_field(particles, maps);
+        let layout = self.fields[usize::from(!wants_inertia)].layout;
         let mut patches = Several::<B, D>::none();
         let sight = Sight::<B, D>::new((grid, layout), particles, is_affine);
         for first in these.step_by(LANES) {
@@ -160,7 +205,10 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
                     if is_affine {
                         patches.lever(width, &lanes, grid.h, of_all.map(|of_all| &of_all.mean));
                     }
-                    if maps.mass || maps.momentum.is_some() {
+                    if has_one_field {
+                        return self.all(width, (first, lanes), patches, of_all);
+                    }
+                    if wants_inertia {
                         self.momentum(width, (first, lanes.clone()), patches, of_all);
                     }
                     if let Some(divergence) = maps.force {

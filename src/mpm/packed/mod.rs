@@ -29,6 +29,12 @@ fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
 
+/// A vector in four lanes.
+#[inline(always)]
+fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
+    std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
+}
+
 impl Packed {
     /// The field in the shape of `grid`, whatever stands there yet.
     pub(super) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> ViewMut<'_> {
@@ -80,12 +86,14 @@ impl Packed {
         Rows { length, few: FEW }.each(&mut self.nodes, &|k, here| {
             let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
-            for (Node(lanes), value) in here.iter_mut().zip(&field[there.clone()]) {
-                *lanes = [0.0; 4];
-                lanes[..D].copy_from_slice(value.as_slice());
-            }
-            for (Node(lanes), value) in here.iter_mut().zip(beside.map_or(&[][..], |b| &b[there])) {
-                lanes[D..2 * D].copy_from_slice(value.as_slice());
+            let values = here.iter_mut().zip(&field[there.clone()]);
+            if let Some(beside) = beside {
+                for ((Node(here), value), beside) in values.zip(&beside[there]) {
+                    *here = lanes(value);
+                    here[D..2 * D].copy_from_slice(beside.as_slice());
+                }
+            } else {
+                values.for_each(|(Node(here), value)| *here = lanes(value));
             }
             // A function of weight zero may stand here, and must not meet what an earlier pass left.
             beyond.fill(Node::default());

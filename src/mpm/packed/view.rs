@@ -76,6 +76,12 @@ impl ViewMut<'_> {
         Self { nodes: &mut [], layout: Layout::default() }
     }
 
+    /// The same field.
+    #[inline(always)]
+    pub(in crate::mpm) fn again(&mut self) -> ViewMut<'_> {
+        ViewMut { nodes: self.nodes, layout: self.layout }
+    }
+
     /// K nodes in a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [Node] {
