@@ -172,7 +172,7 @@ fn flip(count: f64) {
     let fields = (&*velocity, &*acceleration);
     let mut plain = || linear_1d::g2p((H, 0.125), &x, fields, &mut new_v, &mut carried);
     let mut ours = || {
-        let (value, carried) = (Some(&mut *ours_v), Some(&mut *ours_carried));
+        let (value, carried) = (Some(&mut *ours_v), Some((0.125, &mut *ours_carried)));
         let takes = Takes { change: Some(0.125), value, carried, ..Takes::default() };
         kernel.g2p_all(black_box(&grid), &particles, takes);
     };

@@ -69,7 +69,7 @@ pub(crate) fn scene<const D: usize>(
 pub(crate) struct Method<const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<D>>,
     pub(crate) transfer: Box<dyn Transfer<D>>,
-    /// How fast the grid carries each particle (m/s).
+    /// Where the grid carries each particle (m).
     carried: Vec<Vector<D>>,
 }
 
@@ -97,8 +97,6 @@ impl<const D: usize> Method<D> {
         self.carried.resize(particles.len(), Vector::zeros());
         let also = Also { gradient: true, carried: Some(&mut self.carried) };
         g2p(&mut *self.transfer, &*self.kernel, (grid, &[]), dt, particles, also);
-        for (x, v) in particles.x.iter_mut().zip(&self.carried) {
-            *x += v * dt;
-        }
+        std::mem::swap(&mut particles.x, &mut self.carried);
     }
 }

@@ -17,7 +17,7 @@ pub(crate) fn p2g(h: f64, x: &[f64], v: &[f64], m: &[f64], mass: &mut [f64], mom
     }
 }
 
-/// Change of the velocities of particles by accelerations of nodes, and how fast nodes carry them.
+/// Change of the velocities of particles by accelerations of nodes, and where nodes carry them.
 #[inline(never)]
 pub(crate) fn g2p(
     (h, dt): (f64, f64),
@@ -37,6 +37,6 @@ pub(crate) fn g2p(
             u += w[i] * velocity[base + i];
         }
         v[p] += dt * a;
-        carried[p] = u;
+        carried[p] = x[p] + dt * u;
     }
 }

@@ -1,7 +1,7 @@
 //! What a solver remembers between two steps, all else being made anew in each of them.
 //!
 //! Every field is named, so that the compiler asks after a new one. The grid keeps nothing from step to
-//! step, and what stages leave for each other (what has been visited, how fast particles are carried) is
+//! step, and what stages leave for each other (what has been visited, where particles are carried) is
 //! used up when a step ends.
 
 use super::{

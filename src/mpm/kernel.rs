@@ -69,8 +69,8 @@ pub struct Takes<'a, const D: usize> {
     pub moment: Option<&'a mut [Matrix<D>]>,
     /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
     pub gradient: Option<&'a mut [Matrix<D>]>,
-    /// `carried_p = sum_i v_i N_i(x_p)`: how fast the grid carries the particle (m/s).
-    pub carried: Option<&'a mut [Vector<D>]>,
+    /// `carried_p = x_p + dt sum_i v_i N_i(x_p)` with `dt`: where the grid carries the particle (m).
+    pub carried: Option<(f64, &'a mut [Vector<D>])>,
 }
 
 /// Passes of P2G and G2P for one basis.

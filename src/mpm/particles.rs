@@ -172,8 +172,14 @@ impl<const D: usize> Particles<D> {
         self.moved.get(p).unwrap_or(&self.x[p])
     }
 
+    /// Current positions (m), in either frame.
+    #[inline(always)]
+    pub fn positions(&self) -> &[Vector<D>] {
+        if self.moved.is_empty() { &self.x } else { &self.moved }
+    }
+
     /// Current positions (m), to be changed.
-    pub fn positions_mut(&mut self) -> &mut [Vector<D>] {
+    pub fn positions_mut(&mut self) -> &mut Vec<Vector<D>> {
         if self.moved.is_empty() { &mut self.x } else { &mut self.moved }
     }
 

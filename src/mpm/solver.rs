@@ -29,8 +29,7 @@ pub struct Solver<const D: usize> {
     pub(super) transfers: u64,
     pub(super) min_j: f64,
     pub(super) whereabouts: Whereabouts<D>,
-    /// How fast the grid carries each particle (m/s), from the visit that asks for it until
-    /// positions move.
+    /// Where the grid carries each particle (m), from the visit that asks for it until positions move.
     pub(super) carried: Vec<Vector<D>>,
     pub(super) visited: Visited,
 }
@@ -135,13 +134,13 @@ impl<const D: usize> Solver<D> {
             }
             Stage::ParticleVelocity => {
                 self.visited.g2p = takes(rest);
-                self.take(Some(dt), self.visited.g2p);
+                self.take(dt, true, self.visited.g2p);
                 self.drive(dt);
             }
             Stage::Stress => {
                 if !std::mem::take(&mut self.visited.g2p.gradient) {
                     let wanted = takes(stages);
-                    self.take(None, wanted);
+                    self.take(dt, false, wanted);
                     self.visited.g2p = Gathered { gradient: false, ..wanted };
                 }
                 self.stress(dt)?;
@@ -149,7 +148,7 @@ impl<const D: usize> Solver<D> {
             Stage::Position if self.frozen => {}
             Stage::Position => {
                 if !std::mem::take(&mut self.visited.g2p.carried) {
-                    self.take(None, takes(stages));
+                    self.take(dt, false, takes(stages));
                 }
                 self.position(dt)?;
             }
@@ -229,9 +228,7 @@ impl<const D: usize> Solver<D> {
 
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
-        for (x, v) in particles.positions_mut().iter_mut().zip(&self.carried) {
-            *x += v * dt;
-        }
+        std::mem::swap(particles.positions_mut(), &mut self.carried);
         for effect in effects {
             effect.drive_position(dt, particles);
         }

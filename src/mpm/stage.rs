@@ -28,7 +28,7 @@ pub enum Stage {
 pub(super) struct Gathered {
     /// Gradients.
     pub(super) gradient: bool,
-    /// How fast the grid carries each particle.
+    /// Where the grid carries each particle.
     pub(super) carried: bool,
 }
 

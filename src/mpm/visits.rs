@@ -15,15 +15,16 @@ impl<const D: usize> Solver<D> {
         self.count(passes);
     }
 
-    /// G2P: new velocities after a step of `dt` (s), if that is given, and what else is wanted of the
-    /// grid's velocities.
-    pub(super) fn take(&mut self, dt: Option<f64>, wanted: Gathered) {
+    /// G2P: what is wanted of the grid's velocities in a step of `dt` (s), and `with_velocities` those
+    /// that particles have after it.
+    pub(super) fn take(&mut self, dt: f64, with_velocities: bool, wanted: Gathered) {
         let Setup { grid, particles, kernel, transfer, boundary, .. } = &mut self.setup;
         let carried = wanted.carried.then_some(&mut *self.carried);
         let (kernel, also) = (kernel.as_ref(), Also { gradient: wanted.gradient, carried });
-        let passes = match dt {
-            Some(dt) => g2p(transfer.as_mut(), kernel, (grid, boundary), dt, particles, also),
-            None => rest(transfer.as_mut(), kernel, grid, particles, also),
+        let passes = if with_velocities {
+            g2p(transfer.as_mut(), kernel, (grid, boundary), dt, particles, also)
+        } else {
+            rest(transfer.as_mut(), kernel, grid, dt, particles, also)
         };
         self.count(passes);
     }

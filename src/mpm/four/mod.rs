@@ -11,7 +11,7 @@ mod registers;
 mod width;
 
 pub(super) use plain::Plain;
-pub(super) use width::{FOUR, Four, LANES, Lanes, Width, parts};
+pub(super) use width::{FOUR, Four, LANES, Lanes, Width, part, parts};
 
 use fearless_simd::Level;
 

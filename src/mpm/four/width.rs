@@ -1,6 +1,6 @@
 //! Four numbers, and what makes them.
 
-use crate::mpm::algebra::array;
+use crate::mpm::algebra::{Vector, array};
 use std::ops::{Add, AddAssign, Mul, Range, Sub};
 
 /// Numbers in a register.
@@ -46,6 +46,20 @@ impl Lanes {
 #[inline(always)]
 pub(in crate::mpm) fn parts(lanes: &Range<usize>) -> Range<usize> {
     lanes.start / FOUR..lanes.end.div_ceil(FOUR)
+}
+
+/// D of four numbers, from `first` on.
+#[inline(always)]
+pub(in crate::mpm) fn part<const D: usize>(
+    four: impl Into<[f64; FOUR]>,
+    first: usize,
+) -> Vector<D> {
+    let lanes = four.into();
+    let mut vector = Vector::zeros();
+    for axis in 0..D {
+        vector[axis] = lanes[(first + axis) % FOUR];
+    }
+    vector
 }
 
 /// Four numbers.

@@ -3,7 +3,7 @@
 //! Particles that lie next to each other in memory mostly see neighbouring layers of nodes: those across
 //! the last axis. So the particles of a large scene are cut into blocks, and these have two colours in
 //! turn. Blocks of one colour see no node in common: each has its own stretch of the field, and they
-//! may run at once. Then the blocks of the other colour add to what these have left.
+//! may run at once. A block of the other colour adds to what its two neighbours have left.
 //!
 //! Where blocks are cut depends on the particles alone, and never on the number of threads: the bits do not
 //! either. Particles in no order at all, and small scenes, are one block.
@@ -13,14 +13,17 @@ use crate::mpm::{
     basis::{Basis, Domain},
     four::LANES,
     grid::Grid,
-    packed::{Layout, MARGIN, ViewMut},
+    packed::{MARGIN, layers},
     particles::Particles,
-    threads::{Rows, both},
+    threads::Rows,
 };
 use std::ops::Range;
 
+/// Fewest particles of a scene that is cut: others stay near as they are.
+const FEWEST: usize = 1 << 17;
+
 /// Fewest particles of a block: the nodes that its neighbours see as well must be few beside them.
-const LEAST: usize = 1 << 15;
+const LEAST: usize = 1 << 13;
 
 /// Chunks of such a block: particles whose layers are looked up together.
 pub(super) const CHUNKS: usize = 8;
@@ -28,15 +31,15 @@ pub(super) const CHUNKS: usize = 8;
 /// Particles that are looked at together.
 const TOGETHER: usize = 8;
 
-/// Numbers of blocks that are tried, largest first.
-const COUNTS: [usize; 5] = [64, 32, 16, 8, 4];
+/// Numbers of blocks that are tried, largest first: so many that the nodes of one stay in a cache.
+const COUNTS: [usize; 8] = [512, 256, 128, 64, 32, 16, 8, 4];
 
 /// Particles in a row, and the nodes that they see.
 #[derive(Debug)]
 pub(super) struct Block {
     pub(super) particles: Range<usize>,
-    /// Numbers of the nodes in the whole field.
-    pub(super) nodes: Range<usize>,
+    /// Layers of nodes across the last axis.
+    pub(super) layers: Range<usize>,
 }
 
 /// How far particles reach along the last axis (m).
@@ -49,7 +52,8 @@ struct Span {
 /// The blocks of a scene by colour. Where all particles are one block, there is one colour.
 #[derive(Debug)]
 pub(super) struct Blocks {
-    /// Fewest particles of a block.
+    /// Fewest particles of all blocks, and of one.
+    pub(super) fewest: usize,
     pub(super) least: usize,
     spans: Vec<Span>,
     pub(super) colours: [Vec<Block>; 2],
@@ -57,7 +61,7 @@ pub(super) struct Blocks {
 
 impl Default for Blocks {
     fn default() -> Self {
-        Self { least: LEAST, spans: Vec::new(), colours: Default::default() }
+        Self { fewest: FEWEST, least: LEAST, spans: Vec::new(), colours: Default::default() }
     }
 }
 
@@ -107,7 +111,7 @@ impl Span {
     /// The layers of nodes that may be seen, of all that a packed field has.
     fn layers<B: Basis, const D: usize>(self, grid: &Grid<D>) -> Range<usize> {
         let axis = D - 1;
-        let (cells, all) = (grid.cells[axis] as f64, grid.counts[axis] + MARGIN);
+        let (cells, all) = (grid.cells[axis] as f64, layers(grid).end);
         let local = |x: f64| (x - grid.origin[axis]) * grid.inverse_h();
         let (low, high) = (local(self.low), local(self.high));
         // Domains see whole groups of nodes, and their ends are known but for rounding.
@@ -139,7 +143,8 @@ impl Blocks {
         particles: &Particles<D>,
     ) {
         let (total, least, chunk) = (particles.len(), self.least, self.chunk());
-        let enough = |count: &usize| count * least <= total;
+        let is_large = total >= self.fewest;
+        let enough = |count: &usize| is_large && count * least <= total;
         if COUNTS.iter().any(enough) {
             self.spans.resize(total.div_ceil(chunk), Span::NONE);
             Rows { length: 1, few: CHUNKS }.each(&mut self.spans, &|k, span| {
@@ -149,46 +154,31 @@ impl Blocks {
         let mut counts = COUNTS.into_iter().filter(enough);
         if !counts.any(|count| self.cut_into::<B, D>(count, grid, total)) {
             self.colours.iter_mut().for_each(Vec::clear);
-            self.colours[0].push(Block { particles: 0..total, nodes: 0..usize::MAX });
+            self.colours[0].push(Block { particles: 0..total, layers: layers(grid) });
         }
     }
 
-    /// Cuts into so many blocks, and returns whether those of a colour have no node in common.
+    /// Cuts into so many blocks, and returns whether they lie in their order and those of a colour have no
+    /// node in common.
     fn cut_into<B: Basis, const D: usize>(
         &mut self,
         count: usize,
         grid: &Grid<D>,
         particles: usize,
     ) -> bool {
-        let (chunks, layer) = (self.spans.len(), Layout::of(grid).strides[D - 1]);
-        let chunk = self.chunk();
+        let (chunks, chunk) = (self.spans.len(), self.chunk());
+        let mut start = 0;
         self.colours.iter_mut().for_each(Vec::clear);
         (0..count).all(|k| {
             let (from, to) = (k * chunks / count, (k + 1) * chunks / count);
             let span = self.spans[from..to].iter().fold(Span::NONE, |all, span| all.with(*span));
             let layers = span.layers::<B, D>(grid);
-            let nodes = layers.start * layer..layers.end * layer;
             let colour = &mut self.colours[k % 2];
-            let is_apart = colour.last().is_none_or(|before| before.nodes.end <= nodes.start);
-            colour.push(Block { particles: from * chunk..particles.min(to * chunk), nodes });
-            is_apart
+            let is_apart = colour.last().is_none_or(|before| before.layers.end <= layers.start);
+            let is_in_order = start <= layers.start;
+            start = layers.start;
+            colour.push(Block { particles: from * chunk..particles.min(to * chunk), layers });
+            is_apart && is_in_order
         })
-    }
-}
-
-/// Runs `work` for each block of a colour with its own part of each field: the parts are all of it.
-pub(super) fn share<'a>(
-    blocks: &[Block],
-    fields: [ViewMut<'a>; 2],
-    work: &(impl Fn(&Block, [ViewMut<'a>; 2]) + Sync),
-) {
-    match blocks {
-        [] => {}
-        [block] => work(block, fields),
-        _ => {
-            let (left, right) = blocks.split_at(blocks.len() / 2);
-            let [a, b] = fields.map(|field| field.split_at(right[0].nodes.start));
-            both(|| share(left, [a.0, b.0], work), || share(right, [a.1, b.1], work));
-        }
     }
 }

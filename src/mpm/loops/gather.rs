@@ -1,14 +1,10 @@
 //! From nodes to particles: velocity, first moment and gradient in one visit.
 
-use super::{
-    part,
-    sight::{ALL, Several, Sight},
-    vector,
-};
+use super::sight::{ALL, Several, Sight};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     basis::{Basis, Patches},
-    four::{FOUR, Four, LANES, Pass, Width},
+    four::{FOUR, Four, LANES, Pass, Width, part},
     grid::Grid,
     kernel::Takes,
     packed::View,
@@ -154,7 +150,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         }
         if let (Some(value), Some((keep, factor))) = (&mut takes.value, takes.mix) {
             for (value, velocity) in value[first..].iter_mut().zip(&taken.velocity) {
-                *value = *value * keep + vector::<D>(*velocity * factor);
+                *value = *value * keep + part::<D>(*velocity * factor, 0);
             }
         }
         if let Some(moment) = &mut takes.moment {
@@ -167,9 +163,10 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                 put_columns(gradient, taken);
             }
         }
-        if let Some(carried) = &mut takes.carried {
-            for (carried, taken) in carried[first..].iter_mut().zip(&taken.velocity) {
-                *carried = vector(*taken);
+        if let Some((dt, carried)) = &mut takes.carried {
+            let x = &self.particles.positions()[self.these.start + first..];
+            for ((carried, x), taken) in carried[first..].iter_mut().zip(x).zip(&taken.velocity) {
+                *carried = x + part::<D>(*taken * *dt, 0);
             }
         }
     }

@@ -18,14 +18,15 @@ impl<const D: usize> Takes<'_, D> {
         let value = split(self.value, count);
         let moment = split(self.moment, count);
         let gradient = split(self.gradient, count);
-        let carried = split(self.carried, count);
+        let (dt, carried) = self.carried.unzip();
+        let carried = split(carried, count);
         let part = |value, moment, gradient, carried| Self {
             change,
             mix,
             value,
             moment,
             gradient,
-            carried,
+            carried: dt.zip(carried),
         };
         (
             part(value.0, moment.0, gradient.0, carried.0),

@@ -18,7 +18,9 @@ const H: f64 = 0.25;
 /// Cuts as a scene of so few particles would not be.
 fn cutting<B: Basis>() -> Loops<B> {
     let loops = Loops::<B>::default();
-    loops.room().blocks.least = 16 * CHUNKS;
+    let mut room = loops.room();
+    (room.blocks.fewest, room.blocks.least) = (0, 16 * CHUNKS);
+    drop(room);
     loops
 }
 
@@ -72,7 +74,7 @@ fn taken<const D: usize>(
         value: Some(&mut value),
         moment: Some(&mut moment),
         gradient: Some(&mut gradient),
-        carried: Some(&mut carried),
+        carried: Some((0.5, &mut carried)),
     };
     kernel.g2p_all(grid, particles, takes);
     let matrices = moment.iter().chain(&gradient).flatten();

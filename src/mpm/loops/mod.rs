@@ -16,17 +16,17 @@ mod laws_of_blocks;
 mod room;
 mod scalars;
 mod scatter;
+mod share;
 mod sight;
 
-use self::{inertia::inertia, room::Room, scatter::has_one_field};
+use self::{inertia::inertia, room::Room};
 use super::{
     algebra::{Matrix, Vector},
     basis::{Basis, BasisName, Domain, with_basis},
-    four::FOUR,
     grid::Grid,
     kernel::{Kernel, Maps, Shown, Takes},
     moments::{Inertia, Moments},
-    packed::Packed,
+    packed::Columns,
     particles::Particles,
 };
 use std::{
@@ -59,55 +59,19 @@ impl<B> Loops<B> {
     }
 }
 
-/// D of four numbers, from `first` on.
-#[inline(always)]
-fn part<const D: usize>(four: impl Into<[f64; FOUR]>, first: usize) -> Vector<D> {
-    let lanes = four.into();
-    let mut vector = Vector::zeros();
-    for axis in 0..D {
-        vector[axis] = lanes[(first + axis) % FOUR];
-    }
-    vector
-}
-
-/// The first D of four numbers.
-#[inline(always)]
-fn vector<const D: usize>(four: impl Into<[f64; FOUR]>) -> Vector<D> {
-    part(four, 0)
-}
-
-/// Takes what `maps` says out of the packed fields where P2G has left it.
-fn unpack<const D: usize>(
-    fields: &[Packed; 2],
-    particles: &Particles<D>,
-    maps: &Maps<'_, D>,
-    grid: &mut Grid<D>,
-) {
-    if maps.mass {
-        let mut column = std::mem::take(&mut grid.mass);
-        fields[0].unpack(grid, &mut column, |lanes| lanes[3]);
-        grid.mass = column;
-    }
-    if maps.momentum.is_some() {
-        let mut column = std::mem::take(&mut grid.velocity);
-        fields[0].unpack(grid, &mut column, |lanes| vector(*lanes));
-        grid.velocity = column;
-    }
-    if maps.force.is_some() {
-        let mut column = std::mem::take(&mut grid.force);
-        if has_one_field(particles, maps) {
-            fields[0].unpack(grid, &mut column, |lanes| part(*lanes, D));
-        } else {
-            fields[1].unpack(grid, &mut column, |lanes| vector(*lanes));
-        }
-        grid.force = column;
-    }
-}
-
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
-        let mut room = self.room();
-        unpack(room.scatter::<B, D>(particles, maps, grid), particles, maps, grid);
+        let mut mass = std::mem::take(&mut grid.mass);
+        let mut momentum = std::mem::take(&mut grid.velocity);
+        let mut force = std::mem::take(&mut grid.force);
+        let columns = Columns {
+            mass: maps.mass.then_some(&mut mass),
+            momentum: maps.momentum.is_some().then_some(&mut momentum),
+            force: maps.force.is_some().then_some(&mut force),
+            ..Columns::default()
+        };
+        self.room().scatter::<B, D>(particles, maps, grid, columns);
+        (grid.mass, grid.velocity, grid.force) = (mass, momentum, force);
     }
 
     fn p2g_momentum(
@@ -118,8 +82,8 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         column: &mut [Vector<D>],
     ) {
         let maps = Maps { momentum: Some(shown), ..Maps::default() };
-        self.room().scatter::<B, D>(particles, &maps, grid)[0]
-            .unpack(grid, column, |lanes| vector(*lanes));
+        let columns = Columns { momentum: Some(column), ..Columns::default() };
+        self.room().scatter::<B, D>(particles, &maps, grid, columns);
     }
 
     fn p2g_point_force(

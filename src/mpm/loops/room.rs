@@ -1,10 +1,11 @@
 //! The two ways between particles and nodes, each a pass that threads may share, and what these keep.
 
 use super::{
-    blocks::{Block, Blocks, share},
+    blocks::{Block, Blocks},
     gather::{Gather, are_beside},
     halves::halves,
     scatter::{Scatter, has_one_field},
+    share::{Target, share},
 };
 use crate::mpm::{
     algebra::Vector,
@@ -12,7 +13,7 @@ use crate::mpm::{
     four,
     grid::Grid,
     kernel::{Maps, Takes},
-    packed::{Packed, ViewMut},
+    packed::{Columns, Packed, ViewMut},
     particles::Particles,
 };
 use std::marker::PhantomData;
@@ -53,31 +54,37 @@ pub(super) fn pack<const D: usize>(
 }
 
 impl Room {
-    /// What `maps` says, in packed fields.
+    /// What `maps` says, into `columns`.
     pub(super) fn scatter<B: Basis, const D: usize>(
         &mut self,
         particles: &Particles<D>,
         maps: &Maps<'_, D>,
         grid: &Grid<D>,
-    ) -> &[Packed; 2] {
+        mut columns: Columns<'_, D>,
+    ) {
         let Self { fields, blocks } = self;
         blocks.cut::<B, D>(grid, particles);
+        columns.is_one_field = has_one_field(particles, maps);
         let wants_inertia = maps.mass || maps.momentum.is_some();
-        let wanted = [wants_inertia, maps.force.is_some() && !has_one_field(particles, maps)];
+        let wanted = [wants_inertia, maps.force.is_some() && !columns.is_one_field];
         let add = |block: &Block, fields: [ViewMut<'_>; 2]| {
             let these = block.particles.clone();
             four::run(Scatter::<D, B> { grid, particles, these, maps, fields, basis: PhantomData });
         };
-        let [white, black] = &blocks.colours;
-        share(white, views(fields, grid, wanted), &|block, mut fields| {
-            fields.iter_mut().for_each(ViewMut::clear);
-            add(block, fields);
-        });
-        share(black, views(fields, grid, wanted), &add);
+        // What lies beyond a seam must come back before anything is unpacked.
+        let (at_once, after) = if grid.periodic.contains(&true) {
+            (None, Some(columns))
+        } else {
+            (Some(columns), None)
+        };
+        let target =
+            Target { fields: views(fields, grid, wanted), columns: at_once.unwrap_or_default() };
+        share(grid, blocks.colours.each_ref().map(|colour| &colour[..]), target, &add);
+        let Some(columns) = after else { return };
         for (field, _) in fields.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
             field.fold(grid);
         }
-        fields
+        columns.unpack_all(grid, &views(fields, grid, wanted));
     }
 
     /// What `takes` says, from `field` in place of the velocities of nodes.

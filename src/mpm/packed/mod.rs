@@ -5,8 +5,10 @@
 //! a particle sees is always a box of neighbours. All axes are longer by [`MARGIN`], also where
 //! nothing goes on: functions of weight zero may stand there.
 
+mod columns;
 mod view;
 
+pub(super) use columns::{Columns, layers};
 pub(super) use view::{Layout, MARGIN, Node, View, ViewMut};
 
 use super::{algebra::Vector, grid::Grid, threads::Rows};
@@ -47,23 +49,6 @@ impl Packed {
     /// The field, to be read.
     pub(super) fn view(&self) -> View<'_> {
         View { nodes: &self.nodes, layout: self.layout }
-    }
-
-    /// Unpacks the field into a column of the grid: `value` of the four numbers of each node.
-    pub(super) fn unpack<const D: usize, T: Send>(
-        &self,
-        grid: &Grid<D>,
-        column: &mut [T],
-        value: impl Fn(&[f64; 4]) -> T + Sync,
-    ) {
-        let ([across, rows, _], [_, row, plane, _]) = (counts(grid), self.layout.strides);
-        let length = if D == 1 { PIECE } else { across };
-        Rows { length, few: FEW }.each(column, &|k, there| {
-            let start = if D == 1 { k * PIECE } else { k % rows * row + k / rows * plane };
-            for (there, Node(lanes)) in there.iter_mut().zip(&self.nodes[start..]) {
-                *there = value(lanes);
-            }
-        });
     }
 
     /// Takes over a field of vectors, and perhaps another one, whose numbers then stand `beside` those
@@ -169,7 +154,8 @@ mod tests {
                 view.row::<1>(at)[0].0[3] = 1.0;
                 one.fold(&grid);
                 let mut found = vec![0.0; grid.nodes()];
-                one.unpack(&grid, &mut found, |lanes| lanes[3]);
+                let columns = Columns { mass: Some(&mut found), ..Columns::default() };
+                columns.unpack_all(&grid, &[one.shaped(&grid), ViewMut::none()]);
                 let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
                 prop_assert_eq!(found, expected);
             }

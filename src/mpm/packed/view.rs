@@ -93,10 +93,10 @@ impl ViewMut<'_> {
         self.nodes.fill(Node::default());
     }
 
-    /// The nodes before node `at` of the whole field, and those from there on.
-    pub(in crate::mpm) fn split_at(self, at: usize) -> (Self, Self) {
+    /// The nodes before a layer across the last of D axes, and those from there on.
+    pub(in crate::mpm) fn split_at<const D: usize>(self, layer: usize) -> (Self, Self) {
         let Self { nodes, layout } = self;
-        let before = layout.before.max(at);
+        let before = layout.before.max(layer * layout.strides[D - 1]);
         let (low, high) = nodes.split_at_mut(nodes.len().min(before - layout.before));
         (Self { nodes: low, layout }, Self { nodes: high, layout: Layout { before, ..layout } })
     }

@@ -14,7 +14,7 @@ use crate::mpm::{
 pub struct Also<'a, const D: usize> {
     /// Velocity gradients, into `particles.grad_v`.
     pub gradient: bool,
-    /// How fast the grid carries each particle (m/s).
+    /// Where the grid carries each particle (m).
     pub carried: Option<&'a mut [Vector<D>]>,
 }
 
@@ -31,7 +31,7 @@ pub fn g2p<const D: usize>(
 ) -> u64 {
     let Some(recipe) = transfer.recipe() else {
         let passes = transfer.g2p_velocity(kernel, grid, boundary, dt, particles);
-        return passes + rest(transfer, kernel, grid, particles, also);
+        return passes + rest(transfer, kernel, grid, dt, particles, also);
     };
     let (mut v, mut grad_v) =
         (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
@@ -43,7 +43,7 @@ pub fn g2p<const D: usize>(
         value: Some(&mut v),
         moment,
         gradient: also.gradient.then_some(&mut grad_v),
-        carried: also.carried,
+        carried: also.carried.map(|carried| (dt, carried)),
     };
     kernel.g2p_all(grid, particles, takes);
     (particles.v, particles.grad_v) = (v, grad_v);
@@ -55,6 +55,7 @@ pub(in crate::mpm) fn rest<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,
+    dt: f64,
     particles: &mut Particles<D>,
     also: Also<'_, D>,
 ) -> u64 {
@@ -64,7 +65,8 @@ pub(in crate::mpm) fn rest<const D: usize>(
     if gradient || also.carried.is_some() {
         let mut grad_v = std::mem::take(&mut particles.grad_v);
         let gradient = gradient.then_some(&mut *grad_v);
-        let takes = Takes { gradient, carried: also.carried, ..Takes::default() };
+        let carried = also.carried.map(|carried| (dt, carried));
+        let takes = Takes { gradient, carried, ..Takes::default() };
         kernel.g2p_all(grid, particles, takes);
         particles.grad_v = grad_v;
     }
