@@ -40,22 +40,20 @@ impl<const D: usize> Particles<D> {
         let Self {
             x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, domain0, grad_v, ..
         } = self;
-        for column in [x0, x, moved, v] {
-            permute(column, order);
-        }
-        for column in [mass, vol0, vol, &mut self.temperature] {
-            permute(column, order);
-        }
-        for column in [sigma, def_grad, domain, domain0, grad_v] {
-            permute(column, order);
-        }
+        permute([x0, x, moved, v], order);
+        permute([mass, vol0, vol, &mut self.temperature], order);
+        permute([sigma, def_grad, domain, domain0, grad_v], order);
     }
 }
 
-/// Puts entry `order[k]` at place k, in a column that is there.
-fn permute<T: Copy>(column: &mut Vec<T>, order: &[usize]) {
-    if !column.is_empty() {
-        *column = order.iter().map(|&p| column[p]).collect();
+/// Puts entry `order[k]` at place k, in the columns that are there. Each leaves its memory to the next: new
+/// memory costs more than what is moved.
+fn permute<T: Copy, const N: usize>(columns: [&mut Vec<T>; N], order: &[usize]) {
+    let mut spare = Vec::new();
+    for column in columns.into_iter().filter(|column| !column.is_empty()) {
+        spare.clear();
+        spare.extend(order.iter().map(|&p| column[p]));
+        std::mem::swap(column, &mut spare);
     }
 }
 
