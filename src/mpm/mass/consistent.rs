@@ -3,26 +3,60 @@
 //!
 //! It is what order p + 1 needs with a basis of degree p > 1. Nodes without mass have no row, held
 //! nodes none in the component that is held: there, walls must be at rest. A node that too few
-//! particles see makes the matrix singular, and the run fails with that reason. Assembling allocates
-//! in every step; where the factor has its entries is found anew only if those of the matrix have moved.
+//! particles see makes the matrix singular, and the run fails with that reason. Where entries are added
+//! up and where the factor has its own is found anew only if particles have come to other nodes.
 
-use super::contract::MassMatrix;
+use super::{assembly::Assembly, contract::MassMatrix};
 use crate::{
     mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
     subject::Failure,
 };
 use nalgebra::DVector;
-use nalgebra_sparse::{
-    CooMatrix, CscMatrix,
-    factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky},
-    pattern::SparsityPattern,
-};
+use nalgebra_sparse::factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky};
 
 /// The consistent mass matrix.
 #[derive(Default)]
 pub struct Consistent {
     /// One for each axis, but for axes on which the same nodes are held.
     factors: Vec<Factor>,
+    entries: Entries,
+}
+
+/// What all pairs of nodes that a particle sees add to the matrix, before anything is held.
+#[derive(Default)]
+struct Entries {
+    /// Nodes of each.
+    pairs: Vec<(usize, usize)>,
+    /// Mass of each (kg).
+    masses: Vec<f64>,
+    /// Whether the pairs are others than those of the step before.
+    have_moved: bool,
+}
+
+impl Entries {
+    fn collect<const D: usize>(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+    ) {
+        let Self { pairs, masses, have_moved } = self;
+        *have_moved = false;
+        masses.clear();
+        kernel.mass_entries(grid, particles, &mut |i, j, mass| {
+            match pairs.get_mut(masses.len()) {
+                Some(pair) if *pair == (i, j) => {}
+                Some(pair) => (*pair, *have_moved) = ((i, j), true),
+                None => {
+                    pairs.push((i, j));
+                    *have_moved = true;
+                }
+            }
+            masses.push(mass);
+        });
+        *have_moved |= pairs.len() > masses.len();
+        pairs.truncate(masses.len());
+    }
 }
 
 /// The matrix of the nodes that are free along an axis.
@@ -30,36 +64,61 @@ struct Factor {
     /// Row of each node; None where it has none.
     row: Vec<Option<usize>>,
     rows: usize,
-    /// Where the matrix has entries.
-    pattern: SparsityPattern,
+    assembly: Assembly,
+    /// The values of the matrix (kg).
+    values: Vec<f64>,
     cholesky: CscCholesky<f64>,
 }
 
 impl Factor {
     /// The factor after `last`, that of the step before.
-    fn after(
-        last: Option<Self>,
-        free: &[bool],
-        entries: &[(usize, usize, f64)],
-    ) -> Result<Self, Failure> {
+    fn after(last: Option<Self>, free: &[bool], entries: &Entries) -> Result<Self, Failure> {
         let mut rows = 0;
         let mut number = |free: &bool| {
             rows += usize::from(*free);
             free.then(|| rows - 1)
         };
         let row: Vec<_> = free.iter().map(&mut number).collect();
-        let mut matrix = CooMatrix::new(rows, rows);
-        for &(i, j, mass) in entries {
-            if let (Some(i), Some(j)) = (row[i], row[j]) {
-                matrix.push(i, j, mass);
+        let assembled = || {
+            let place = |&(i, j): &(usize, usize)| row[i].zip(row[j]);
+            Assembly::new(rows, entries.pairs.iter().map(place))
+        };
+        let factor = match last {
+            Some(last) if !entries.have_moved && last.row == row => last.refactored(entries),
+            Some(last) => {
+                let assembly = assembled();
+                if assembly.pattern == last.assembly.pattern {
+                    Self { row, rows, assembly, ..last }.refactored(entries)
+                } else {
+                    Self::new(assembly, row, rows, entries)
+                }
             }
-        }
-        let (pattern, values) = CscMatrix::from(&matrix).into_pattern_and_values();
-        let cholesky = factorised(last, &pattern, &values).map_err(|_| {
+            None => Self::new(assembled(), row, rows, entries),
+        };
+        factor.map_err(|_| {
             let why = "the consistent mass matrix is singular: too few particles see some node";
             Failure::Solve(why.to_owned())
-        })?;
-        Ok(Self { row, rows, pattern, cholesky })
+        })
+    }
+
+    fn new(
+        assembly: Assembly,
+        row: Vec<Option<usize>>,
+        rows: usize,
+        entries: &Entries,
+    ) -> Result<Self, CholeskyError> {
+        let mut values = Vec::new();
+        assembly.add_up(&entries.masses, &mut values);
+        let symbolic = CscSymbolicCholesky::factor(assembly.pattern.clone());
+        let cholesky = CscCholesky::factor_numerical(symbolic, &values)?;
+        Ok(Self { row, rows, assembly, values, cholesky })
+    }
+
+    /// The factor of other masses at the same places: the steps of the factorisation, and so its bits,
+    /// are those of a new one.
+    fn refactored(mut self, entries: &Entries) -> Result<Self, CholeskyError> {
+        self.assembly.add_up(&entries.masses, &mut self.values);
+        self.cholesky.refactor(&self.values).map(|()| self)
     }
 
     fn solve<const D: usize>(&self, axis: usize, field: &mut [Vector<D>]) {
@@ -73,19 +132,6 @@ impl Factor {
         for (value, row) in field.iter_mut().zip(&self.row) {
             value[axis] = row.map_or(0.0, |row| side[row]);
         }
-    }
-}
-
-/// The Cholesky factor, in the place of that of a matrix with the same pattern if there is one: the steps
-/// of the factorisation, and so its bits, are the same.
-fn factorised(
-    last: Option<Factor>,
-    pattern: &SparsityPattern,
-    values: &[f64],
-) -> Result<CscCholesky<f64>, CholeskyError> {
-    match last.filter(|last| last.pattern == *pattern) {
-        Some(Factor { mut cholesky, .. }) => cholesky.refactor(values).map(|()| cholesky),
-        None => CscCholesky::factor_numerical(CscSymbolicCholesky::factor(pattern.clone()), values),
     }
 }
 
@@ -107,14 +153,13 @@ impl<const D: usize> MassMatrix<D> for Consistent {
         grid: &Grid<D>,
         boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<u64, Failure> {
-        let mut entries = Vec::new();
-        kernel.mass_entries(grid, particles, &mut |i, j, mass| entries.push((i, j, mass)));
+        self.entries.collect(kernel, grid, particles);
         let free = free(grid, boundary);
         let along = |axis: usize| free.iter().map(|f| f[axis] > 0.0).collect::<Vec<bool>>();
         let mut last = std::mem::take(&mut self.factors).into_iter();
         let same = (1..D).all(|axis| along(axis) == along(0));
         for axis in 0..if same { 1 } else { D } {
-            self.factors.push(Factor::after(last.next(), &along(axis), &entries)?);
+            self.factors.push(Factor::after(last.next(), &along(axis), &self.entries)?);
         }
         // Every pair of nodes is visited.
         Ok(1 + kernel.support())

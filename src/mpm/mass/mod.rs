@@ -1,5 +1,6 @@
 //! Mass matrices: the family. A member is one file and one line below.
 
+mod assembly;
 mod consistent;
 mod contract;
 mod lumped;
