@@ -37,22 +37,36 @@ fn knot(k: usize, p: usize, cells: usize, periodic: bool) -> f64 {
 
 /// Greville abscissa of function `i`: the mean of its inner knots.
 fn greville(i: usize, p: usize, cells: usize, periodic: bool) -> f64 {
-    (i + 1..=i + p).map(|k| knot(k, p, cells, periodic)).sum::<f64>() / p as f64
+    let knots: [f64; MOST_KNOTS] = array(0.0, |k| knot(i + 1 + k, p, cells, periodic));
+    mean(&knots[..p])
 }
 
-/// The K = p + 1 functions of an axis with walls at `s` (in cells) within `cell`, with derivatives
-/// per cell.
-fn functions<const K: usize>(s: f64, cell: usize, cells: usize) -> ([f64; K], [f64; K]) {
+#[inline(always)]
+fn mean(knots: &[f64]) -> f64 {
+    knots.iter().sum::<f64>() / knots.len() as f64
+}
+
+/// Twice the largest degree.
+const MOST_KNOTS: usize = 6;
+
+/// The 2p knots around a cell of an axis with walls for degree `p`: p up to its low side, and p from its
+/// high side on. What is left of the array is not used.
+fn knots_around(cell: usize, p: usize, cells: usize) -> [f64; MOST_KNOTS] {
+    array(0.0, |k| knot(cell + 1 + k, p, cells, false))
+}
+
+/// The K = p + 1 functions of an axis with walls at `s` (in cells) within a cell that has these
+/// [`knots_around`] it, with derivatives per cell.
+#[inline(always)]
+fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [f64; K]) {
     let p = K - 1;
-    let knot = |k: usize| knot(k, p, cells, false);
-    let span = cell + p;
     let (mut value, mut lower) = ([0.0; K], [0.0; K]);
     value[0] = 1.0;
     for degree in 1..=p {
         lower = value;
         let mut carried = 0.0;
         for r in 0..degree {
-            let (left, right) = (knot(span + r + 1 - degree), knot(span + r + 1));
+            let (left, right) = (around[p + r - degree], around[p + r]);
             let share = lower[r] / (right - left);
             value[r] = carried + (right - s) * share;
             carried = (s - left) * share;
@@ -60,12 +74,11 @@ fn functions<const K: usize>(s: f64, cell: usize, cells: usize) -> ([f64; K], [f
         value[degree] = carried;
     }
     // N' = p N_(i,p-1)/(t_(i+p) - t_i) - p N_(i+1,p-1)/(t_(i+p+1) - t_(i+1))
-    let term = |r: usize| match r {
+    let term = array::<K, _>(0.0, |r| match r {
         0 => 0.0,
-        r if r == K => 0.0,
-        r => p as f64 * lower[r - 1] / (knot(span + r) - knot(span + r - p)),
-    };
-    let slope = std::array::from_fn(|r| term(r) - term(r + 1));
+        r => p as f64 * lower[r - 1] / (around[p + r - 1] - around[r - 1]),
+    });
+    let slope = array(0.0, |r| term[r] - if r == p { 0.0 } else { term[r + 1] });
     (value, slope)
 }
 
@@ -155,9 +168,10 @@ fn put_right<const D: usize, const K: usize>(
 
 /// Values, slopes per cell and places (in cells, from the particle) where knots may be repeated.
 fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
-    let s = cell as f64 + xi;
-    let (weight, slope) = functions::<K>(s, cell, cells);
-    [weight, slope, array(0.0, |r| greville(cell + r, K - 1, cells, false) - s)]
+    let (p, s) = (K - 1, cell as f64 + xi);
+    let around = knots_around(cell, p, cells);
+    let (weight, slope) = functions::<K>(s, &around);
+    [weight, slope, array(0.0, |r| mean(&around[r..r + p]) - s)]
 }
 
 macro_rules! bspline {
