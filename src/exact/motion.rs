@@ -1,7 +1,7 @@
 //! A motion given by formulas: displacement, velocity and every derivative that a check needs.
 
 use super::{
-    formula::{Formula, Hoisted, Jet},
+    formula::{Formula, Hoisted, Jet, Several},
     truth::Truth,
 };
 
@@ -143,6 +143,23 @@ impl Truth for Motion {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         for (i, u) in into.iter_mut().enumerate() {
             *u = self.component(i, label, t);
+        }
+    }
+
+    /// The same, some points at a time.
+    fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
+        for (labels, into) in labels.chunks(d * Several::LEN).zip(into.chunks_mut(d * Several::LEN))
+        {
+            // Lanes without a point of their own take that of the last.
+            let last = labels.len() / d - 1;
+            let mut all = [Several::from(t); 4];
+            for axis in 0..d {
+                all[axis] = Several::new(|lane| labels[lane.min(last) * d + axis]);
+            }
+            for (i, formula) in self.components.iter().enumerate() {
+                let u = formula.eval(&all[..=d]);
+                (0..=last).for_each(|lane| into[lane * d + i] = u.get(lane));
+            }
         }
     }
 

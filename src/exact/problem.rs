@@ -66,11 +66,9 @@ pub struct Problem {
     pub density: f64,
     /// The equation of motion.
     pub equation: Equation,
-    /// Uniform body force per unit mass (m/s2), one formula of t for each component; empty where
-    /// there is none.
+    /// Uniform body force per unit mass (m/s2), one formula of t for each component; or empty.
     pub gravity: Vec<Formula>,
-    /// Body force per unit mass (m/s2) that the problem states besides, one formula of the
-    /// coordinates and t for each component; empty where there is none.
+    /// That which the problem states besides (m/s2), formulas of the coordinates and t; or empty.
     pub body_force: Vec<Formula>,
     /// Rate alpha(t) (1/s) of a body force `-alpha u_t`, a formula of t.
     pub damping: Option<Formula>,
@@ -80,8 +78,7 @@ pub struct Problem {
     /// Whether the motion is the state in which the body comes to rest: no function of t, held to
     /// the loads at the end of the run and to no initial condition.
     pub at_rest: bool,
-    /// Whether a further body force is added that makes the motion a solution: the method of
-    /// manufactured solutions (Roache 2002).
+    /// Whether a further one makes the motion a solution: manufactured solutions (Roache 2002).
     pub manufactured: bool,
     /// The heat problem beside it, of a body in which heat flows.
     pub heat: Option<Conduction>,
@@ -231,6 +228,10 @@ impl Problem {
 impl Truth for Problem {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         self.motion.displacement(label, t, into);
+    }
+
+    fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
+        self.motion.displacements(d, labels, t, into);
     }
 
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {

@@ -5,6 +5,13 @@ pub trait Truth: Send + Sync {
     /// Displacement (m) of the point with reference position `label` at time `t` (s), D numbers.
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]);
 
+    /// Displacements (m) of the points with reference positions `labels`, D numbers for each.
+    fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
+        for (label, into) in labels.chunks(d).zip(into.chunks_mut(d)) {
+            self.displacement(label, t, into);
+        }
+    }
+
     /// Velocity (m/s) of that point, D numbers.
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
 

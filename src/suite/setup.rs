@@ -12,13 +12,20 @@ use super::{
     surface, thermal, viscosity,
 };
 use crate::{
-    exact::{Forcing, Problem, heat::Conduction},
+    exact::{
+        Forcing, Problem,
+        formula::{Formula, Hoisted},
+        heat::Conduction,
+    },
     mpm::{
         BasisName, BodyForce, Conductor, Damping, Effect, Gravity, Grid, Kernel, LocalDamping,
         Particles, Setup, Vector, kernel,
     },
     verify::Quantity,
 };
+
+/// Longest formula that is taken apart for its places, with its sums written out.
+const MOST_OPERATIONS: u64 = 5000;
 
 /// What a body is at the start.
 pub(super) struct Body<'a> {
@@ -130,6 +137,30 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
+/// A force that the suite states. The formula of a force may be too long to be taken apart.
+fn stated_force<const D: usize>(formulas: &[Formula]) -> BodyForce<D> {
+    if formulas.iter().any(|formula| formula.operations() > MOST_OPERATIONS) {
+        return BodyForce::pointwise(of_place_and_time(formulas));
+    }
+    let formulas = formulas.to_vec();
+    let mut places = None;
+    BodyForce::new(Box::new(move |t, labels: &[Vector<D>], b| {
+        let places = places.get_or_insert_with(|| {
+            let mut places = Hoisted::new(&formulas, D + 1);
+            for label in labels {
+                places.add(label.as_slice());
+            }
+            places
+        });
+        places.set_time(t);
+        for (place, b) in b.iter_mut().enumerate() {
+            for (b, value) in b.iter_mut().zip(places.eval(place)) {
+                *b = value;
+            }
+        }
+    }))
+}
+
 /// The grid that the suite asks for, or the body's box with room beyond its free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
@@ -148,7 +179,7 @@ fn effects<const D: usize>(
         effects.push(Box::new(Gravity(of_time(formulas))));
     }
     if let Some(formulas) = &scene.body_force {
-        effects.push(Box::new(BodyForce::pointwise(of_place_and_time(formulas))));
+        effects.push(Box::new(stated_force(formulas)));
     }
     if let Some(rate) = scene.damping.clone() {
         effects.push(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))));

@@ -80,6 +80,17 @@ impl Quantity {
         }
         true
     }
+
+    /// The exact values at all labels; whether the truth knows them.
+    fn exact_at_all(self, truth: &dyn Truth, samples: &Samples, t: f64, into: &mut [f64]) -> bool {
+        let d = samples.dimension;
+        if self == Self::Displacement {
+            truth.displacements(d, &samples.label, t, into);
+            return true;
+        }
+        let mut places = samples.label.chunks(d).zip(into.chunks_mut(self.components(d)));
+        places.all(|(label, into)| self.exact(truth, label, t, into))
+    }
 }
 
 /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject or
@@ -91,13 +102,12 @@ pub fn errors_of(quantity: Quantity, samples: &Samples, truth: &dyn Truth, t: f6
     if components == 0 || column.len() != components * samples.len() {
         return Norms::NONE;
     }
-    let mut exact = vec![0.0; components];
-    let mut error = Vec::with_capacity(column.len());
-    for (label, computed) in samples.label.chunks(d).zip(column.chunks(components)) {
-        if !quantity.exact(truth, label, t, &mut exact) {
-            return Norms::NONE;
-        }
-        error.extend(computed.iter().zip(&exact).map(|(computed, exact)| computed - exact));
+    let mut error = vec![0.0; column.len()];
+    if !quantity.exact_at_all(truth, samples, t, &mut error) {
+        return Norms::NONE;
+    }
+    for (error, computed) in error.iter_mut().zip(column) {
+        *error = computed - *error;
     }
     Norms::of(&error, components, &samples.weight)
 }

@@ -7,8 +7,8 @@
 //! 2. [`Formula::bind`] resolves every name against a [`Scope`] and a list of variables, puts the
 //!    bodies of user functions in place, folds what is constant and leaves a flat program.
 //! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
-//!    first and second derivatives along. [`Hoisted`] does so at many places and times, at less
-//!    cost.
+//!    first and second derivatives along. [`Several`] does so at some places at once, and [`Hoisted`]
+//!    at many places and times, at less cost.
 //!
 //! # Language
 //!
@@ -57,6 +57,7 @@ mod number;
 mod parser;
 mod program;
 mod scope;
+mod several;
 mod slope;
 mod split;
 mod unary;
@@ -72,5 +73,6 @@ pub use hoisted::Hoisted;
 pub use jet::Jet;
 pub use number::Number;
 pub use scope::Scope;
+pub use several::Several;
 pub use slope::Slope;
 pub use unary::Unary;

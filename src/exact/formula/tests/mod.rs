@@ -10,6 +10,7 @@ mod hoisted;
 mod language;
 mod limits;
 mod random;
+mod several;
 
 use super::{Expr, Formula, FormulaError, Scope};
 

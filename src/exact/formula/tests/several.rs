@@ -1,0 +1,49 @@
+//! Numbers side by side are computed as each by itself.
+
+use proptest::prelude::*;
+use rstest::rstest;
+
+use super::{
+    bind,
+    random::{grow, same, tree},
+};
+use crate::exact::formula::{Formula, Several};
+
+/// Holds the values at eight places against those at each of them, bit for bit.
+fn agree(formula: &Formula, x: &[f64], y: f64) -> Result<(), TestCaseError> {
+    let found = formula.eval(&[Several::new(|lane| x[lane]), Several::from(y)]);
+    for (lane, x) in x.iter().enumerate() {
+        let alone = formula.eval(&[*x, y]);
+        prop_assert!(same(found.get(lane), alone), "{} and {alone} at {x}", found.get(lane));
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn several_values_have_the_bits_of_each(
+        tree in tree(),
+        x in prop::collection::vec(-3.0..3.0, Several::LEN),
+        y in -3.0..3.0,
+    ) {
+        agree(&grow(&tree.text()), &x, y)?;
+    }
+}
+
+/// What each number decides for itself, and what all have in common.
+#[rstest]
+#[case("min(x,t)+2*max(x,t)")]
+#[case("x^t")]
+#[case("x^floor(t*x)")]
+#[case("x^3+t^(-2)")]
+#[case("atan2(x,t)+atan2(t,-x)")]
+#[case("abs(x)*sign(x)+step(x-t)")]
+#[case("sum(n,1,4,n*sin(n*x)*sum(m,0,2,cos(m*t)*(m-n)))")]
+#[case("max(0/x,1)")]
+fn branches_are_taken_for_each(#[case] source: &str) {
+    let formula = bind(source, &["x", "t"]).unwrap();
+    let x = [0.0, -0.0, 1.0, -2.0, 3.5, f64::NAN, f64::INFINITY, -1e300];
+    for t in [0.0, 1.0, -2.0, 0.5] {
+        agree(&formula, &x, t).unwrap();
+    }
+}
