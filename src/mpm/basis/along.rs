@@ -12,7 +12,8 @@ pub struct Along<const K: usize> {
     pub slope: [f64; K],
     /// Where they sit, from the particle (m).
     pub offset: [f64; K],
-    /// `sum weight offset^2` (m^2).
+    /// `sum weight offset^2` (m^2), about the mean where the particle sees no other functions along
+    /// this axis.
     pub variance: f64,
 }
 
@@ -35,12 +36,15 @@ impl<const K: usize> Along<K> {
     /// Sums over the functions of `weight offset^n` for n = 0, 1, 2.
     #[inline(always)]
     pub(super) fn moments(&self) -> [f64; 3] {
-        let (mut zeroth, mut first) = (0.0, 0.0);
+        let mut moments = [0.0; 3];
         for k in 0..K {
-            zeroth += self.weight[k];
-            first += self.weight[k] * self.offset[k];
+            let mut term = self.weight[k];
+            for moment in &mut moments {
+                *moment += term;
+                term *= self.offset[k];
+            }
         }
-        [zeroth, first, self.variance]
+        moments
     }
 }
 

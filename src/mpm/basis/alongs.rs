@@ -16,7 +16,7 @@ pub(super) struct Weights<W: Width, const K: usize> {
     pub(super) slope: [W::Four; K],
     /// Where they sit, from the particle (m).
     pub(super) offset: [W::Four; K],
-    /// `sum weight offset^2` (m^2).
+    /// `sum weight offset^2` (m^2), about their mean.
     pub(super) variance: W::Four,
 }
 
@@ -55,7 +55,7 @@ pub struct Alongs<const K: usize> {
     pub(super) slope: [Lanes; K],
     /// Where they sit, from the particle (m).
     pub(super) offset: [Lanes; K],
-    /// `sum weight offset^2` (m^2).
+    /// `sum weight offset^2` (m^2), about their mean where they are all that a particle sees.
     pub(super) variance: Lanes,
     /// Offsets from a mean (m).
     pub(super) lever: [Lanes; K],

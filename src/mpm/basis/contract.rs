@@ -33,7 +33,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// Where it is not, as in CPDI, it is the average of a gradient over the domain.
     const GRADIENT_OF_WEIGHT: bool = true;
 
-    /// Whether a particle sees all its nodes in one patch.
+    /// Whether a particle sees all its nodes in one patch, wherever it is.
     const ONE_PATCH: bool = true;
 
     /// Some of the nodes that a particle sees, with the functions there: products of functions
@@ -59,9 +59,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
     );
 
     /// Puts the patches of the four particles from `first` on into the lanes from `lane` on, and
-    /// returns in which there is one: bit k for particle `first + k`. Only for a basis with one patch.
-    /// Weights that are computed for four particles at once do not wait for one another; a basis that
-    /// does not care needs no method of its own.
+    /// returns in which there is one that is all that its particle sees: bit k for particle `first + k`.
+    /// Others are left to [`Basis::patches`], which gives the same bits. Weights that are computed for four
+    /// particles at once do not wait for one another; a basis that does not care needs no method of its own.
     #[inline(always)]
     fn four<W: Width, const D: usize>(
         _width: W,
@@ -71,6 +71,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
         patches: &mut <Self::Patch<D> as Patch<D>>::Several,
     ) -> u32 {
         let mut seen = 0;
+        if !Self::ONE_PATCH {
+            return seen;
+        }
         for k in 0..FOUR.min(particles.len() - first) {
             Self::patches(grid, particles, first + k, |patch| {
                 patch.put(lane + k, &lattice.layout, patches);

@@ -9,11 +9,15 @@
 use super::{
     along::Along,
     contract::{Basis, Domain},
+    extent::{AT_ONCE, Alone, Extent},
+    lattice::{Lattice, Places},
     product::Product,
+    products::Products,
 };
 use crate::mpm::{
-    algebra::array,
-    grid::{Grid, floor},
+    algebra::{Matrix, array},
+    four::{FOUR, Four, Width},
+    grid::Grid,
     particles::Particles,
 };
 
@@ -25,67 +29,11 @@ pub struct UniformGimp;
 #[derive(Debug, Clone, Copy)]
 pub struct ContiguousGimp;
 
-/// Functions along an axis that are seen at once: all of them while the domain is not longer than a
-/// cell.
-const AT_ONCE: usize = 3;
-
-/// Largest half-length of a domain, in cells. A particle that is stretched further is seen with
-/// this one.
-const LONGEST: f64 = 2.5;
-
-/// The hat of a node at distance z, in cells.
-fn hat(z: f64) -> f64 {
-    (1.0 - z.abs()).max(0.0)
-}
-
-/// Its integral from minus infinity.
-fn integral(z: f64) -> f64 {
-    let z = z.clamp(-1.0, 1.0);
-    if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
-}
-
-/// The domain along one axis.
-#[derive(Clone, Copy)]
-struct Extent {
-    /// The particle and the ends of its domain, in cells.
-    at: f64,
-    low: f64,
-    high: f64,
-    /// The first node that it sees, and how many times [`AT_ONCE`] of them.
-    first: f64,
-    groups: usize,
-}
-
-impl Extent {
-    const NONE: Self = Self { at: 0.0, low: 0.0, high: 0.0, first: 0.0, groups: 1 };
-
-    #[inline(always)]
-    fn new<const D: usize>(grid: &Grid<D>, at: f64, half: f64, axis: usize) -> Self {
-        let half = half.abs().min(LONGEST);
-        let (mut low, mut high) = (at - half, at + half);
-        if !grid.periodic[axis] {
-            low = low.max(0.0);
-            high = high.min(grid.cells[axis] as f64);
-        }
-        let first = floor(low);
-        let beyond = high - first - (AT_ONCE - 1) as f64;
-        let groups = 1 + if beyond > 0.0 { 1 + (beyond / AT_ONCE as f64) as usize } else { 0 };
-        Self { at, low, high, first, groups }
-    }
-
-    /// The functions of a group. Those beyond the domain and beyond the wall are zero.
-    #[inline(always)]
-    fn along<const D: usize>(&self, grid: &Grid<D>, axis: usize, group: usize) -> Along<AT_ONCE> {
-        let first = self.first + (group * AT_ONCE) as f64;
-        let (share, node) = (1.0 / (self.high - self.low), |k: usize| first + k as f64);
-        let (low, high) = (|k| self.low - node(k), |k| self.high - node(k));
-        Along::new(
-            grid.wrap_signed(first, axis),
-            array(0.0, |k| (integral(high(k)) - integral(low(k))) * share),
-            array(0.0, |k| (hat(high(k)) - hat(low(k))) * share * grid.inverse_h()),
-            array(0.0, |k| (node(k) - self.at) * grid.h),
-        )
-    }
+/// Half the length (m) of the domain of particle `p`.
+#[inline(always)]
+fn half<const D: usize>(particles: &Particles<D>, p: usize, axis: usize, follows: bool) -> f64 {
+    let followed = particles.domain.get(p).filter(|_| follows);
+    followed.map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)])
 }
 
 #[inline(always)]
@@ -100,19 +48,77 @@ fn patches<const D: usize>(
     if grid.cell(x).is_none() {
         return;
     }
-    let extents: [Extent; D] = array(Extent::NONE, |axis| {
-        let followed = particles.domain.get(p).filter(|_| follows);
-        let half = followed.map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)].abs());
-        Extent::new(grid, grid.wrapped(x, axis), half * grid.inverse_h(), axis)
-    });
-    let groups: usize = extents.iter().map(|extent| extent.groups).product();
+    let alone = |axis: usize| {
+        let half = half(particles, p, axis, follows) * grid.inverse_h();
+        Alone::new(grid, grid.wrapped(x, axis), half, axis)
+    };
+    let axes: [Alone; D] = array(alone(0), alone);
+    let groups: usize = axes.iter().map(|axis| axis.groups).product();
     for mut group in 0..groups {
         see(&Product(array(Along::NONE, |axis| {
-            let along = extents[axis].along(grid, axis, group % extents[axis].groups);
-            group /= extents[axis].groups;
+            let along = axes[axis].along(grid, axis, group % axes[axis].groups);
+            group /= axes[axis].groups;
             along
         })));
     }
+}
+
+/// Those of four particles that see one group along each axis.
+#[inline(always)]
+fn four<W: Width, const D: usize>(
+    width: W,
+    (grid, lattice): (&Grid<D>, &Lattice<D>),
+    particles: &Particles<D>,
+    (first, lane): (usize, usize),
+    follows: bool,
+    patches: &mut Products<D, AT_ONCE>,
+) -> u32 {
+    let Places { cell, xi, inside } = lattice.locate(width, grid, &particles.x, first);
+    let (mut start, mut one) = (cell, inside);
+    let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<FOUR>);
+    for axis in 0..D {
+        let half = match domains {
+            _ if !follows => width.all(0.5 * particles.spacing[axis]),
+            Some(four) => width.four(array(0.0, |k| four[k][(axis, axis)])),
+            None => width.four(last(particles, first, axis)),
+        };
+        let wall = (!lattice.periodic[axis]).then_some(lattice.ends[axis]);
+        let at = cell[axis] + xi[axis];
+        let extent = Extent::<W>::new(at, half * lattice.inverse_h, wall);
+        let along = extent.along(width, lattice.h, lattice.inverse_h);
+        along.put(lane / FOUR, &mut patches.axes[axis]);
+        start[axis] = extent.first;
+        if wall.is_none() && !start[axis].are_in(0.0, lattice.ends[axis]) {
+            start[axis] = width.four(beyond_seam(grid, axis, start[axis].into()));
+        }
+        let spare = extent.spare();
+        if !spare.are_in(0.0, f64::INFINITY) {
+            one &= not_below_zero(spare.into());
+        }
+    }
+    patches.put_starts(lane, lattice.starts(&start));
+    one
+}
+
+/// Half the lengths of the last few domains.
+#[cold]
+#[inline(never)]
+fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; FOUR] {
+    array(0.0, |k| half(particles, first + k, axis, true))
+}
+
+/// First nodes of domains, some of which begin before the first node of a periodic axis.
+#[cold]
+#[inline(never)]
+fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; FOUR]) -> [f64; FOUR] {
+    first.map(|first| grid.wrap_signed(first, axis) as f64)
+}
+
+/// Which of four are not below zero: bit k for the k-th.
+#[cold]
+#[inline(never)]
+fn not_below_zero(four: [f64; FOUR]) -> u32 {
+    (0..FOUR).map(|k| u32::from(four[k] >= 0.0) << k).sum()
 }
 
 macro_rules! gimp {
@@ -141,6 +147,17 @@ macro_rules! gimp {
                 see: impl FnMut(&Product<D, AT_ONCE>),
             ) {
                 patches(grid, particles, p, Self::DOMAIN == Domain::Follows, see);
+            }
+
+            #[inline(always)]
+            fn four<W: Width, const D: usize>(
+                width: W,
+                grid: (&Grid<D>, &Lattice<D>),
+                particles: &Particles<D>,
+                at: (usize, usize),
+                patches: &mut Products<D, AT_ONCE>,
+            ) -> u32 {
+                four(width, grid, particles, at, Self::DOMAIN == Domain::Follows, patches)
             }
 
             /// Three nodes along an axis while the domain is not longer than a cell.

@@ -1,10 +1,14 @@
 //! The laws that every registered basis is held to, in 1-D, 2-D and 3-D, inside and at walls, and
 //! on periodic axes.
 
-use super::{Basis, BasisName, Domain, along, contract, product, with_basis};
+use super::{
+    Basis, BasisName, Domain, Lattice, Patch, Patches, along, contract, product, with_basis,
+};
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
+    four::{FOUR, Plain},
     grid::Grid,
+    packed::Layout,
     particles::{Block, Particles},
 };
 use approx::assert_abs_diff_eq;
@@ -120,7 +124,36 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     }
 }
 
+/// Patches that are computed for four particles at once are those of each alone, to the bit.
+fn fill<B: Basis, const D: usize>(periodic: bool) {
+    let grid = grid::<B, D>(periodic);
+    let layout = Layout::of(&grid);
+    for four in points(&grid).chunks_exact(FOUR) {
+        let mut particles = particle(&grid, four[0]);
+        particles.x = four.to_vec();
+        particles.domain = vec![particles.domain[0]; FOUR];
+        let none = <<B as Basis>::Patch<D> as Patch<D>>::Several::none;
+        let (mut together, mut alone) = (none(), none());
+        let lattice = Lattice::new(&grid, layout);
+        let one = B::four(Plain, (&grid, &lattice), &particles, (0, FOUR), &mut together);
+        for k in 0..FOUR {
+            let mut patches = 0;
+            B::patches(&grid, &particles, k, |patch| {
+                patch.put(FOUR + k, &layout, &mut alone);
+                patches += 1;
+            });
+            assert_eq!(one >> k & 1 == 1, patches == 1, "all that the particle sees");
+        }
+        if B::ONE_PATCH || one != 0 {
+            assert_eq!(format!("{together:?}"), format!("{alone:?}"), "{four:?}");
+        }
+    }
+}
+
 fn obey<B: Basis>(periodic: bool) {
+    fill::<B, 1>(periodic);
+    fill::<B, 2>(periodic);
+    fill::<B, 3>(periodic);
     hold::<B, 1>(periodic);
     hold::<B, 2>(periodic);
     hold::<B, 3>(periodic);

@@ -7,6 +7,7 @@ mod bspline;
 mod contract;
 mod corners;
 mod cpdi;
+mod extent;
 mod gimp;
 mod lattice;
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::mpm::{
     grid::Grid,
     packed::{Layout, View, ViewMut},
 };
-use std::ops::Range;
+use std::{fmt::Debug, ops::Range};
 
 /// One node as a particle sees it.
 #[derive(Debug, Clone, Copy)]
@@ -42,8 +42,8 @@ pub trait Patch<const D: usize>: Copy {
     /// Moments of the weights.
     fn spread(&self) -> Spread<D>;
 
-    /// Mean of `x_i - x_p` (m) and its variance (m^2) along each axis, where the patch has all nodes
-    /// that the particle sees and its functions are products: there is no covariance.
+    /// Mean of `x_i - x_p` (m) and its variance about it (m^2) along each axis, where the patch has all
+    /// nodes that the particle sees and its functions are products: there is no covariance.
     fn variance(&self) -> ([f64; D], [f64; D]);
 
     /// Calls `visit` for every node.
@@ -53,7 +53,7 @@ pub trait Patch<const D: usize>: Copy {
 /// Several patches. What depends on weights only is computed for four at once, each lane of a register
 /// one of them; the loops over nodes go from patch to patch. Fields of nodes hold four numbers each,
 /// and so do particles: each method does the same to all four.
-pub trait Patches<const D: usize> {
+pub trait Patches<const D: usize>: Debug {
     /// Where they add to nodes.
     type Sink<'a, W: Width>;
 

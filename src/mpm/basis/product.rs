@@ -44,7 +44,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     #[inline(always)]
     fn variance(&self) -> ([f64; D], [f64; D]) {
         let moments: [[f64; 3]; D] = array([0.0; 3], |axis| self.0[axis].moments());
-        (array(0.0, |axis| moments[axis][1]), array(0.0, |axis| moments[axis][2]))
+        (array(0.0, |axis| moments[axis][1]), array(0.0, |axis| self.0[axis].variance))
     }
 
     #[inline(always)]

@@ -97,6 +97,26 @@ impl Four for Array {
     }
 
     #[inline(always)]
+    fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+
+    #[inline(always)]
+    fn at_least(self, limit: f64) -> Self {
+        self.map(|x| if x > limit { x } else { limit })
+    }
+
+    #[inline(always)]
+    fn at_most(self, limit: f64) -> Self {
+        self.map(|x| if x < limit { x } else { limit })
+    }
+
+    #[inline(always)]
+    fn inverse(self) -> Self {
+        self.map(|x| 1.0 / x)
+    }
+
+    #[inline(always)]
     fn inverse_above(self, smallest: f64) -> Self {
         self.map(|x| if x > smallest { 1.0 / x } else { 0.0 })
     }

@@ -19,6 +19,26 @@ macro_rules! registers {
             }
 
             #[inline(always)]
+            fn abs(self) -> Self {
+                SimdBase::abs(self)
+            }
+
+            #[inline(always)]
+            fn at_least(self, limit: f64) -> Self {
+                self.simd_gt(limit).select(self, Self::splat(self.simd, limit))
+            }
+
+            #[inline(always)]
+            fn at_most(self, limit: f64) -> Self {
+                self.simd_lt(limit).select(self, Self::splat(self.simd, limit))
+            }
+
+            #[inline(always)]
+            fn inverse(self) -> Self {
+                Self::splat(self.simd, 1.0) / self
+            }
+
+            #[inline(always)]
             fn inverse_above(self, smallest: f64) -> Self {
                 let (zero, one) = (Self::splat(self.simd, 0.0), Self::splat(self.simd, 1.0));
                 self.simd_gt(smallest).select(one / self, zero)

@@ -79,6 +79,18 @@ pub trait Four:
     /// Whether all of them are in `low..high`. NaN is not.
     fn are_in(self, low: f64, high: f64) -> bool;
 
+    /// Their magnitudes.
+    fn abs(self) -> Self;
+
+    /// They, or `limit` in place of those that are not above it.
+    fn at_least(self, limit: f64) -> Self;
+
+    /// They, or `limit` in place of those that are not below it.
+    fn at_most(self, limit: f64) -> Self;
+
+    /// Their reciprocals.
+    fn inverse(self) -> Self;
+
     /// Their reciprocals, zero for those that do not exceed `smallest`.
     fn inverse_above(self, smallest: f64) -> Self;
 }

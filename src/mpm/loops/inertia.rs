@@ -17,14 +17,16 @@ pub(super) fn inertia<const D: usize, B: Basis>(
 ) -> Inertia<D> {
     let mut all = Spread { first: Vector::zeros(), second: Matrix::zeros() };
     let mut one = Inertia { mean: Vector::zeros(), second: Matrix::zeros() };
+    let mut patches = 0;
     B::patches(grid, particles, p, |patch| {
-        if B::ONE_PATCH {
-            one = Inertia::diagonal(patch.variance());
-        } else {
+        one = Inertia::diagonal(patch.variance());
+        patches += 1;
+        if !B::ONE_PATCH {
             let spread = patch.spread();
             all.first += spread.first;
             all.second += spread.second;
         }
     });
-    if B::ONE_PATCH { one } else { Inertia::full(&all) }
+    // What is one patch is a product.
+    if B::ONE_PATCH || patches == 1 { one } else { Inertia::full(&all) }
 }

@@ -18,7 +18,8 @@ use std::marker::PhantomData;
 
 const CELLS: usize = 4;
 
-/// A grid full of particles, two to a cell and axis, with every column filled with numbers.
+/// A grid full of particles, two to a cell and axis, with every column filled with numbers. Some domains
+/// are longer than a cell.
 fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
     let (h, origin) = (0.25, Vector::from_element(-0.3));
     let mut grid = kernel.grid(origin, h, [CELLS; D], [periodic; D]);
@@ -28,11 +29,12 @@ fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Pa
     let vector = |k: usize| Vector::<D>::from_fn(|i, _| number(k, i));
     let matrix = |k: usize| Matrix::<D>::from_fn(|i, j| number(k, i + 3 * j));
     particles.track_domains();
+    particles.spacing *= 2.2;
     for p in 0..particles.len() {
         particles.x[p] += vector(p) * (0.2 * h);
         particles.v[p] = vector(p + 1);
         particles.sigma[p] = matrix(p);
-        particles.domain[p] *= 1.1;
+        particles.domain[p] *= if p % 3 == 0 { 2.9 } else { 1.1 };
     }
     grid.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = vector(i + 2));
     grid.acceleration.iter_mut().enumerate().for_each(|(i, a)| *a = vector(i + 3));

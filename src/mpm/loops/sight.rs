@@ -41,9 +41,9 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
 
     /// Calls `see` for the patches of the particles from `first` on, in their order, with the lanes
     /// that they are in: particle `first + k` is in lane k. One that is outside the grid is left out, and
-    /// its bit in the result is not set.
-    /// Where there are several patches, their moments must be known before the first of them is seen;
-    /// where there is one, they follow from its weights at no cost.
+    /// its bit in the result is not set where patches are put, not added.
+    /// Where a particle sees several patches, their moments must be known before the first of them is seen;
+    /// where it sees one, they follow from its weights at no cost.
     #[inline(always)]
     pub(super) fn of<W: Width>(
         &self,
@@ -53,23 +53,31 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
         mut see: impl FnMut(&mut Several<B, D>, Range<usize>, Option<&Inertia<D>>),
     ) -> u32 {
         let Self { particles, grid, lattice, .. } = self;
+        let count = LANES.min(particles.len() - first);
+        let (mut one, mut lane) = (0, 0);
+        while lane < count {
+            let at = (first + lane, lane);
+            one |= B::four(width, (grid, lattice), particles, at, patches) << lane;
+            lane += FOUR;
+        }
         if B::ONE_PATCH {
-            let (mut seen, mut lane) = (0, 0);
-            while lane < LANES.min(particles.len() - first) {
-                let at = (first + lane, lane);
-                seen |= B::four(width, (grid, lattice), particles, at, patches) << lane;
-                lane += FOUR;
-            }
-            let (mut rest, mut lane) = (seen, 0);
+            let (mut rest, mut lane) = (one, 0);
             while rest != 0 {
                 let from = lane + rest.trailing_zeros();
-                lane = from + (seen >> from).trailing_ones();
+                lane = from + (one >> from).trailing_ones();
                 see(patches, from as usize..lane as usize, None);
-                rest = seen >> lane;
+                rest = one >> lane;
             }
-            return seen;
+            return one;
         }
-        for lane in 0..LANES.min(particles.len() - first) {
+        let mut lane = 0;
+        while lane < count {
+            let to = lane + (one >> lane).trailing_ones() as usize;
+            if to > lane {
+                see(patches, lane..to, None);
+                lane = to;
+                continue;
+            }
             let of_all = self.wants_inertia.then(|| inertia::<D, B>(grid, particles, first + lane));
             B::patches(
                 grid,
@@ -81,6 +89,7 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
                     see(patches, lane..lane + 1, of_all.as_ref());
                 },
             );
+            lane += 1;
         }
         ALL
     }
