@@ -10,7 +10,7 @@ use mpm_verify::mpm::{
 const PER_AXIS: usize = 2;
 
 /// Kernels whose instructions are held, by the names `DIMENSION/BASIS/TRANSFER/PASS`.
-pub(crate) const NAMES: [&str; 12] = [
+pub(crate) const NAMES: [&str; 16] = [
     "1d/linear/flip/p2g",
     "1d/linear/flip/g2p",
     "2d/linear/flip/p2g",
@@ -23,6 +23,10 @@ pub(crate) const NAMES: [&str; 12] = [
     "3d/quadratic_bspline/apic/g2p",
     "3d/cubic_bspline/apic/p2g",
     "3d/cubic_bspline/apic/g2p",
+    "1d/cpgimp/flip/p2g",
+    "1d/cpgimp/flip/g2p",
+    "2d/cpgimp/apic/p2g",
+    "2d/cpgimp/apic/g2p",
 ];
 
 /// A cube of about 1000 particles, anywhere in their shares.
