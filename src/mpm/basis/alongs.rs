@@ -1,6 +1,6 @@
 //! Functions along one axis, for several particles at once.
 
-use super::along::Along;
+use super::{along::Along, lattice::Needs};
 use crate::mpm::{
     algebra::array,
     four::{Four, Lanes, Width},
@@ -21,15 +21,23 @@ pub(super) struct Weights<W: Width, const K: usize> {
 }
 
 impl<W: Width, const K: usize> Weights<W, K> {
-    /// To memory.
+    /// To memory, what a pass needs.
     #[inline(always)]
-    pub(super) fn put(self, part: usize, alongs: &mut Alongs<K>) {
+    pub(super) fn put(self, part: usize, needs: Needs, alongs: &mut Alongs<K>) {
         for k in 0..K {
             alongs.weight[k].put(part, self.weight[k]);
-            alongs.slope[k].put(part, self.slope[k]);
-            alongs.offset[k].put(part, self.offset[k]);
         }
-        alongs.variance.put(part, self.variance);
+        if needs.slopes {
+            for k in 0..K {
+                alongs.slope[k].put(part, self.slope[k]);
+            }
+        }
+        if needs.places {
+            for k in 0..K {
+                alongs.offset[k].put(part, self.offset[k]);
+            }
+            alongs.variance.put(part, self.variance);
+        }
     }
 
     /// One of the four.

@@ -221,7 +221,11 @@ macro_rules! bspline {
                 for axis in 0..D {
                     let (cell, xi) = (cell[axis], xi[axis]);
                     let alongs = &mut patches.axes[axis];
-                    along(width, xi, lattice.h, lattice.inverse_h).put(lane / FOUR, alongs);
+                    along(width, xi, lattice.h, lattice.inverse_h).put(
+                        lane / FOUR,
+                        lattice.needs,
+                        alongs,
+                    );
                     let (low, high) =
                         uniform_cells($degree, lattice.ends[axis], lattice.periodic[axis]);
                     if !cell.are_in(low, high) {

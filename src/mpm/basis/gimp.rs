@@ -86,7 +86,7 @@ fn four<W: Width, const D: usize>(
         let at = cell[axis] + xi[axis];
         let extent = Extent::<W>::new(at, half * lattice.inverse_h, wall);
         let along = extent.along(width, lattice.h, lattice.inverse_h);
-        along.put(lane / FOUR, &mut patches.axes[axis]);
+        along.put(lane / FOUR, lattice.needs, &mut patches.axes[axis]);
         start[axis] = extent.first;
         if wall.is_none() && !start[axis].are_in(0.0, lattice.ends[axis]) {
             start[axis] = width.four(beyond_seam(grid, axis, start[axis].into()));

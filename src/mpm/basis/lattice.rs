@@ -7,6 +7,15 @@ use crate::mpm::{
     packed::Layout,
 };
 
+/// What a pass needs of functions besides their values.
+#[derive(Debug, Clone, Copy)]
+pub struct Needs {
+    /// Their derivatives.
+    pub(in crate::mpm) slopes: bool,
+    /// Where they sit, and their variance.
+    pub(in crate::mpm) places: bool,
+}
+
 /// What a pass must know of the grid, without the grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Lattice<const D: usize> {
@@ -18,6 +27,7 @@ pub struct Lattice<const D: usize> {
     pub(super) periodic: [bool; D],
     /// Where nodes are in packed fields.
     pub(in crate::mpm) layout: Layout,
+    pub(super) needs: Needs,
 }
 
 /// Cells of four particles.
@@ -35,8 +45,8 @@ pub(super) struct Places<F, const D: usize> {
 const ALL: u32 = (1 << FOUR) - 1;
 
 impl<const D: usize> Lattice<D> {
-    /// That of `grid`, with fields of this layout.
-    pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout) -> Self {
+    /// That of `grid`, with fields of this layout, for a pass with these needs.
+    pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: Needs) -> Self {
         Self {
             h: grid.h,
             inverse_h: grid.inverse_h(),
@@ -44,6 +54,7 @@ impl<const D: usize> Lattice<D> {
             ends: array(0.0, |axis| grid.cells[axis] as f64),
             periodic: grid.periodic,
             layout,
+            needs,
         }
     }
 

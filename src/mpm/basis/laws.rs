@@ -2,7 +2,7 @@
 //! on periodic axes.
 
 use super::{
-    Basis, BasisName, Domain, Lattice, Patch, Patches, along, contract, product, with_basis,
+    Basis, BasisName, Domain, Lattice, Needs, Patch, Patches, along, contract, product, with_basis,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
@@ -134,7 +134,8 @@ fn fill<B: Basis, const D: usize>(periodic: bool) {
         particles.domain = vec![particles.domain[0]; FOUR];
         let none = <<B as Basis>::Patch<D> as Patch<D>>::Several::none;
         let (mut together, mut alone) = (none(), none());
-        let lattice = Lattice::new(&grid, layout);
+        let needs = Needs { slopes: true, places: true };
+        let lattice = Lattice::new(&grid, layout, needs);
         let one = B::four(Plain, (&grid, &lattice), &particles, (0, FOUR), &mut together);
         for k in 0..FOUR {
             let mut patches = 0;

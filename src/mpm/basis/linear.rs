@@ -74,7 +74,7 @@ impl Basis for Linear {
         patches.put_starts(lane, lattice.starts(&cell));
         for axis in 0..D {
             let along = along(width, xi[axis], lattice.h, lattice.inverse_h);
-            along.put(lane / FOUR, &mut patches.axes[axis]);
+            along.put(lane / FOUR, lattice.needs, &mut patches.axes[axis]);
         }
         inside
     }

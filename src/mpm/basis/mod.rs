@@ -23,7 +23,7 @@ pub use along::Along;
 pub use alongs::Alongs;
 pub use contract::{Basis, Domain};
 pub use corners::Corners;
-pub use lattice::Lattice;
+pub use lattice::{Lattice, Needs};
 pub use patch::{Patch, Patches, Seen, Spread};
 pub use product::Product;
 pub use products::Products;

@@ -3,7 +3,7 @@
 use super::sight::{ALL, Several, Sight};
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    basis::{Basis, Patches},
+    basis::{Basis, Needs, Patches},
     four::{FOUR, Four, LANES, Pass, Width, part},
     grid::Grid,
     kernel::Takes,
@@ -178,10 +178,11 @@ impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
 
     #[inline(always)]
     fn run<W: Width>(mut self, width: W) {
-        let wants_inertia = self.takes.moment.is_some();
+        let (slopes, places) = (self.takes.gradient.is_some(), self.takes.moment.is_some());
         let layout = self.fields[0].layout;
         let mut patches = Several::<B, D>::none();
-        let sight = Sight::<B, D>::new((self.grid, layout), self.particles, wants_inertia);
+        let needs = Needs { slopes, places };
+        let sight = Sight::<B, D>::new((self.grid, layout), self.particles, needs);
         let mut taken = Taken::nothing(width);
         for first in self.these.clone().step_by(LANES) {
             if !B::ONE_PATCH {

@@ -3,7 +3,7 @@
 use super::sight::{Several, Sight};
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
-    basis::{Basis, Patches},
+    basis::{Basis, Needs, Patches},
     four::{FOUR, LANES, Pass, Width},
     grid::Grid,
     kernel::{Affine, Divergence, Maps},
@@ -193,7 +193,9 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
         let has_one_field = has_one_field(particles, maps);
         let layout = self.fields[usize::from(!wants_inertia)].layout;
         let mut patches = Several::<B, D>::none();
-        let sight = Sight::<B, D>::new((grid, layout), particles, is_affine);
+        let slopes = maps.force == Some(Divergence::Gradient);
+        let needs = Needs { slopes, places: is_affine };
+        let sight = Sight::<B, D>::new((grid, layout), particles, needs);
         for first in these.step_by(LANES) {
             sight.of(
                 width,

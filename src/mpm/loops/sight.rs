@@ -2,7 +2,7 @@
 
 use super::inertia::inertia;
 use crate::mpm::{
-    basis::{Basis, Lattice, Patch},
+    basis::{Basis, Lattice, Needs, Patch},
     four::{FOUR, LANES, Width},
     grid::Grid,
     moments::Inertia,
@@ -23,8 +23,7 @@ pub(super) struct Sight<'a, B: Basis, const D: usize> {
     pub(super) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
     lattice: Lattice<D>,
-    /// Whether moments of the weights must be known where there are several patches.
-    wants_inertia: bool,
+    needs: Needs,
     basis: PhantomData<B>,
 }
 
@@ -33,10 +32,10 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
     pub(super) fn new(
         (grid, layout): (&'a Grid<D>, Layout),
         particles: &'a Particles<D>,
-        wants_inertia: bool,
+        needs: Needs,
     ) -> Self {
-        let lattice = Lattice::new(grid, layout);
-        Self { particles, grid, lattice, wants_inertia, basis: PhantomData }
+        let lattice = Lattice::new(grid, layout, needs);
+        Self { particles, grid, lattice, needs, basis: PhantomData }
     }
 
     /// Calls `see` for the patches of the particles from `first` on, in their order, with the lanes
@@ -78,7 +77,7 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
                 lane = to;
                 continue;
             }
-            let of_all = self.wants_inertia.then(|| inertia::<D, B>(grid, particles, first + lane));
+            let of_all = self.needs.places.then(|| inertia::<D, B>(grid, particles, first + lane));
             B::patches(
                 grid,
                 particles,
