@@ -34,10 +34,6 @@ impl<const D: usize> Target<'_, D> {
             Self { fields: [a.1, b.1], columns: columns.1 },
         )
     }
-
-    fn unpack(&mut self, grid: &Grid<D>, layers: Range<usize>) {
-        self.columns.unpack(grid, &self.fields, layers);
-    }
 }
 
 /// Clears the nodes of `target`, calls `add` for all blocks, each with fields that hold its nodes, and
@@ -48,39 +44,55 @@ pub(super) fn share<const D: usize>(
     target: Target<'_, D>,
     add: &(impl Fn(&Block, [ViewMut<'_>; 2]) + Sync),
 ) {
-    share_from(grid, (0, layers(grid).end), [white, black], target, add);
+    let (between, last) = black.split_at(black.len().min(white.len().saturating_sub(1)));
+    Share { grid, add }.tree(0..layers(grid).end, [white, between, last], target);
 }
 
-/// The same for blocks to which no other one adds from layer `free.0` on and before `free.1`.
-fn share_from<const D: usize>(
-    grid: &Grid<D>,
-    free: (usize, usize),
-    [white, black]: [&[Block]; 2],
-    mut target: Target<'_, D>,
-    add: &(impl Fn(&Block, [ViewMut<'_>; 2]) + Sync),
-) {
-    if white.len() > 1 {
+struct Share<'a, A, const D: usize> {
+    grid: &'a Grid<D>,
+    add: &'a A,
+}
+
+impl<A: Fn(&Block, [ViewMut<'_>; 2]) + Sync, const D: usize> Share<'_, A, D> {
+    /// White blocks, those between them, and perhaps one after the last. The layers in `own` are seen by none but
+    /// these.
+    fn tree(
+        &self,
+        own: Range<usize>,
+        [white, black, last]: [&[Block]; 3],
+        mut target: Target<'_, D>,
+    ) {
+        let end = last.first().map_or(own.end, |last| last.layers.start);
         let middle = white.len() / 2;
-        let ([white_left, white_right], [black_left, black_right]) =
-            ([&white[..middle], &white[middle..]], [&black[..middle - 1], &black[middle..]]);
-        let (layer, between) = (white[middle].layers.start, &black[middle - 1]);
-        let (left, right) = target.again().split_at(grid, layer);
-        let (from, to) = (between.layers.start, layer.max(between.layers.end));
-        both(
-            || share_from(grid, (free.0, from), [white_left, black_left], left, add),
-            || share_from(grid, (to, free.1), [white_right, black_right], right, add),
-        );
-        add(between, target.again().fields);
-        return target.unpack(grid, from..to);
+        let (between, seen) = if middle == 0 {
+            target.fields.iter_mut().for_each(ViewMut::clear);
+            (white, own.start..end)
+        } else {
+            let (layer, between) = (white[middle].layers.start, &black[middle - 1..middle]);
+            let seen = between[0].layers.start..layer.max(between[0].layers.end);
+            let (low, high) = target.again().split_at(self.grid, layer);
+            let left = [&white[..middle], &black[..middle - 1], &[]];
+            let right = [&white[middle..], &black[middle..], &[]];
+            both(
+                || self.tree(own.start..seen.start, left, low),
+                || self.tree(seen.end..end, right, high),
+            );
+            (between, seen)
+        };
+        if middle == 0 || last.is_empty() {
+            self.add(between, seen, target.again());
+            return self.add(last, end..own.end, target);
+        }
+        // Two of a colour: at once.
+        let (low, high) = target.split_at(self.grid, end);
+        both(|| self.add(between, seen, low), || self.add(last, end..own.end, high));
     }
-    let end = black.first().map_or(free.1, |black| black.layers.start);
-    if let [white] = white {
-        target.fields.iter_mut().for_each(ViewMut::clear);
-        add(white, target.again().fields);
-        target.unpack(grid, free.0..end);
-    }
-    if let [black] = black {
-        add(black, target.again().fields);
-        target.unpack(grid, end..free.1);
+
+    /// Adds a block, if there is one, and unpacks layers to which no other one will add.
+    fn add(&self, block: &[Block], done: Range<usize>, mut target: Target<'_, D>) {
+        if let [block] = block {
+            (self.add)(block, target.again().fields);
+        }
+        target.columns.unpack(self.grid, &target.fields, done);
     }
 }
