@@ -12,6 +12,14 @@ pub(super) fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     }
 }
 
+/// The first `count` entries of a column, if there is one, and the others.
+pub(super) fn split<T>(
+    column: Option<&mut [T]>,
+    count: usize,
+) -> (Option<&mut [T]>, Option<&mut [T]>) {
+    column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
+}
+
 /// Rows of a field, which threads share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rows {

@@ -1,15 +1,14 @@
 //! Particles that take from nodes, shared by halves among threads: none waits for another.
 
-use crate::mpm::{four::LANES, kernel::Takes, threads::both};
+use crate::mpm::{
+    four::LANES,
+    kernel::Takes,
+    threads::{both, split},
+};
 use std::ops::Range;
 
 /// Particles that are not worth a thread of their own.
 const FEW: usize = 1 << 14;
-
-/// The first `count` of what particles take, and the rest.
-fn split<T>(column: Option<&mut [T]>, count: usize) -> (Option<&mut [T]>, Option<&mut [T]>) {
-    column.map(|column| column.split_at_mut(count)).unzip()
-}
 
 impl<const D: usize> Takes<'_, D> {
     /// What the first `count` particles take, and what the others do.

@@ -1,7 +1,12 @@
 //! Columns of nodes, into which packed fields are unpacked.
 
 use super::{MARGIN, view::ViewMut};
-use crate::mpm::{algebra::Vector, four::part, grid::Grid, threads::both};
+use crate::mpm::{
+    algebra::Vector,
+    four::part,
+    grid::Grid,
+    threads::{both, split},
+};
 use std::ops::Range;
 
 /// Nodes that are not worth a thread of their own.
@@ -33,11 +38,6 @@ pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
 /// Nodes of a layer of the grid.
 fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
     grid.counts[..D - 1].iter().product()
-}
-
-/// The first `count` entries, and the others.
-fn split<T>(column: Option<&mut [T]>, count: usize) -> (Option<&mut [T]>, Option<&mut [T]>) {
-    column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
 }
 
 impl<const D: usize> Columns<'_, D> {
