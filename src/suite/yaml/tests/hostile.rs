@@ -46,13 +46,18 @@ const DEEP: &str = "lists and maps nest more than 64 deep";
 #[case::line_separator("a: \u{2028}b".to_owned(), "character U+2028 is not allowed")]
 #[case::lone_return("a: 1\rb: 2".to_owned(), "character U+000D is not allowed")]
 fn is_refused_at_once(#[case] yaml: String, #[case] message: &str) {
-    let start = Instant::now();
-    let complaint = refused(&yaml);
-    assert_eq!(complaint.message(), message);
-    let shown = complaint.to_string();
-    assert!(shown.lines().all(|line| line.chars().count() < 400), "{shown}");
-    assert!(!shown.contains(['\u{1b}', '\r']));
-    assert!(start.elapsed() < Duration::from_millis(100), "{:?}", start.elapsed());
+    let refuse = || {
+        let start = Instant::now();
+        let complaint = refused(&yaml);
+        assert_eq!(complaint.message(), message);
+        let shown = complaint.to_string();
+        assert!(shown.lines().all(|line| line.chars().count() < 400), "{shown}");
+        assert!(!shown.contains(['\u{1b}', '\r']));
+        start.elapsed()
+    };
+    // One that is slow is slow each time; a busy machine is not.
+    let is_quick = (0..20).any(|_| refuse() < Duration::from_millis(100));
+    assert!(is_quick, "took a tenth of a second, twenty times");
 }
 
 #[test]
