@@ -169,7 +169,7 @@ impl<const D: usize> Particles<D> {
 
     /// Current position of particle `p` (m), in either frame.
     pub fn position(&self, p: usize) -> &Vector<D> {
-        self.moved.get(p).unwrap_or(&self.x[p])
+        &self.positions()[p]
     }
 
     /// Current positions (m), in either frame.

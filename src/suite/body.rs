@@ -4,6 +4,7 @@ use super::{
     binder::Binder,
     hold::Hold,
     law,
+    lengths::{LONGEST, SHORTEST},
     model::{Scene, SceneFace},
     path::Path,
     quadrilateral::quadrilateral,
@@ -12,10 +13,6 @@ use super::{
     yaml::{Complaint, NumberText},
 };
 use crate::{exact::Round, mpm::Quadrilateral};
-
-/// Lengths (m) beyond these are slips of the pen, and their powers are no numbers.
-const SHORTEST: f64 = 1e-30;
-const LONGEST: f64 = 1e30;
 
 /// What a body is.
 pub(super) enum Shape<'a> {

@@ -44,6 +44,7 @@ mod interval;
 mod judged;
 mod kept;
 mod law;
+mod lengths;
 mod limits;
 mod load;
 mod material;

@@ -3,16 +3,13 @@
 use super::{
     binder::Binder,
     hold::FACES,
+    lengths::{LONGEST, SHORTEST},
     path::Path,
     wording::shown,
     words::{BoundaryWords, ConvergenceWords, LoadWords, QuadrilateralWords, SceneWords},
     yaml::Complaint,
 };
 use crate::mpm::{Quadrilateral, Vector};
-
-/// Lengths (m) of sides beyond these are slips of the pen.
-const SHORTEST: f64 = 1e-30;
-const LONGEST: f64 = 1e30;
 
 /// The panel that `words` at `path` describe.
 ///

@@ -1,6 +1,6 @@
 //! Columns of nodes, into which packed fields are unpacked.
 
-use super::{MARGIN, view::ViewMut};
+use super::{FEW, MARGIN, view::ViewMut};
 use crate::mpm::{
     algebra::Vector,
     four::part,
@@ -8,9 +8,6 @@ use crate::mpm::{
     threads::{both, split},
 };
 use std::ops::Range;
-
-/// Nodes that are not worth a thread of their own.
-const FEW: usize = 1 << 14;
 
 /// Nodes of a row where a grid has one row only: they are still near when the next column is written.
 const PIECE: usize = 1 << 9;
