@@ -6,9 +6,9 @@
 //! before the level has run and its error has been found to be what it must be.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use mpm_verify::suite::{
-    Suite, embedded,
-    pricing::{Goal, goals},
+use mpm_verify::{
+    study::cost::{Goal, goals},
+    suite::{Suite, embedded},
 };
 use std::time::Duration;
 

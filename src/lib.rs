@@ -74,6 +74,7 @@
 //! assert_eq!(found.verdict, Verdict::Converging, "{}", found.reason);
 //! ```
 
+pub mod study;
 pub mod subject;
 
 pub mod fem;

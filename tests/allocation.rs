@@ -10,7 +10,8 @@ use mpm_verify::{
         formula::{Expr, Formula, Scope},
         heat::{Conduction, HeatForcing, Temperature},
     },
-    fem::{self, Bar, Element, Mass, Sampling},
+    fem,
+    fem::{Bar, Element, Mass, Sampling},
     mpm::{
         ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Conductor, Damping, Driven,
         EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, MaterialPlan, Matrix,

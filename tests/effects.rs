@@ -17,8 +17,9 @@ use mpm_verify::{
         NeoHookean, Particles, Placement, Prescribed, Pressure, Roller, SchemeName, SetForce,
         Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
     },
+    study::describe::profiles,
     subject::{Column, Holder, Profile, Subject},
-    suite::{Hold, StudyPlan, Suite, embedded, profiles},
+    suite::{Hold, StudyPlan, Suite, embedded},
 };
 use rstest::rstest;
 use std::sync::Arc;

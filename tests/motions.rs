@@ -7,7 +7,8 @@ use mpm_verify::{
         Equation, Motion, Problem,
         formula::{Expr, Formula, Scope},
     },
-    suite::{Runner, Suite, yaml::Source},
+    study::Runner,
+    suite::{Suite, yaml::Source},
 };
 use rstest::rstest;
 

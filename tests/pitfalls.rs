@@ -3,7 +3,8 @@
 
 use mpm_verify::{
     report::drift,
-    suite::{Runner, Suite, embedded, yaml::Source},
+    study::Runner,
+    suite::{Suite, embedded, yaml::Source},
     verify::{Claim, Level, Norms, Verdict, judge},
 };
 use rstest::rstest;

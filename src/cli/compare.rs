@@ -6,7 +6,10 @@ use super::{
     status::{BAD_INPUT, FAILED, PASSED},
 };
 use mpm_verify::{
-    report::compare::{self, Document, Unreadable},
+    report::{
+        compare,
+        compare::{Document, Unreadable},
+    },
     suite::yaml::Complaint,
 };
 use std::{fs, ops::Range, path::Path};

@@ -8,10 +8,8 @@ use super::{
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
-    suite::{
-        Extent, StudyPlan, Suite,
-        pricing::{Over, bid, price, variants},
-    },
+    study::cost::{Over, bid, price, variants},
+    suite::{Extent, StudyPlan, Suite},
     verify::{Bid, Priced},
 };
 use std::{fs, path::Path};

@@ -3,11 +3,8 @@
 use super::{args::ExplainArgs, output, show, status::BAD_INPUT};
 use mpm_verify::{
     report,
-    suite::{
-        StudyPlan, Suite,
-        profiles::{self, Dispensable},
-        statement,
-    },
+    study::describe::{profiles, profiles::Dispensable, statement},
+    suite::{StudyPlan, Suite},
 };
 
 /// Prints the page of each suite.

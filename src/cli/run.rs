@@ -8,7 +8,8 @@ use super::{
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
-    suite::{Extent, Kept, Runner, Suite, yaml::Source},
+    study::{Kept, Runner},
+    suite::{Extent, Suite, yaml::Source},
     verify::SuiteOutcome,
 };
 use std::{fs, io, path::Path, time::Duration};

@@ -6,7 +6,7 @@
 
 use super::{
     formula::{Number, Slope},
-    plastic::{Yield, kirchhoff},
+    law::plastic::{Yield, kirchhoff},
     tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit},
 };
 

@@ -4,37 +4,29 @@
 //! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
 //! runs. Knows no solver.
 
-mod boundary;
 mod check;
-mod differences;
 mod equation;
 mod expansion;
 mod forcing;
 pub mod formula;
-mod friction;
 pub mod heat;
-mod loading;
-mod meeting;
+pub(crate) mod law;
 mod motion;
-mod plastic;
-mod pointwise;
 mod problem;
 mod random;
 mod region;
-mod rims;
 mod round;
 mod tensor;
 mod truth;
 mod violation;
-mod weak;
 
 #[cfg(test)]
 mod tests;
 
+pub use check::interface::meets;
 pub use equation::Equation;
 pub use expansion::Expansion;
 pub use forcing::Forcing;
-pub use meeting::meets;
 pub use motion::{Derivatives, Motion, Places};
 pub use problem::{Condition, Face, Problem};
 pub use random::Random;

@@ -60,7 +60,7 @@ fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
 #[rstest]
 fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     let unforced = Problem { manufactured: false, ..held(dimension) };
-    let found = super::weak::momentum(&unforced).unwrap_err();
+    let found = super::check::weak::momentum(&unforced).unwrap_err();
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
@@ -208,6 +208,6 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
         assert!(!wrong.at_rest || found.t == wrong.until, "{found}");
     }
     let weak = Problem { gravity: load("8*min(2*t, 1)"), ..hanging };
-    let found = super::weak::momentum(&weak).unwrap_err();
+    let found = super::check::weak::momentum(&weak).unwrap_err();
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }

@@ -1,8 +1,10 @@
 //! The bar in motion.
 
-use super::mass::MassMatrix;
-use super::mesh::{Mesh, dot};
-use super::setup::{Field, Setup, SetupError};
+use super::{
+    mass::MassMatrix,
+    mesh::{Mesh, dot},
+    setup::{Field, Setup, SetupError},
+};
 use crate::subject::{Census, Checkpoint, Failure, Samples, Site, Start, Subject};
 
 /// A bar, discretised by finite elements, at some instant.

@@ -12,58 +12,40 @@
 //! ```
 
 pub mod adding_a_basis;
+pub(crate) mod analysis;
+pub(crate) mod seeding;
+pub(crate) mod state;
 
 mod algebra;
 mod basis;
-mod bodies;
 mod boundary;
-mod checkpoint;
 mod combination;
-mod conductor;
-mod counted;
-mod counted_scalars;
 mod effect;
 mod family;
-mod four;
 mod frame;
 mod grid;
-mod initial;
+mod heat_solver;
 mod kernel;
-mod loops;
-mod mapped;
 mod mass;
 mod material;
-mod moments;
-mod null_space;
-mod order;
-mod packed;
+mod multibody;
+mod packed_grid;
 mod particles;
-mod quadrilateral;
-mod safe_step;
-mod sampling;
-mod scalars;
 mod scheme;
 mod setup;
+mod simd;
 mod solver;
-mod soundness;
 mod stage;
-mod state;
 mod step;
 mod stress;
 mod threads;
-mod totals;
-mod touch;
 mod transfer;
 mod visits;
-mod whereabouts;
 
 pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
-pub use bodies::Bodies;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_bodies};
-pub use conductor::Conductor;
-pub use counted::{Counted, Tally};
 pub use effect::{
     ArtificialViscosity, BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, Heat,
     HeatSource, LocalDamping, Placement, Pressure, PressureField, ScalarField, SetForce, Thermal,
@@ -71,18 +53,21 @@ pub use effect::{
 };
 pub use frame::FrameName;
 pub use grid::Grid;
-pub use kernel::{Affine, Divergence, Kernel, Maps, Shown, Takes};
-pub use loops::kernel;
+pub use heat_solver::Conductor;
+pub use kernel::contract::{Affine, Divergence, Kernel, Maps, Shown, Takes};
+pub use kernel::counting::{Counted, Tally};
+pub use kernel::kernel;
+pub use kernel::moments::Moments;
+pub use kernel::scalar_contract::Scalars;
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
     Hencky, J2, LinearElastic, Material, MaterialPlan, MaterialWords, NeoHookean, Newtonian,
     Parameter, Range, Rigid,
 };
-pub use moments::Moments;
+pub use multibody::Bodies;
 pub use particles::{Block, Particles};
-pub use quadrilateral::Quadrilateral;
-pub use scalars::Scalars;
 pub use scheme::SchemeName;
+pub use seeding::quadrilateral::Quadrilateral;
 pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;

@@ -3,8 +3,11 @@
 //! All three are Euler-Cromer (semi-implicit Euler); they differ in which velocity updates the
 //! stress, and when (Bardenhagen 2002, J. Comput. Phys. 180).
 
-use super::stage::Stage::{
-    self, Acceleration, Force, GridVelocity, Mass, Momentum, ParticleVelocity, Position, Stress,
+use super::stage::{
+    Stage,
+    Stage::{
+        Acceleration, Force, GridVelocity, Mass, Momentum, ParticleVelocity, Position, Stress,
+    },
 };
 use crate::named::named;
 

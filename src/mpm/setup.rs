@@ -1,7 +1,7 @@
 //! What a solver is made of.
 
 use super::{
-    boundary::Boundary, effect::Effect, frame::FrameName, grid::Grid, kernel::Kernel,
+    boundary::Boundary, effect::Effect, frame::FrameName, grid::Grid, kernel::contract::Kernel,
     mass::MassMatrix, material::Material, particles::Particles, scheme::SchemeName, stage::Stage,
     transfer::Transfer,
 };

@@ -2,16 +2,16 @@
 
 use super::{
     algebra::Vector,
+    analysis::cell_tracker::Whereabouts,
     basis::Domain,
     boundary::Advance,
     frame::FrameName,
     grid::Grid,
-    initial,
     particles::Particles,
     setup::Setup,
     stage::{Gathered, Stage, Visited, maps, takes},
+    state::initial,
     transfer::{Transfer, Wanted},
-    whereabouts::Whereabouts,
 };
 use crate::subject::{Column, Failure, Profile};
 

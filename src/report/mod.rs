@@ -8,34 +8,18 @@
 //! - [`mod@compare`]: two JSON documents side by side, what moved first.
 
 pub mod compare;
-#[cfg(test)]
-mod contrast;
-mod cost;
-mod cost_figure;
-mod drawing;
-pub mod drift;
 pub mod figure;
-mod json;
-mod json_cost;
-mod json_number;
-mod json_priced;
-mod json_stability;
-mod levels;
+pub(crate) mod json;
 pub mod page;
-mod priced;
-mod profile;
-mod stability;
-mod svg;
-mod sweep;
-mod table;
-mod text;
+pub(crate) mod text;
 
-pub use cost::cost;
-pub use cost_figure::cost_figures;
-pub use drawing::Figure;
-pub use json::json;
-pub use json_priced::priced_json;
-pub use priced::{bid, priced};
-pub use profile::{difference, profile};
-pub use svg::svg;
-pub use text::{case, summary, text};
+pub use figure::cost::cost_figures;
+pub use figure::drawing::Figure;
+pub use figure::study::svg;
+pub use json::document::json;
+pub use json::timed_suite::priced_json;
+pub use text::cost::cost;
+pub use text::drift;
+pub use text::profile::{difference, profile};
+pub use text::report::{case, summary, text};
+pub use text::timed_suite::{bid, priced};

@@ -4,7 +4,7 @@
 //! the total itself for mass and energies, the sum of the magnitudes of its terms for the
 //! momenta (which may themselves be zero). A law without an energy leaves that sum NaN.
 
-use super::norm::larger;
+use super::error::norm::larger;
 use crate::{
     named::named,
     subject::{Checkpoint, Memory, Totals},

@@ -22,68 +22,47 @@
 //! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by absolute numbers, so that no
 //! unit of error or spacing changes a verdict.
 
-mod axis;
-mod beta;
-mod claim;
-mod clock;
 mod conservation;
 mod cost;
+mod energy_rate;
+pub(crate) mod error;
 mod expectation;
-mod figures;
-mod fit;
-mod floor;
-mod judge;
-mod keeper;
-mod level;
-mod limits;
-mod norm;
-mod observer;
+pub(crate) mod order;
 mod outcome;
-mod pairwise;
-mod quantity;
-mod reason;
-mod richardson;
-mod run;
-mod secular;
-mod shape;
-mod shown;
 mod stability;
-mod student;
 #[cfg(test)]
 mod tests;
-mod verdict;
-mod window;
-mod yardstick;
+pub(crate) mod verdict;
 
-pub use axis::Axis;
-pub use claim::Claim;
-pub use clock::{Clock, MOST_STEPS};
 pub use conservation::{Conserved, Drift};
 pub use cost::{
     Agreement, Bid, Contender, End, Exponent, Load, Machine, Model, Part, Priced, Ranked, Ranking,
     Reach, TARGETS, Timing, Tried, pareto_front, rankings,
 };
+pub use error::checkpoint_store::{Keeper, Nobody};
+pub use error::clock::{Clock, MOST_STEPS};
+pub use error::error_scale::{Yardstick, largest_exact};
+pub use error::norm::Norms;
+pub(crate) use error::norm::larger;
+pub use error::observer::{History, displacement_at};
+pub use error::quantity::{Quantity, errors_of};
+pub use error::run::{Comparison, errors, resume, run};
+pub use error::run_result::Run;
+pub use expectation::limits::{Limits, Measured};
 pub use expectation::{Bounds, Expectation, Seen};
-pub use fit::Interval;
-pub use floor::{Floor, FloorCause, Probe};
-pub use judge::{Judgement, judge};
-pub use keeper::{Keeper, Nobody};
-pub use level::Level;
-pub use limits::{Limits, Measured};
-pub use norm::Norms;
-pub(crate) use norm::larger;
-pub use observer::{History, displacement_at};
+pub use order::axis::Axis;
+pub use order::fit::Interval;
+pub use order::hypothesis::Claim;
+pub use order::level::Level;
+pub use order::pairwise::observed_order;
+pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
+pub use order::t_quantile::two_sided_95;
 pub use outcome::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
-pub use pairwise::observed_order;
-pub use quantity::{Quantity, errors_of};
-pub use richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
-pub use run::{Comparison, errors, resume, run};
-pub use shown::Run;
 pub use stability::{
     Critical, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
     StabilityLimit, StabilityRow, StabilityStudy, Trial, Wanted, amplification, resume_trial,
     spectral_radius, stability_limit, trial,
 };
-pub use student::two_sided_95;
-pub use verdict::{UnknownVerdict, Verdict};
-pub use yardstick::{Yardstick, largest_exact};
+pub use verdict::floor::{Floor, FloorCause, Probe};
+pub use verdict::judge::{Judgement, judge};
+pub use verdict::name::{UnknownVerdict, Verdict};

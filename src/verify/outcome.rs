@@ -1,9 +1,11 @@
 //! The results of a suite: all that reports are made of.
 
 use super::{
-    axis::Axis, conservation::Conserved, figures::figures, floor::Floor, judge::Judgement,
-    observer::History, quantity::Quantity, richardson::Richardson, shown::Run,
-    stability::StabilityStudy, verdict::Verdict, yardstick::Yardstick,
+    conservation::Conserved,
+    error::{error_scale::Yardstick, observer::History, quantity::Quantity, run_result::Run},
+    order::{axis::Axis, format_number::figures, richardson::Richardson},
+    stability::StabilityStudy,
+    verdict::{floor::Floor, judge::Judgement, name::Verdict},
 };
 use crate::subject::Profile;
 

@@ -19,7 +19,7 @@ mod token;
 
 use rules::Breach;
 
-const DISPATCH: &str = "src/suite/dispatch.rs";
+const DISPATCH: &str = "src/study/build/dispatch.rs";
 
 /// Fails with a list of `breaches` that a stranger to the crate understands.
 fn hold(rule: &str, why: &str, breaches: &[Breach]) {
@@ -80,7 +80,7 @@ fn walls_and_exceptions_are_about_files_that_exist() {
 fn only_dispatch_knows_both_solvers() {
     let (sources, both): (_, [&[&str]; 2]) = (source::of_crate(), [&["Solver"], &["bar", "("]]);
     hold(
-        "only src/suite/dispatch.rs mentions both `Solver` (MPM) and calls `bar` (FEM)",
+        "only src/study/build/dispatch.rs mentions both `Solver` (MPM) and calls `bar` (FEM)",
         "names become solvers in one place, so that a new solver is added in one place",
         &rules::mentions(&sources, &both, DISPATCH),
     );
@@ -93,7 +93,7 @@ fn only_dispatch_spells_out_the_dimensions() {
     let (sources, all): (_, [&[&str]; 3]) =
         (source::of_crate(), [&["<", "1", ">"], &["<", "2", ">"], &["<", "3", ">"]]);
     hold(
-        "only src/suite/dispatch.rs has `<1>`, `<2>` and `<3>` together",
+        "only src/study/build/dispatch.rs has `<1>`, `<2>` and `<3>` together",
         "all else is written once for any dimension, so that no dimension is forgotten",
         &rules::mentions(&sources, &all, DISPATCH),
     );

@@ -2,7 +2,8 @@
 
 use crate::{
     graph::{Edge, cycles, edges},
-    rules::{self, WALLS},
+    rules,
+    rules::WALLS,
     source::{Source, of_files},
     token::tokens,
 };
@@ -131,7 +132,7 @@ fn a_folder_and_its_child_can_form_a_cycle() {
 #[case("src/verify/run.rs", "use crate::{exact::Truth, subject::Subject};", 0)]
 #[case("src/report/text.rs", "use super::super::suite::Suite;", 1)]
 #[case("src/exact/motion.rs", "pub use crate::fem::Bar;", 1)]
-#[case("src/suite/dispatch.rs", "use crate::{mpm::Solver, fem::Bar, verify::Claim};", 0)]
+#[case("src/study/build/dispatch.rs", "use crate::{mpm::Solver, fem::Bar, verify::Claim};", 0)]
 fn a_planted_breach_of_a_wall_is_found(
     #[case] file: &str,
     #[case] code: &str,

@@ -1,8 +1,11 @@
 //! Bytes as the text of a suite.
 
-use mpm_verify::suite::{
-    Runner, Suite,
-    yaml::{Complaint, Source},
+use mpm_verify::{
+    study::Runner,
+    suite::{
+        Suite,
+        yaml::{Complaint, Source},
+    },
 };
 
 /// Loads what the bytes say; panics where loading does, where a complaint does not name the file, or

@@ -13,7 +13,8 @@ use insta::{Comparator, Settings, Snapshot, assert_snapshot};
 use libtest_mimic::{Arguments, Failed, Trial};
 use mpm_verify::{
     report,
-    suite::{Runner, Suite, yaml::Source},
+    study::Runner,
+    suite::{Suite, yaml::Source},
     verify::CaseOutcome,
 };
 use rayon::prelude::*;

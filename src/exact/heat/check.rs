@@ -7,9 +7,9 @@ use super::{
     weak,
 };
 use crate::exact::{
+    check::pointwise::{Event, POINTS, largest},
     formula::Formula,
     motion::{Derivatives, variables},
-    pointwise::{Event, POINTS, largest},
     random::Random,
     violation::Violation,
 };

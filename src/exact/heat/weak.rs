@@ -6,9 +6,9 @@
 
 use super::problem::Conduction;
 use crate::exact::{
+    check::weak::{PATCHES, Patch, Sums, TOLERANCE, bump},
     random::Random,
     violation::Violation,
-    weak::{PATCHES, Patch, Sums, TOLERANCE, bump},
 };
 
 /// Checks the balance of heat.

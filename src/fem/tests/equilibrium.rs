@@ -4,8 +4,10 @@ use approx::assert_relative_eq;
 use rstest::rstest;
 
 use super::{bar_at_rest, run};
-use crate::fem::{Bar, Element, Mass, Sampling, Setup, pointwise};
-use crate::subject::{Samples, Subject};
+use crate::{
+    fem::{Bar, Element, Mass, Sampling, Setup, pointwise},
+    subject::{Samples, Subject},
+};
 
 const STRETCH: f64 = 1.3;
 

@@ -9,8 +9,7 @@ mod time;
 use std::f64::consts::PI;
 
 use super::{Bar, Element, Mass, Sampling, Setup};
-use crate::subject::Start;
-use crate::subject::{Samples, Subject};
+use crate::subject::{Samples, Start, Subject};
 
 /// A bar at rest: fixed on the left, free on the right, `P = E (F - 1)`.
 fn bar_at_rest(length: f64, young: f64, density: f64) -> Setup {

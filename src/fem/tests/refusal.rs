@@ -3,9 +3,10 @@
 use rstest::rstest;
 
 use super::bar_at_rest;
-use crate::fem::setup::MOST_CELLS;
-use crate::fem::{Bar, Mass, Setup, SetupError, pointwise};
-use crate::subject::{Failure, Site, Subject};
+use crate::{
+    fem::{Bar, Mass, Setup, SetupError, pointwise, setup::MOST_CELLS},
+    subject::{Failure, Site, Subject},
+};
 
 fn start() -> Setup {
     bar_at_rest(1.0, 1e5, 1e3)

@@ -5,9 +5,14 @@ use std::f64::consts::PI;
 use rstest::rstest;
 
 use super::{orders, rms, run, vibrating_bar};
-use crate::fem::Element::{self, Linear, Quadratic};
-use crate::fem::Mass::{self, Consistent, Lumped};
-use crate::fem::Sampling::{self, Inside, Nodes};
+use crate::fem::{
+    Element,
+    Element::{Linear, Quadratic},
+    Mass,
+    Mass::{Consistent, Lumped},
+    Sampling,
+    Sampling::{Inside, Nodes},
+};
 
 /// `u = v0/w sin(pi X / (2L)) sin(w t)`.
 fn exact(x: f64, t: f64) -> f64 {

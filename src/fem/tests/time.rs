@@ -3,13 +3,15 @@
 use rstest::rstest;
 
 use super::{bar_at_rest, orders, run, vibrating_bar};
-use crate::fem::Element::{self, Linear, Quadratic};
-use crate::fem::Mass::{self, Consistent, Lumped};
-use crate::fem::pointwise;
-use crate::subject::Subject;
 use crate::{
-    fem::{Bar, Setup},
-    subject::{Checkpoint, Samples, Start},
+    fem::{
+        Bar, Element,
+        Element::{Linear, Quadratic},
+        Mass,
+        Mass::{Consistent, Lumped},
+        Setup, pointwise,
+    },
+    subject::{Checkpoint, Samples, Start, Subject},
 };
 
 /// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.

@@ -7,18 +7,18 @@
 //! algorithm A2.2).
 
 use super::{
-    along::Along,
-    alongs::{Alongs, Weights},
     contract::{Basis, Domain},
     lattice::{Lattice, Places},
     product::Product,
-    products::Products,
+    product_batch::Products,
+    weights_1d::Along,
+    weights_1d_batch::{Alongs, Weights},
 };
 use crate::mpm::{
     algebra::array,
-    four::{FOUR, Four, Plain, Width},
     grid::Grid,
     particles::Particles,
+    simd::{FOUR, Four, Plain, Width},
 };
 
 /// Quadratic B-splines.

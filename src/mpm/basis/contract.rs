@@ -5,9 +5,9 @@ use super::{
     patch::{Patch, Seen},
 };
 use crate::mpm::{
-    four::{FOUR, Width},
     grid::Grid,
     particles::Particles,
+    simd::{FOUR, Width},
 };
 
 /// What a basis must know of a particle besides its position.

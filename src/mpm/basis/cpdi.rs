@@ -22,16 +22,16 @@
 //! to the wall would not keep it.
 
 use super::{
-    along::Along,
     contract::{Basis, Domain},
-    corners::Corners,
+    corner_batch::Corners,
     patch::{Patch, Seen, Spread},
     product::Product,
+    weights_1d::Along,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array, cofactor, det},
     grid::{Grid, floor},
-    packed::Layout,
+    packed_grid::Layout,
     particles::Particles,
 };
 

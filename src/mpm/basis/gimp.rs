@@ -7,18 +7,18 @@
 //! diagonal of F, so that domains neither part nor overlap. At walls the domain is cut off.
 
 use super::{
-    along::Along,
     contract::{Basis, Domain},
-    extent::{AT_ONCE, Alone, Extent},
+    domain_1d::{AT_ONCE, Alone, Extent},
     lattice::{Lattice, Places},
     product::Product,
-    products::Products,
+    product_batch::Products,
+    weights_1d::Along,
 };
 use crate::mpm::{
     algebra::{Matrix, array},
-    four::{FOUR, Four, Width},
     grid::Grid,
     particles::Particles,
+    simd::{FOUR, Four, Width},
 };
 
 /// GIMP with domains of constant size.
@@ -173,7 +173,7 @@ gimp!(ContiguousGimp, Follows);
 
 #[cfg(test)]
 mod tests {
-    use crate::mpm::{BasisName, Block, Particles, Vector, kernel};
+    use crate::mpm::{BasisName, Block, Particles, Vector, kernel::kernel};
     use rstest::rstest;
 
     /// Found by the fuzzer: a length that no body has reached far beyond the grid.

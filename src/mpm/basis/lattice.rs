@@ -2,9 +2,9 @@
 
 use crate::mpm::{
     algebra::{Vector, array},
-    four::{FOUR, Four, Width},
     grid::{Grid, WHOLE},
-    packed::Layout,
+    packed_grid::Layout,
+    simd::{FOUR, Four, Width},
 };
 
 /// What a pass needs of functions besides their values.

@@ -2,14 +2,15 @@
 //! on periodic axes.
 
 use super::{
-    Basis, BasisName, Domain, Lattice, Needs, Patch, Patches, along, contract, product, with_basis,
+    Basis, BasisName, Domain, Lattice, Needs, Patch, Patches, contract, product, weights_1d,
+    with_basis,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
-    four::{FOUR, Plain},
     grid::Grid,
-    packed::Layout,
+    packed_grid::Layout,
     particles::{Block, Particles},
+    simd::{FOUR, Plain},
 };
 use approx::assert_abs_diff_eq;
 use rstest::rstest;

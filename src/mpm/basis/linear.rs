@@ -5,18 +5,18 @@
 //! (grid crossing).
 
 use super::{
-    along::Along,
-    alongs::Weights,
     contract::{Basis, Domain},
     lattice::{Lattice, Places},
     product::Product,
-    products::Products,
+    product_batch::Products,
+    weights_1d::Along,
+    weights_1d_batch::Weights,
 };
 use crate::mpm::{
     algebra::array,
-    four::{FOUR, Plain, Width},
     grid::Grid,
     particles::Particles,
+    simd::{FOUR, Plain, Width},
 };
 
 /// The hats along an axis, at `xi` from 0 to 1 within a cell.

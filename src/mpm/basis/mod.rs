@@ -1,32 +1,32 @@
 //! Basis functions: the family. A member is one file and one line below (and the `mod` that Rust
 //! wants).
 
-mod along;
-mod alongs;
 mod bspline;
 mod contract;
-mod corners;
+mod corner_batch;
 mod cpdi;
-mod extent;
+mod domain_1d;
 mod gimp;
 mod lattice;
 #[cfg(test)]
 mod laws;
 mod linear;
+mod node_accumulator;
 mod patch;
 mod product;
-mod products;
-mod sink;
+mod product_batch;
 mod sums;
+mod weights_1d;
+mod weights_1d_batch;
 
-pub use along::Along;
-pub use alongs::Alongs;
 pub use contract::{Basis, Domain};
-pub use corners::Corners;
+pub use corner_batch::Corners;
 pub use lattice::{Lattice, Needs};
 pub use patch::{Patch, Patches, Seen, Spread};
 pub use product::Product;
-pub use products::Products;
+pub use product_batch::Products;
+pub use weights_1d::Along;
+pub use weights_1d_batch::Alongs;
 
 use super::{algebra::Vector, family::family, grid::Grid};
 

@@ -2,9 +2,9 @@
 
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    four::Width,
     grid::Grid,
-    packed::{Layout, View, ViewMut},
+    packed_grid::{Layout, View, ViewMut},
+    simd::Width,
 };
 use std::{fmt::Debug, ops::Range};
 

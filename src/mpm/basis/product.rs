@@ -1,14 +1,14 @@
 //! Products of functions along the axes: the patch of nodes that most bases show to a particle.
 
 use super::{
-    along::{Along, product},
     patch::{Patch, Seen, Spread},
-    products::Products,
+    product_batch::Products,
+    weights_1d::{Along, product},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
     grid::Grid,
-    packed::Layout,
+    packed_grid::Layout,
 };
 
 /// All products of functions along the axes; at most four along each.

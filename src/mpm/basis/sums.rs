@@ -1,11 +1,11 @@
 //! Sums over the nodes of a patch, taken axis by axis: a node costs a product and a sum for each
 //! function, not one for each axis.
 
-use super::products::{Products, of};
+use super::product_batch::{Products, of};
 use crate::mpm::{
     algebra::array,
-    four::Width,
-    packed::{Node, View},
+    packed_grid::{Node, View},
+    simd::Width,
 };
 use std::ops::AddAssign;
 

@@ -13,11 +13,12 @@
 //! held as the last one left them.
 
 use super::{
+    contact_state::Touch,
     contract::{Advance, Boundary},
     face::{Side, nodes},
 };
 use crate::{
-    mpm::{algebra::Vector, grid::Grid, touch::Touch},
+    mpm::{algebra::Vector, grid::Grid},
     subject::{Checkpoint, Column},
 };
 
@@ -111,7 +112,7 @@ impl<const D: usize> Boundary<D> for Friction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, kernel};
+    use crate::mpm::{BasisName, kernel::kernel};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -6,6 +6,8 @@
 //! 2008), so holding their coefficients holds the wall. Where faces meet, a later condition of the
 //! list overrides an earlier one.
 
+pub(crate) mod contact_state;
+
 mod contract;
 mod face;
 mod fixed;

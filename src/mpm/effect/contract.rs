@@ -2,7 +2,7 @@
 
 use super::name::EffectName;
 use crate::{
-    mpm::{grid::Grid, kernel::Kernel, material::Material, particles::Particles},
+    mpm::{grid::Grid, kernel::contract::Kernel, material::Material, particles::Particles},
     subject::{Checkpoint, Column, Failure},
 };
 

@@ -4,7 +4,7 @@
 //! nodal mass, and no particle is visited.
 
 use super::{contract::Effect, name::EffectName};
-use crate::mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles};
 
 /// Gravity, b(t) (m/s2).
 pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> Vector<D> + Send>);

@@ -21,7 +21,7 @@
 
 use super::{contract::Effect, name::EffectName, thermal_face::ThermalFace};
 use crate::{
-    mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
     subject::{Checkpoint, Column, Failure, Site},
 };
 
@@ -169,7 +169,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, Side, Thermal, kernel};
+    use crate::mpm::{BasisName, Block, Side, Thermal, kernel::kernel};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

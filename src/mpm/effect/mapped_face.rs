@@ -51,7 +51,9 @@ impl MappedFace {
 
 #[cfg(test)]
 mod tests {
-    use crate::mpm::{BasisName, Effect, Placement, Quadrilateral, Side, Traction, Vector, kernel};
+    use crate::mpm::{
+        BasisName, Effect, Placement, Quadrilateral, Side, Traction, Vector, kernel::kernel,
+    };
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -14,7 +14,7 @@ use crate::{
         algebra::{Vector, cofactor},
         boundary::Side,
         grid::Grid,
-        kernel::Kernel,
+        kernel::contract::Kernel,
         particles::Particles,
     },
     subject::Column,

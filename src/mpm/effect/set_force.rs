@@ -5,7 +5,7 @@
 
 use super::{contract::Effect, name::EffectName};
 use crate::{
-    mpm::{algebra::Vector, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
     subject::Column,
 };
 

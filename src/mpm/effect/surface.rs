@@ -13,14 +13,16 @@
 //!   point itself: just beyond a node they belong in part to a node that no particle gives any mass.
 
 use super::mapped_face::MappedFace;
-use crate::mpm::{
-    algebra::{Matrix, Vector, dyad},
-    boundary::Side,
-    grid::Grid,
-    kernel::Kernel,
-    particles::Particles,
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector, dyad},
+        boundary::Side,
+        grid::Grid,
+        kernel::contract::Kernel,
+        particles::Particles,
+    },
+    named::named,
 };
-use crate::named::named;
 
 named! {
     /// Where a force on a surface acts.

@@ -15,7 +15,7 @@ use crate::{
         basis::BasisName,
         boundary::{Side, nodes},
         grid::Grid,
-        kernel::Kernel,
+        kernel::contract::Kernel,
         particles::Particles,
     },
     subject::Column,

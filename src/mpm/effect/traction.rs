@@ -11,7 +11,9 @@ use super::{
     surface::{Placement, Surface},
 };
 use crate::{
-    mpm::{algebra::Vector, boundary::Side, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{
+        algebra::Vector, boundary::Side, grid::Grid, kernel::contract::Kernel, particles::Particles,
+    },
     subject::Column,
 };
 
@@ -76,7 +78,7 @@ impl<const D: usize> Effect<D> for Traction<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, Matrix, kernel};
+    use crate::mpm::{BasisName, Block, Matrix, kernel::kernel};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -8,7 +8,10 @@
 
 use super::{assembly::Assembly, contract::MassMatrix};
 use crate::{
-    mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{
+        algebra::Vector, boundary::Boundary, grid::Grid, kernel::contract::Kernel,
+        particles::Particles,
+    },
     subject::Failure,
 };
 use nalgebra::DVector;

@@ -1,7 +1,10 @@
 //! What a mass matrix is to the rest of the solver.
 
 use crate::{
-    mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{
+        algebra::Vector, boundary::Boundary, grid::Grid, kernel::contract::Kernel,
+        particles::Particles,
+    },
     subject::Failure,
 };
 

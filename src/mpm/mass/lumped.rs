@@ -4,7 +4,10 @@
 
 use super::contract::MassMatrix;
 use crate::{
-    mpm::{algebra::Vector, boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles},
+    mpm::{
+        algebra::Vector, boundary::Boundary, grid::Grid, kernel::contract::Kernel,
+        particles::Particles,
+    },
     subject::Failure,
 };
 

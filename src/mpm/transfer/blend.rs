@@ -7,7 +7,7 @@ use super::{
     contract::{Transfer, add_acceleration, mix_velocity},
     wanted::Recipe,
 };
-use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{boundary::Boundary, grid::Grid, kernel::contract::Kernel, particles::Particles};
 
 /// FLIP with a small part of PIC.
 #[derive(Debug, Clone, Copy)]

@@ -6,7 +6,7 @@ use crate::{
         algebra::{Matrix, Vector},
         boundary::Boundary,
         grid::Grid,
-        kernel::{Divergence, Kernel, Maps, Shown},
+        kernel::contract::{Divergence, Kernel, Maps, Shown},
         particles::Particles,
     },
     subject::{Checkpoint, Column},

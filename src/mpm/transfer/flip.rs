@@ -7,7 +7,7 @@ use super::{
     contract::{Transfer, add_acceleration},
     wanted::Recipe,
 };
-use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{boundary::Boundary, grid::Grid, kernel::contract::Kernel, particles::Particles};
 
 /// The transfer of the original MPM.
 #[derive(Debug, Clone, Copy)]

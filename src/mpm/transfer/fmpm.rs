@@ -14,7 +14,7 @@ use crate::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::{Kernel, Shown},
+        kernel::contract::{Kernel, Shown},
         particles::Particles,
     },
     subject::Column,

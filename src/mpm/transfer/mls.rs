@@ -12,7 +12,7 @@ use crate::{
         algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::{Divergence, Kernel, Shown},
+        kernel::contract::{Divergence, Kernel, Shown},
         particles::Particles,
     },
     subject::Column,

@@ -7,7 +7,7 @@ use super::{
     contract::{Transfer, mix_velocity},
     wanted::Recipe,
 };
-use crate::mpm::{boundary::Boundary, grid::Grid, kernel::Kernel, particles::Particles};
+use crate::mpm::{boundary::Boundary, grid::Grid, kernel::contract::Kernel, particles::Particles};
 
 /// Particle in cell.
 #[derive(Debug, Clone, Copy)]

@@ -13,8 +13,10 @@ use crate::{
         algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::{Affine, Kernel, Shown},
-        moments::Moments,
+        kernel::{
+            contract::{Affine, Kernel, Shown},
+            moments::Moments,
+        },
         particles::Particles,
     },
     subject::Column,

@@ -5,7 +5,7 @@ use crate::mpm::{
     algebra::Vector,
     boundary::Boundary,
     grid::Grid,
-    kernel::{Kernel, Takes},
+    kernel::contract::{Kernel, Takes},
     particles::Particles,
 };
 

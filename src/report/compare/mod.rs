@@ -29,8 +29,8 @@ pub use moved::{Comparison, Rank};
 pub use text::text;
 
 /// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of
-/// the [drift gate](crate::report::drift).
-pub const TOLERANCE: f64 = crate::report::drift::RELATIVE;
+/// the [drift gate](super::text::drift).
+pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
 /// What moved from `old` to `new` by more than the share `tolerance`.
 pub fn compare(old: &Document, new: &Document, tolerance: f64) -> Comparison {

@@ -5,7 +5,8 @@ use super::{
     document::{Case, Document, name},
     equal_error,
     moved::{Comparison, Moved, Rank, ratio_moved},
-    stability::{self, StabilityMove},
+    stability,
+    stability::StabilityMove,
 };
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@ use super::{
     moved::{Comparison, Rank},
     row::{HEADS, TARGET_HEADS, cells, notes, target},
 };
-use crate::report::table::Table;
+use crate::report::text::table::Table;
 
 /// A line that says what happened, then a table for each rank.
 pub fn text(comparison: &Comparison) -> String {

@@ -1,12 +1,18 @@
 //! The convergence plot: error against cell size, both axes logarithmic.
 
-use super::legend::{Legend, Placed};
-use super::plot::{Plot, Titles};
-use super::scale::{Pad, Scale};
-use super::series::{self, Failure, Line, Series};
-use super::space::{Rect, Space};
-use super::svg::{Element, Pt};
-use super::triangle::{self, Triangle};
+use super::{
+    plot::{
+        frame::{Plot, Titles},
+        legend::{Legend, Placed},
+        scale::{Pad, Scale},
+        space::{Rect, Space},
+        svg::{Element, Pt},
+        triangle,
+        triangle::Triangle,
+    },
+    series,
+    series::{Failure, Line, Series},
+};
 
 /// A log-log plot of errors against the cell size.
 #[derive(Clone, Debug, PartialEq)]

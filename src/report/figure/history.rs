@@ -1,13 +1,16 @@
 //! The history plot: curves over linear axes, such as a velocity over time.
 
-use super::legend::{Entry, KEY, Legend};
-use super::marker::{self, Fill, RADIUS};
-use super::plot::{Plot, Titles};
-use super::scale::{Pad, Scale};
-use super::space::Space;
-use super::style::{EXACT, Look, look};
-use super::svg::{Element, Pt};
-use super::thinning;
+use super::plot::{
+    frame::{Plot, Titles},
+    legend::{Entry, KEY, Legend},
+    marker,
+    marker::{Fill, RADIUS},
+    scale::{Pad, Scale},
+    space::Space,
+    style::{EXACT, Look, look},
+    svg::{Element, Pt},
+    thinning,
+};
 
 /// Curves over linear axes.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,11 @@
 //! Numbers are printed in the fields, so that colours only guide the eye; they run from dark to light in
 //! steps of equal lightness and survive grey print. A gap parts rows whose names begin otherwise.
 
-use super::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE};
-use super::svg::{Element, number};
-use super::text;
+use super::plot::{
+    style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE},
+    svg::{Element, number},
+    text,
+};
 
 /// A table of numbers over coloured fields.
 #[derive(Clone, Debug, PartialEq)]

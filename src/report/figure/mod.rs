@@ -27,24 +27,17 @@
 //! assert!(svg.starts_with("<svg xmlns="));
 //! ```
 
+pub(crate) mod cost;
+pub(crate) mod drawing;
+pub(crate) mod plot;
+pub(crate) mod study;
+pub(crate) mod sweep;
+
 mod convergence;
-mod dark;
 mod history;
-mod label;
-mod legend;
 mod levels;
 mod map;
-mod marker;
-mod plot;
-mod scale;
 mod series;
-mod space;
-mod style;
-mod svg;
-mod text;
-mod thinning;
-mod ticks;
-mod triangle;
 mod work;
 
 #[cfg(test)]

@@ -1,11 +1,16 @@
 //! A series of the convergence plot: its line, its failed levels, and what the legend says.
 
-use super::legend::{Entry, KEY};
-use super::levels::{Level, Mark, Point, levels};
-use super::marker::{self, Fill};
-use super::plot::Plot;
-use super::style::{CONTEXT, HEIGHT, Look, NEUTRAL, Shape, look};
-use super::svg::{Element, Pt};
+use super::{
+    levels::{Level, Mark, Point, levels},
+    plot::{
+        frame::Plot,
+        legend::{Entry, KEY},
+        marker,
+        marker::Fill,
+        style::{CONTEXT, HEIGHT, Look, NEUTRAL, Shape, look},
+        svg::{Element, Pt},
+    },
+};
 
 /// The errors of one quantity over all levels.
 #[derive(Clone, Debug, PartialEq)]

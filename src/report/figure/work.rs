@@ -1,13 +1,18 @@
 //! The work-precision diagram: error against work, both axes logarithmic.
 
-use super::dark::with_dark_colours;
-use super::legend::{Entry, KEY, Legend};
-use super::plot::{Plot, Titles};
-use super::scale::{Pad, Scale};
-use super::series::{self, Failure, Line, Series};
-use super::space::Space;
-use super::style::{CONTEXT, FRONT};
-use super::svg::{Element, Pt};
+use super::{
+    plot::{
+        frame::{Plot, Titles},
+        legend::{Entry, KEY, Legend},
+        scale::{Pad, Scale},
+        space::Space,
+        style::{CONTEXT, FRONT},
+        svg::{Element, Pt},
+    },
+    series,
+    series::{Failure, Line, Series},
+};
+use crate::report::page::dark::with_dark_colours;
 
 /// A log-log plot of errors against the work that they take; `h` of the points is the work.
 #[derive(Clone, Debug, PartialEq)]

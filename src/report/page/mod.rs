@@ -4,8 +4,12 @@
 //! what a link leads to. Figures are inline SVG, coloured anew for light and dark (`theme`). Nothing
 //! on the page depends on the time or the machine: the same run gives the same bytes.
 //!
-//! A section shows all that a suite reports: every figure of [`svg()`](crate::report::svg()) and the whole
-//! of [`text()`](crate::report::text()). What is added to either is on the page.
+//! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
+//! of [`text()`](super::text()). What is added to either is on the page.
+
+#[cfg(test)]
+pub(crate) mod contrast;
+pub(crate) mod dark;
 
 mod cells;
 mod figures;

@@ -1,7 +1,8 @@
 //! What a suite has to say: text, verdicts, figures, the whole report, and the file itself.
 
 use super::{
-    cells::{self, scrolled},
+    cells,
+    cells::scrolled,
     figures,
     html::Html,
     links::{case_id, case_link, id},

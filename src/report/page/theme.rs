@@ -89,8 +89,8 @@ pub(super) fn css() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::contrast::contrast;
     use crate::report::figure::{Convergence, Curve, Field, History, Map, Mark, Point, Series};
+    use crate::report::page::contrast::contrast;
     use rstest::rstest;
 
     type Scheme = fn(&Colour) -> &'static str;

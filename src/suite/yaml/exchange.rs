@@ -7,11 +7,11 @@ use serde::{Serialize, de::DeserializeOwned};
 ///
 /// # Errors
 /// What the library says that it cannot write.
-pub(in crate::suite) fn written<T: Serialize>(value: &T) -> Result<String, String> {
+pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, String> {
     serde_yaml::to_string(value).map_err(|error| error.to_string())
 }
 
 /// The value of a text, if it is one.
-pub(in crate::suite) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
+pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }

@@ -25,29 +25,29 @@
 //! assert_eq!(complaint.help(), Some("did you mean `cells`?"));
 //! ```
 
-mod complaint;
-mod exchange;
-mod locate;
-mod number_text;
-mod one_or_many;
-mod ordered;
-mod place;
-mod read;
-mod refusal;
-mod scalar;
-mod scalars;
-mod scan;
-mod shape;
-mod source;
-mod translate;
-mod unwanted;
-mod words;
+pub(crate) mod diagnostic;
+pub(crate) mod exchange;
+pub(crate) mod locate;
+pub(crate) mod number_text;
+pub(crate) mod one_or_many;
+pub(crate) mod ordered;
+pub(crate) mod place;
+pub(crate) mod read;
+pub(crate) mod refusal;
+pub(crate) mod scalar;
+pub(crate) mod scalars;
+pub(crate) mod scan;
+pub(crate) mod shape;
+pub(crate) mod source;
+pub(crate) mod translate;
+pub(crate) mod unwanted;
+pub(crate) mod words;
 
 #[cfg(test)]
 mod tests;
 
-pub use complaint::Complaint;
-pub(in crate::suite) use exchange::{read_again, written};
+pub use diagnostic::Complaint;
+pub(crate) use exchange::{read_again, written};
 pub use locate::Step;
 pub use number_text::NumberText;
 pub use one_or_many::OneOrMany;
@@ -56,7 +56,7 @@ pub use place::Place;
 pub use read::read;
 pub use refusal::refuse;
 pub use source::{MAX_BYTES, Source};
-pub(in crate::suite) use words::nearest;
+pub(crate) use words::nearest;
 
 /// The most entries that one list or one map may have.
 pub const MAX_ENTRIES: usize = 1000;

@@ -59,7 +59,7 @@ impl Place {
 }
 
 /// The bytes of the line around `offset`, a character boundary, without its line break.
-pub(super) fn line_around(text: &str, offset: usize) -> Range<usize> {
+pub(crate) fn line_around(text: &str, offset: usize) -> Range<usize> {
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);
     let visible = text[start..end].strip_suffix('\r').map_or(end, |line| start + line.len());

@@ -18,7 +18,7 @@ pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
 }
 
 /// Message, label and help of a refusal, if `error` is the text of one.
-pub(super) fn refused(error: &str) -> Option<[&str; 3]> {
+pub(crate) fn refused(error: &str) -> Option<[&str; 3]> {
     let mut parts = error.split(FENCE).skip(1);
     Some([parts.next()?, parts.next()?, parts.next()?])
 }

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 /// The extent of one scalar, with its quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Scalar {
-    pub(super) range: Range<usize>,
-    pub(super) style: Style,
+pub(crate) struct Scalar {
+    pub(crate) range: Range<usize>,
+    pub(crate) style: Style,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Style {
+pub(crate) enum Style {
     Plain,
     SingleQuoted,
     DoubleQuoted,
@@ -19,7 +19,7 @@ pub(super) enum Style {
 
 impl Scalar {
     /// The bytes that are the value, if they are so one for one: no escape, no folded line.
-    pub(super) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
+    pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
             Style::Plain => (start..end, '\n'),
@@ -31,7 +31,7 @@ impl Scalar {
         (!words.contains([altered, '\n'])).then_some(inside)
     }
 
-    pub(super) fn is_quoted(&self) -> bool {
+    pub(crate) fn is_quoted(&self) -> bool {
         matches!(self.style, Style::SingleQuoted | Style::DoubleQuoted)
     }
 }

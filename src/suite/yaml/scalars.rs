@@ -1,12 +1,14 @@
 //! How far a scalar reaches, by the rules of its style.
 
-use super::Complaint;
-use super::scalar::{Scalar, Style};
-use super::scan::Scanner;
+use super::{
+    Complaint,
+    scalar::{Scalar, Style},
+    scan::Scanner,
+};
 use std::ops::Range;
 
 impl Scanner<'_> {
-    pub(super) fn plain_scalar(&mut self) -> Result<(), Complaint> {
+    pub(crate) fn plain_scalar(&mut self) -> Result<(), Complaint> {
         self.may_be_key();
         let start = self.at;
         let mut end = start;
@@ -65,7 +67,7 @@ impl Scanner<'_> {
         self.indents.last().map_or(0, |indent| indent + 1)
     }
 
-    pub(super) fn quoted_scalar(&mut self, quote: u8) -> Result<(), Complaint> {
+    pub(crate) fn quoted_scalar(&mut self, quote: u8) -> Result<(), Complaint> {
         self.may_be_key();
         let start = self.at;
         let escapes = quote == b'"';
@@ -96,7 +98,7 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    pub(super) fn block_scalar(&mut self) {
+    pub(crate) fn block_scalar(&mut self) {
         let start = self.at;
         let mut indent = self.stated_indent();
         let mut deepest_blank = 0;

@@ -7,12 +7,11 @@
 //! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
 //! quotes that are never closed, of which the parser would only notice the end of the file.
 
-use super::Complaint;
-use super::scalar::Scalar;
+use super::{Complaint, scalar::Scalar};
 use std::ops::Range;
 
 /// The scalars of a text in their order, or the reason why it is refused.
-pub(super) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Complaint> {
+pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Complaint> {
     let mut scanner = Scanner {
         name,
         text,
@@ -30,21 +29,21 @@ pub(super) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Complaint> {
 }
 
 /// The state of the walk, named after the rules of YAML that it decides.
-pub(super) struct Scanner<'t> {
-    pub(super) name: &'t str,
-    pub(super) text: &'t str,
-    pub(super) at: usize,
+pub(crate) struct Scanner<'t> {
+    pub(crate) name: &'t str,
+    pub(crate) text: &'t str,
+    pub(crate) at: usize,
     line_start: usize,
     /// The columns of the block lists and maps around this point.
-    pub(super) indents: Vec<usize>,
+    pub(crate) indents: Vec<usize>,
     /// The offsets of the brackets not yet closed.
-    pub(super) open: Vec<usize>,
+    pub(crate) open: Vec<usize>,
     /// Whether a key may start here.
-    pub(super) key_allowed: bool,
+    pub(crate) key_allowed: bool,
     /// Where the token starts that a `:` later on the same line makes a key.
-    pub(super) possible_key: Option<usize>,
+    pub(crate) possible_key: Option<usize>,
     document: Document,
-    pub(super) scalars: Vec<Scalar>,
+    pub(crate) scalars: Vec<Scalar>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -202,43 +201,43 @@ impl Scanner<'_> {
 
 /// The reading head.
 impl Scanner<'_> {
-    pub(super) fn byte(&self, ahead: usize) -> Option<u8> {
+    pub(crate) fn byte(&self, ahead: usize) -> Option<u8> {
         self.text.as_bytes().get(self.at + ahead).copied()
     }
 
     /// Whether a blank, a line break or the end of the text is there.
-    pub(super) fn blank(&self, ahead: usize) -> bool {
+    pub(crate) fn blank(&self, ahead: usize) -> bool {
         matches!(self.byte(ahead), None | Some(b' ' | b'\t' | b'\n' | b'\r'))
     }
 
-    pub(super) fn in_flow(&self) -> bool {
+    pub(crate) fn in_flow(&self) -> bool {
         !self.open.is_empty()
     }
 
     /// In bytes: what stands before a block key or dash on its line is ASCII.
-    pub(super) fn column(&self) -> usize {
+    pub(crate) fn column(&self) -> usize {
         self.at - self.line_start
     }
 
-    pub(super) fn at_document_mark(&self) -> bool {
+    pub(crate) fn at_document_mark(&self) -> bool {
         let rest = &self.text.as_bytes()[self.at..];
         self.column() == 0
             && (rest.starts_with(b"---") || rest.starts_with(b"..."))
             && self.blank(3)
     }
 
-    pub(super) fn line_break(&mut self) {
+    pub(crate) fn line_break(&mut self) {
         self.at += 1;
         self.line_start = self.at;
     }
 
-    pub(super) fn skip_line(&mut self) {
+    pub(crate) fn skip_line(&mut self) {
         let rest = &self.text.as_bytes()[self.at..];
         self.at += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
     }
 
     /// Remembers that the token starting here is a key if a `:` follows it.
-    pub(super) fn may_be_key(&mut self) {
+    pub(crate) fn may_be_key(&mut self) {
         if self.key_allowed && !self.in_flow() {
             self.possible_key = Some(self.at);
         }
@@ -249,7 +248,7 @@ impl Scanner<'_> {
         self.key_allowed = key_allowed;
     }
 
-    pub(super) fn here(&self) -> Range<usize> {
+    pub(crate) fn here(&self) -> Range<usize> {
         self.at..self.at + 1
     }
 }

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::fmt;
 
 /// Walks the whole file.
-pub(super) fn check(source: &Source) -> Result<(), serde_yaml::Error> {
+pub(crate) fn check(source: &Source) -> Result<(), serde_yaml::Error> {
     Shape { root: true }.deserialize(serde_yaml::Deserializer::from_str(source.text()))
 }
 
@@ -93,8 +93,8 @@ impl<'de> Visitor<'de> for Shape {
 }
 
 /// Reads a key of a map that must not have been seen; an error stands at the key itself.
-pub(super) struct NewKey<'a> {
-    pub(super) seen: &'a mut HashSet<String>,
+pub(crate) struct NewKey<'a> {
+    pub(crate) seen: &'a mut HashSet<String>,
 }
 
 impl<'de> DeserializeSeed<'de> for NewKey<'_> {
@@ -133,7 +133,7 @@ impl Visitor<'_> for NewKey<'_> {
 }
 
 /// Refuses a list or a map that has grown past the cap.
-pub(super) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), E> {
+pub(crate) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), E> {
     if length <= MAX_ENTRIES {
         return Ok(());
     }
@@ -142,7 +142,7 @@ pub(super) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), 
 }
 
 /// Refuses `.nan` and `.inf`, which YAML counts as numbers.
-pub(super) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E> {
+pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E> {
     if value.is_finite() {
         return Ok(value);
     }

@@ -1,8 +1,6 @@
 //! A suite file in memory, checked before anything interprets it.
 
-use super::scalar::Scalar;
-use super::scan::scan;
-use super::{Complaint, Place};
+use super::{Complaint, Place, scalar::Scalar, scan::scan};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::ops::Range;
@@ -70,17 +68,17 @@ impl Source {
     }
 
     /// The first scalar that starts at or after a byte.
-    pub(super) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
+    pub(crate) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
     }
 
     /// The scalar that starts at a byte.
-    pub(super) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
+    pub(crate) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
     /// The bytes of what starts there: a scalar, or one character of anything else.
-    pub(super) fn token_at(&self, offset: usize) -> Range<usize> {
+    pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
 }

@@ -1,11 +1,13 @@
 //! The errors of the YAML library, in the words of someone who writes a suite.
 
-use super::refusal::refused;
-use super::words::{expected, found, listed, nearest, syntax};
-use super::{Complaint, Source};
+use super::{
+    Complaint, Source,
+    refusal::refused,
+    words::{expected, found, listed, nearest, syntax},
+};
 
 /// Turns an error of the library into a complaint at the same place.
-pub(super) fn complaint(source: &Source, error: &serde_yaml::Error) -> Complaint {
+pub(crate) fn complaint(source: &Source, error: &serde_yaml::Error) -> Complaint {
     let text = error.to_string();
     let offset = error.location().map_or(source.text().len(), |location| location.index());
     let fault = Fault { source, offset };

@@ -1,11 +1,10 @@
 //! What the scan refuses, in words.
 
-use super::scan::Scanner;
-use super::{Complaint, MAX_NESTING, Place};
+use super::{Complaint, MAX_NESTING, Place, scan::Scanner};
 use std::ops::Range;
 
 impl Scanner<'_> {
-    pub(super) fn nesting(&self) -> Result<(), Complaint> {
+    pub(crate) fn nesting(&self) -> Result<(), Complaint> {
         if self.open.len() + self.indents.len() <= MAX_NESTING {
             return Ok(());
         }
@@ -13,7 +12,7 @@ impl Scanner<'_> {
         Err(self.complain(self.here(), &message))
     }
 
-    pub(super) fn all_closed(&self) -> Result<(), Complaint> {
+    pub(crate) fn all_closed(&self) -> Result<(), Complaint> {
         let Some(&start) = self.open.last() else { return Ok(()) };
         let bracket = &self.text[start..=start];
         let closing = if bracket == "[" { "]" } else { "}" };
@@ -23,7 +22,7 @@ impl Scanner<'_> {
     }
 
     /// A bracket closed by one of the other kind: what is missing is at the first of the two.
-    pub(super) fn crossed(&self, start: usize, byte: u8) -> Complaint {
+    pub(crate) fn crossed(&self, start: usize, byte: u8) -> Complaint {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());
         let (line, column) = (closing.line(), closing.column());
@@ -33,24 +32,24 @@ impl Scanner<'_> {
             .with_help(&format!("the `{byte}` is on line {line}, column {column}"))
     }
 
-    pub(super) fn second_document(&self) -> Complaint {
+    pub(crate) fn second_document(&self) -> Complaint {
         self.complain(self.here(), "a second document starts here")
             .with_label("a suite is one document")
             .with_help("put each suite in a file of its own")
     }
 
-    pub(super) fn unneeded(&self, what: &str, byte: u8) -> Complaint {
+    pub(crate) fn unneeded(&self, what: &str, byte: u8) -> Complaint {
         self.complain(self.here(), &format!("{what} are not supported"))
             .with_label(&format!("a value cannot start with `{}`", byte as char))
             .with_help("put text in quotes; give a value a name under `parameters`")
     }
 
-    pub(super) fn tab(&self) -> Complaint {
+    pub(crate) fn tab(&self) -> Complaint {
         self.complain(self.here(), "tab used for indentation; YAML needs spaces")
             .with_label("a tab")
     }
 
-    pub(super) fn complain(&self, range: Range<usize>, message: &str) -> Complaint {
+    pub(crate) fn complain(&self, range: Range<usize>, message: &str) -> Complaint {
         Complaint::at(self.name, self.text, range, message)
     }
 }

@@ -4,7 +4,7 @@
 const NEAR: usize = 3;
 
 /// What was expected, without the names of Rust types.
-pub(super) fn expected(serde: &str) -> String {
+pub(crate) fn expected(serde: &str) -> String {
     let words = match serde {
         "f64" | "f32" => "a number",
         "usize" | "u64" | "u128" => "a whole number, zero or more",
@@ -42,7 +42,7 @@ fn is_list(serde: &str) -> bool {
 }
 
 /// What was found instead.
-pub(super) fn found(serde: &str) -> String {
+pub(crate) fn found(serde: &str) -> String {
     match serde {
         "sequence" => return "a list".to_owned(),
         "map" => return "a map (`key: value`)".to_owned(),
@@ -64,7 +64,7 @@ pub(super) fn found(serde: &str) -> String {
 }
 
 /// The valid name that a misspelt one was most likely meant to be.
-pub(in crate::suite) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a str> {
     // The distance costs the product of the lengths, and a long name is no slip of the finger.
     if name.len() > 64 {
         return None;
@@ -79,13 +79,13 @@ pub(in crate::suite) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a
 }
 
 /// Names in a row, each in backticks.
-pub(super) fn listed(names: &[&str]) -> String {
+pub(crate) fn listed(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
 }
 
 /// Message and help for text that is not YAML.
-pub(super) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
+pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
     const TABLE: [(&str, &str, &str); 14] = [
         (
             "did not find expected ',' or ']'",

@@ -7,8 +7,8 @@
 //! turned: the exponent is one over its slope, and so are the ends of the interval (the fiducial limits
 //! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
 
-use super::{part::Part, tried::Tried};
-use crate::verify::fit::{Interval, Line, Point};
+use super::{part::Part, sample::Tried};
+use crate::verify::order::fit::{Interval, Line, Point};
 
 /// Fewest points with an interval.
 const FEWEST: usize = 3;

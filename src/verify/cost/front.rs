@@ -1,6 +1,6 @@
 //! The Pareto front: settings that no other one beats in both error and work.
 
-use super::tried::Tried;
+use super::sample::Tried;
 
 /// Share by which an error must be smaller to be worth more work: methods whose errors agree to more
 /// digits than anybody reads are not traded for each other.

@@ -19,23 +19,23 @@ mod exponent;
 mod front;
 mod model;
 mod part;
-mod priced;
 mod ranking;
 mod reach;
+mod sample;
 #[cfg(test)]
 mod tests;
+mod timed_suite;
 mod timing;
-mod tried;
 
 pub use exponent::{Agreement, Exponent};
 pub use front::pareto_front;
 pub use model::{Load, Model};
 pub use part::{End, Part};
-pub use priced::{Bid, Priced};
 pub use ranking::{Contender, Ranked, Ranking, rankings};
 pub use reach::Reach;
+pub use sample::Tried;
+pub use timed_suite::{Bid, Priced};
 pub use timing::{Machine, Timing};
-pub use tried::Tried;
 
 /// The errors, over the size of the solution, that tables ask for.
 pub const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];

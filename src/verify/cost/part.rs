@@ -3,7 +3,7 @@
 //! Between two of them an error may be interpolated; anywhere else it may be an accident (an error
 //! that passes through zero, a floor that sways) which the next finer grid takes back.
 
-use super::tried::Tried;
+use super::sample::Tried;
 use std::ops::Range;
 
 /// Least order between neighbours that is a fall.

@@ -6,7 +6,7 @@ use super::{
     front::pareto_front,
     part::{End, Part},
     reach::Reach,
-    tried::Tried,
+    sample::Tried,
 };
 use crate::verify::outcome::{CaseOutcome, Convergence, LevelOutcome};
 use std::cmp::Ordering;

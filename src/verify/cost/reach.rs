@@ -1,6 +1,6 @@
 //! The work at which a method reaches an error.
 
-use super::{part::Part, tried::Tried};
+use super::{part::Part, sample::Tried};
 
 /// Where an error is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]

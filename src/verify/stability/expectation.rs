@@ -4,10 +4,10 @@ use super::{
     figure::RunFigure,
     limit::StabilityLimit,
     outcome::{Critical, StabilityRow},
-    shown::Trial,
+    trial_result::Trial,
     verdict::Stability,
 };
-use crate::verify::figures::figures;
+use crate::verify::order::format_number::figures;
 
 /// What is expected of one row.
 #[derive(Debug, Clone, Default, PartialEq)]

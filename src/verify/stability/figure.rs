@@ -1,6 +1,6 @@
 //! Figures of a run that expectations may speak of.
 
-use super::shown::Trial;
+use super::trial_result::Trial;
 use crate::named::named;
 
 named! {

@@ -17,8 +17,8 @@ mod figure;
 mod limit;
 mod outcome;
 mod radius;
-mod shown;
 mod trial;
+mod trial_result;
 mod verdict;
 
 pub use amplification::amplification;
@@ -27,6 +27,6 @@ pub use figure::RunFigure;
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
 pub use radius::{Radius, spectral_radius};
-pub use shown::{Scales, Trial};
 pub use trial::{resume_trial, trial};
+pub use trial_result::{Scales, Trial};
 pub use verdict::Stability;

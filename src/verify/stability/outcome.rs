@@ -1,7 +1,7 @@
 //! The results of a stability study.
 
-use super::{figure::RunFigure, limit::StabilityLimit, shown::Trial, verdict::Stability};
-use crate::verify::figures::figures;
+use super::{figure::RunFigure, limit::StabilityLimit, trial_result::Trial, verdict::Stability};
+use crate::verify::order::format_number::figures;
 
 /// Results of a stability study: one row for each value of the parameter that is swept.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,15 +7,17 @@
 
 use super::{
     checkerboard::{checkerboard, stress_spread},
-    shown::{Scales, Trial},
+    trial_result::{Scales, Trial},
     verdict::Stability,
 };
 use crate::{
     subject::{Checkpoint, Failure, Memory, Samples, Subject},
     verify::{
         conservation::{Balance, Conserved, Drift},
-        keeper::{Keeper, Nobody, keep_if_due, resumed},
-        norm::larger,
+        error::{
+            checkpoint_store::{Keeper, Nobody, keep_if_due, resumed},
+            norm::larger,
+        },
     },
 };
 

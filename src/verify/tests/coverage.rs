@@ -1,7 +1,7 @@
 //! Does the interval that the judge reports contain the true order as often as it says?
 
-use super::super::{Claim, Level, judge};
 use super::Random;
+use crate::verify::{Claim, Level, judge};
 
 const SERIES: usize = 10_000;
 

@@ -8,8 +8,7 @@ mod series;
 
 use std::f64::consts::PI;
 
-use super::{Claim, Judgement};
-use super::{Level, judge};
+use super::{Claim, Judgement, Level, judge};
 
 /// Spacings 1, 1/2, 1/4, ... with these errors.
 fn halvings(errors: &[f64]) -> Vec<Level> {

@@ -3,8 +3,8 @@
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
-use super::super::{Claim, Level, Norms, Richardson, RichardsonClass, Verdict, judge};
 use super::{Random, halved, judged};
+use crate::verify::{Claim, Level, Norms, Richardson, RichardsonClass, Verdict, judge};
 
 #[test]
 fn a_growing_error_has_a_negative_order() {

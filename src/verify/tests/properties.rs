@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use super::super::{Claim, Level, Verdict, judge};
 use super::Random;
+use crate::verify::{Claim, Level, Verdict, judge};
 
 /// Series of all kinds: falling, flat, growing, with a floor, with noise from none to wild.
 fn series() -> impl Strategy<Value = Vec<Level>> {

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use rstest::rstest;
 
-use super::super::{Richardson, RichardsonClass, SAFETY_FACTOR};
+use crate::verify::{Richardson, RichardsonClass, SAFETY_FACTOR};
 use RichardsonClass::{
     Degenerate, Exact, Failed, MonotoneConvergent, MonotoneDivergent, OscillatoryConvergent,
     OscillatoryDivergent,

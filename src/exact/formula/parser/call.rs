@@ -5,7 +5,8 @@ use std::ops::Range;
 use super::Parser;
 use crate::exact::formula::{
     ast::{Kind, Sum},
-    builtin::{self, Builtin, PI},
+    builtin,
+    builtin::{Builtin, PI},
     error::FormulaError,
     lexer::Token,
 };

@@ -6,9 +6,9 @@
 //! negative, and at walls as everywhere; but gradients jump at nodes, as those of hats do.
 
 use super::{
-    along::Along,
     contract::{Basis, Domain},
     product::Product,
+    weights_1d::Along,
 };
 use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
 

@@ -1,6 +1,6 @@
 //! A linear Taylor polynomial through the data of the particles in one cell.
 
-use super::spots::Spot;
+use super::quadrature_points::Spot;
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     grid::Grid,

@@ -7,11 +7,11 @@
 //! the stress is a plain fit. Velocities come back as in FLIP.
 
 mod fit;
-mod spots;
+mod quadrature_points;
 
 use self::{
     fit::Fit,
-    spots::{Spot, Spots},
+    quadrature_points::{Spot, Spots},
 };
 use super::{
     contract::{Kind, Transfer, add_acceleration},
@@ -22,7 +22,7 @@ use crate::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::{Kernel, Shown},
+        kernel::contract::{Kernel, Shown},
         particles::Particles,
     },
     subject::Column,
@@ -185,7 +185,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, Matrix, kernel};
+    use crate::mpm::{BasisName, Block, Matrix, kernel::kernel};
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
@@ -222,7 +222,8 @@ mod tests {
         spots.start(&grid, &particles);
         spots.place(&grid, &particles);
         for spot in spots.all() {
-            let spot = spots::Spot { x: spot.centre.add_scalar(at - 0.5), ..spot.clone() };
+            let spot =
+                quadrature_points::Spot { x: spot.centre.add_scalar(at - 0.5), ..spot.clone() };
             let fit = Fit { x: spots.x(), members: spots.members(&spot) };
             let linear = |x: f64| 3.0 - 0.7 * x;
             let free = fit.free(&spot, |p| linear(particles.x[p][0]));

@@ -1,8 +1,8 @@
 //! The front door against a suite such as its author would write, and against mistakes in it.
 
-mod files;
-mod good;
-mod hostile;
-mod mistakes;
-mod properties;
-mod sample;
+pub(crate) mod files;
+pub(crate) mod good;
+pub(crate) mod hostile;
+pub(crate) mod mistakes;
+pub(crate) mod properties;
+pub(crate) mod sample;

@@ -3,7 +3,7 @@
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use serde::Deserialize;
 
-pub(super) const SAMPLE: &str = r#"suite: vibrating-bar
+pub(crate) const SAMPLE: &str = r#"suite: vibrating-bar
 parameters: {L: 25, E: 100, rho: 1, omega: "pi/(2*L)*sqrt(E/rho)"}
 scene:
   dimension: 1
@@ -20,40 +20,40 @@ expect:
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Suite {
+pub(crate) struct Suite {
     #[serde(rename = "suite")]
-    pub(super) name: String,
+    pub(crate) name: String,
     #[serde(default)]
-    pub(super) parameters: Ordered<NumberText>,
-    pub(super) scene: Scene,
-    pub(super) refine: Refine,
-    pub(super) methods: Vec<Method>,
+    pub(crate) parameters: Ordered<NumberText>,
+    pub(crate) scene: Scene,
+    pub(crate) refine: Refine,
+    pub(crate) methods: Vec<Method>,
     #[serde(default)]
-    pub(super) expect: Vec<Expect>,
+    pub(crate) expect: Vec<Expect>,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Scene {
-    pub(super) dimension: OneOrMany<u8>,
-    pub(super) body: Body,
-    pub(super) material: OneOrMany<Material>,
-    pub(super) boundary: Option<Boundary>,
+pub(crate) struct Scene {
+    pub(crate) dimension: OneOrMany<u8>,
+    pub(crate) body: Body,
+    pub(crate) material: OneOrMany<Material>,
+    pub(crate) boundary: Option<Boundary>,
     #[serde(default)]
-    pub(super) loads: Vec<Load>,
+    pub(crate) loads: Vec<Load>,
     #[serde(default)]
-    pub(super) quiet: bool,
+    pub(crate) quiet: bool,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum Body {
+pub(crate) enum Body {
     Box { from: Vec<NumberText>, to: Vec<NumberText> },
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum Material {
+pub(crate) enum Material {
     LinearElastic(Elastic),
     NeoHookean { young: NumberText },
     Rigid,
@@ -61,72 +61,72 @@ pub(super) enum Material {
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Elastic {
-    pub(super) young: OneOrMany<NumberText>,
-    pub(super) poisson: NumberText,
-    pub(super) density: NumberText,
+pub(crate) struct Elastic {
+    pub(crate) young: OneOrMany<NumberText>,
+    pub(crate) poisson: NumberText,
+    pub(crate) density: NumberText,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Boundary {
-    pub(super) left: Option<Wall>,
-    pub(super) right: Option<Wall>,
+pub(crate) struct Boundary {
+    pub(crate) left: Option<Wall>,
+    pub(crate) right: Option<Wall>,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Wall {
+pub(crate) enum Wall {
     Fixed,
     Roller,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum Load {
+pub(crate) enum Load {
     Gravity(Vec<NumberText>),
     Traction { on: String, value: Vec<NumberText> },
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Refine {
-    pub(super) cells: Vec<usize>,
-    pub(super) ppc: u16,
-    pub(super) until: Option<f64>,
+pub(crate) struct Refine {
+    pub(crate) cells: Vec<usize>,
+    pub(crate) ppc: u16,
+    pub(crate) until: Option<f64>,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(super) enum Method {
+pub(crate) enum Method {
     Mpm(Box<Mpm>),
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Mpm {
-    pub(super) basis: Basis,
-    pub(super) transfer: String,
-    pub(super) scheme: OneOrMany<Scheme>,
+pub(crate) struct Mpm {
+    pub(crate) basis: Basis,
+    pub(crate) transfer: String,
+    pub(crate) scheme: OneOrMany<Scheme>,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Basis {
+pub(crate) enum Basis {
     Linear,
     QuadraticBspline,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Scheme {
+pub(crate) enum Scheme {
     Musl,
     Usl,
 }
 
 #[derive(Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Expect {
-    pub(super) order: [f64; 2],
-    pub(super) because: String,
+pub(crate) struct Expect {
+    pub(crate) order: [f64; 2],
+    pub(crate) because: String,
 }

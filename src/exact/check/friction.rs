@@ -1,0 +1,163 @@
+//! Coulomb friction on a face, checked at a point: the wall presses and does not pull, the face
+//! keeps to it, and what slides is resisted by mu times the pressure.
+//!
+//! Forces are those on the reference area, of which both sides of Coulomb's law have the same.
+
+use super::pointwise::{AXES, Event};
+use crate::exact::{
+    motion::Derivatives,
+    problem::{Face, Problem},
+    violation::Violation,
+};
+
+/// Holds the motion `now` of a point of `face` against a wall with a coefficient of friction.
+/// Residuals are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
+///
+/// # Errors
+/// What the motion does that the wall does not.
+pub(crate) fn at_wall(
+    problem: &Problem,
+    face: &Face,
+    event: &Event,
+    (coefficient, now): (f64, &Derivatives),
+    [displacement, velocity, stress]: [f64; 3],
+) -> Result<(), Violation> {
+    let (axis, d, tolerance) = (face.axis, problem.dimension(), problem.tolerance);
+    let condition =
+        |what: &str| format!("boundary condition: {} is a wall with friction, {what}", face.name);
+    let name = condition(&format!("u_{} = 0", AXES[axis]));
+    event.judge(tolerance * displacement, name, (0.0, now.u[axis]), "m")?;
+
+    let outwards = if face.high { 1.0 } else { -1.0 };
+    let piola = problem.equation.piola(&now.grad);
+    let traction: [f64; 3] = std::array::from_fn(|i| outwards * piola[i][axis]);
+    let pressure = -outwards * traction[axis];
+    let allowed = tolerance * stress;
+    event.judge_most(
+        allowed,
+        condition("which does not pull, traction"),
+        (0.0, -pressure),
+        "Pa",
+    )?;
+
+    let rub = Rub { traction, velocity: now.velocity, pressure, coefficient };
+    coulomb(event, (axis, d), &rub, [allowed, tolerance * velocity], condition)
+}
+
+/// What passes between two surfaces at a point.
+pub(crate) struct Rub {
+    /// On the surface in question (Pa).
+    pub(crate) traction: [f64; 3],
+    /// Of that surface, relative to the other (m/s).
+    pub(crate) velocity: [f64; 3],
+    /// Between them (Pa).
+    pub(crate) pressure: f64,
+    /// Of friction.
+    pub(crate) coefficient: f64,
+}
+
+/// Coulomb's law on a surface with its normal along `axis`, up to the residuals that are allowed of
+/// stress (Pa) and velocity (m/s).
+///
+/// # Errors
+/// Where the traction along the surface is not that of friction.
+pub(crate) fn coulomb(
+    event: &Event,
+    (axis, d): (usize, usize),
+    rub: &Rub,
+    [stress, velocity]: [f64; 2],
+    condition: impl Fn(&str) -> String,
+) -> Result<(), Violation> {
+    let most = rub.coefficient * rub.pressure;
+    let along = |vector: &[f64; 3]| {
+        let squares = (0..d).filter(|i| *i != axis).map(|i| vector[i] * vector[i]);
+        squares.sum::<f64>().sqrt()
+    };
+    let speed = along(&rub.velocity);
+    if speed <= velocity {
+        let name = condition("which holds a face that rests by at most mu times the pressure,");
+        return event.judge_most(stress, name, (most, along(&rub.traction)), "Pa");
+    }
+    for i in (0..d).filter(|i| *i != axis) {
+        let name = condition(&format!("traction in {} against the velocity", AXES[i]));
+        let expected = -most * rub.velocity[i] / speed;
+        event.judge(stress, name, (expected, rub.traction[i]), "Pa")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{
+        Condition, Equation, Motion,
+        formula::{Expr, Formula, Scope},
+    };
+    use rstest::rstest;
+
+    /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0,
+    /// that the wall holds or slows by friction: shear and pressure grow towards it.
+    fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
+        let bind = |text: &str, names: &[&str]| {
+            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
+        };
+        let face = |name, high, condition| Face { name, axis: 1, high, condition };
+        Problem {
+            from: vec![0.0; 2],
+            to: vec![1.0; 2],
+            round: None,
+            density: 1.0,
+            equation: Equation::small_strain(200.0, 0.0),
+            gravity: vec![bind("3", &["t"]), bind("-4", &["t"])],
+            body_force: Vec::new(),
+            damping: None,
+            heat: None,
+            expansion: None,
+            local_damping: None,
+            at_rest: false,
+            manufactured: false,
+            faces: vec![
+                face("bottom", false, Condition::Friction(coefficient)),
+                face("top", true, Condition::Free),
+            ],
+            regions: Vec::new(),
+            follows_motion: true,
+            initial_displacement: Vec::new(),
+            initial_velocity: Vec::new(),
+            until: 1.0,
+            motion: Motion::new(vec![bind(x, &["X", "Y", "t"]), bind(y, &["X", "Y", "t"])]),
+            tolerance: 1e-8,
+        }
+    }
+
+    /// Under its own weight: the pressure at the wall is 4.
+    const SETTLED: &str = "4/200*(Y^2/2 - Y)";
+    /// mu = 1/2 takes 2 of the 3 that pull it along.
+    const SLIDES: &str = "t^2/2 - 2/100*(Y^2/2 - Y)";
+    const STAYS: &str = "-3/100*(Y^2/2 - Y)";
+
+    #[rstest]
+    #[case::slides(0.5, [SLIDES, SETTLED], "")]
+    #[case::stays(0.8, [STAYS, SETTLED], "")]
+    #[case::too_little_friction(0.45, [SLIDES, SETTLED], "traction in X against the velocity")]
+    #[case::too_much_friction(0.6, [SLIDES, SETTLED], "traction in X against the velocity")]
+    #[case::stays_without_friction(0.7, [STAYS, SETTLED], "a face that rests")]
+    #[case::slides_uphill(
+        0.5,
+        ["5/2*t^2 + 2/100*(Y^2/2 - Y)", SETTLED],
+        "traction in X against the velocity"
+    )]
+    #[case::hangs(0.5, [SLIDES, "-4/200*(Y^2/2 - Y)"], "does not pull")]
+    #[case::sinks_in(0.5, [SLIDES, "4/200*(Y^2/2 - Y) - 1e-3"], "u_Y = 0")]
+    fn a_layer_on_a_slope(
+        #[case] coefficient: f64,
+        #[case] motion: [&str; 2],
+        #[case] violated: &str,
+    ) {
+        match layer(coefficient, motion).check() {
+            Ok(()) => assert!(violated.is_empty(), "`{violated}` was not seen"),
+            Err(found) if violated.is_empty() => panic!("{found}"),
+            Err(found) => assert!(found.condition.contains(violated), "{found}"),
+        }
+    }
+}

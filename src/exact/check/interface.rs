@@ -1,0 +1,218 @@
+//! Two bodies face to face, checked at points of the faces.
+//!
+//! Bodies that share one velocity field are one: displacement and traction go on across the faces. Bodies
+//! in contact do not enter each other and do not pull; they push only where they touch, with equal and
+//! opposite tractions, and what slides is resisted by friction.
+//!
+//! One formula may speak of several bodies and jump where they meet: each is looked at from its own
+//! inside, a billionth of its length from the face.
+
+use super::{
+    friction::{Rub, coulomb},
+    pointwise::{AXES, Event, POINTS, largest, scale},
+};
+use crate::exact::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
+
+/// How far inside a face is looked at, in lengths of the body.
+const INSIDE: f64 = 1e-9;
+
+/// Holds the high face of `one` on `axis` against the low face of `other`, which lies opposite: in contact
+/// with a coefficient of friction, or, without one, as one body.
+///
+/// # Errors
+/// The first condition that the motions violate.
+pub fn meets(
+    one: &Problem,
+    other: &Problem,
+    axis: usize,
+    friction: Option<f64>,
+) -> Result<(), Violation> {
+    let pair = Pair { one, other, axis, sizes: sizes(one, other) };
+    let mut random = Random::new(8);
+    for _ in 0..POINTS {
+        let label = random.point(&one.from, &one.to);
+        let t = one.moment(&mut random);
+        match friction {
+            Some(coefficient) => pair.touch(label, t, coefficient)?,
+            None => pair.go_on(label, t)?,
+        }
+    }
+    Ok(())
+}
+
+/// Largest displacement (m), velocity (m/s) and stress (Pa) of the two.
+fn sizes(one: &Problem, other: &Problem) -> [f64; 3] {
+    let of = |problem: &Problem| {
+        let gradient = scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max));
+        [
+            scale(problem, |_, d| largest(&d.u)),
+            scale(problem, |_, d| largest(&d.velocity)),
+            problem.equation.modulus() * gradient,
+        ]
+    };
+    let (a, b) = (of(one), of(other));
+    // A sum is NaN if one of the two is.
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
+struct Pair<'a> {
+    one: &'a Problem,
+    other: &'a Problem,
+    axis: usize,
+    sizes: [f64; 3],
+}
+
+impl Pair<'_> {
+    fn condition(&self, what: &str) -> String {
+        format!("where two bodies meet along {}, {what}", AXES[self.axis])
+    }
+
+    /// Both bodies next to the faces, and the event on the face.
+    fn both(&self, mut label: Vec<f64>, t: f64) -> (Event, Derivatives, Derivatives) {
+        let Self { one, other, axis, .. } = *self;
+        let inside = |problem: &Problem| INSIDE * (problem.to[axis] - problem.from[axis]);
+        label[axis] = one.to[axis] - inside(one);
+        let here = one.motion.derivatives(&label, t);
+        label[axis] = other.from[axis] + inside(other);
+        let there = other.motion.derivatives(&label, t);
+        label[axis] = one.to[axis];
+        (Event { label, t }, here, there)
+    }
+
+    /// P e on the two faces, e being the direction of the axis.
+    fn forces(&self, here: &Derivatives, there: &Derivatives) -> [[f64; 3]; 2] {
+        let of = |problem: &Problem, now: &Derivatives| {
+            let piola = problem.equation.piola(&now.grad);
+            std::array::from_fn(|i| piola[i][self.axis])
+        };
+        [of(self.one, here), of(self.other, there)]
+    }
+
+    fn balance(&self, event: &Event, [here, there]: [[f64; 3]; 2]) -> Result<(), Violation> {
+        for i in 0..self.one.dimension() {
+            let name = self.condition(&format!("the same traction in {} on both,", AXES[i]));
+            let allowed = self.one.tolerance * self.sizes[2];
+            event.judge(allowed, name, (here[i], there[i]), "Pa")?;
+        }
+        Ok(())
+    }
+
+    fn go_on(&self, label: Vec<f64>, t: f64) -> Result<(), Violation> {
+        let (event, here, there) = self.both(label, t);
+        for i in 0..self.one.dimension() {
+            let name = self.condition(&format!("the same u_{} on both,", AXES[i]));
+            let allowed = self.one.tolerance * self.sizes[0];
+            event.judge(allowed, name, (here.u[i], there.u[i]), "m")?;
+        }
+        self.balance(&event, self.forces(&here, &there))
+    }
+
+    fn touch(&self, label: Vec<f64>, t: f64, coefficient: f64) -> Result<(), Violation> {
+        let Self { one, other, axis, sizes: [displacement, velocity, stress] } = *self;
+        let tolerance = one.tolerance;
+        let (event, here, there) = self.both(label, t);
+        let gap = other.from[axis] - one.to[axis] + (there.u[axis] - here.u[axis]);
+        let allowed = tolerance * displacement;
+        let name = self.condition("of which none enters the other, overlap");
+        event.judge_most(allowed, name, (0.0, -gap), "m")?;
+
+        let forces = self.forces(&here, &there);
+        self.balance(&event, forces)?;
+        let ([traction, _], pressure) = (forces, -forces[0][axis]);
+        let (allowed, apart) = (tolerance * stress, gap > allowed);
+        let name = self.condition("and do not pull each other, traction");
+        event.judge_most(allowed, name, (0.0, -pressure), "Pa")?;
+        if apart {
+            let name = self.condition("push each other only where they touch, pressure");
+            event.judge_most(allowed, name, (0.0, pressure), "Pa")?;
+        }
+        let relative = std::array::from_fn(|i| here.velocity[i] - there.velocity[i]);
+        let rub = Rub { traction, velocity: relative, pressure, coefficient };
+        let residuals = [allowed, tolerance * velocity];
+        coulomb(&event, (axis, one.dimension()), &rub, residuals, |what| {
+            self.condition(&format!("with friction, {what}"))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{
+        Condition, Equation, Face, Motion,
+        formula::{Expr, Formula, Scope},
+    };
+    use rstest::rstest;
+
+    /// Bars from 0 to 1 and from 1 to 2, with rho = c = 1.
+    fn bars(displacement: &str) -> [Problem; 2] {
+        let expr = Expr::parse(displacement).unwrap();
+        let bind = || Formula::bind(&expr, &Scope::new(), &["X", "t"]).unwrap();
+        let face = |name, high, condition| Face { name, axis: 0, high, condition };
+        let bar = |from: f64, ends: [Condition; 2]| {
+            let [low, high] = ends;
+            Problem {
+                heat: None,
+                expansion: None,
+                from: vec![from],
+                to: vec![from + 1.0],
+                round: None,
+                density: 1.0,
+                equation: Equation::small_strain(1.0, 0.0),
+                gravity: Vec::new(),
+                body_force: Vec::new(),
+                damping: None,
+                local_damping: None,
+                at_rest: false,
+                manufactured: false,
+                faces: vec![face("left", false, low), face("right", true, high)],
+                regions: Vec::new(),
+                follows_motion: true,
+                initial_displacement: Vec::new(),
+                initial_velocity: Vec::new(),
+                until: 3.0,
+                motion: Motion::new(vec![bind()]),
+                tolerance: 1e-8,
+            }
+        };
+        [bar(0.0, [Condition::Free, Condition::Met]), bar(1.0, [Condition::Met, Condition::Free])]
+    }
+
+    /// The bars run into each other with velocity 1/100 and part after 2.
+    const BOUNCE: &str =
+        "sign(1 - X)/100*(t - max(0, t - abs(X - 1)) - max(0, t - (2 - abs(X - 1))))";
+    /// They stay together, as one bar that vibrates.
+    const STICK: &str = "cos(pi*X/2)*sin(pi*t/2)/100";
+
+    #[rstest]
+    #[case::bounce(BOUNCE, Some(0.0), "")]
+    #[case::stick(STICK, None, "")]
+    #[case::stick_in_contact(STICK, Some(0.0), "do not pull each other")]
+    #[case::bounce_as_one(BOUNCE, None, "the same u_X")]
+    #[case::pass_through("sign(1 - X)/100*t", Some(0.0), "none enters the other")]
+    #[case::push_from_afar(
+        "sign(1 - X)/100*(0 - t/2 - max(0, t - abs(X - 1)))",
+        Some(0.0),
+        "only where they touch"
+    )]
+    #[case::unequal_push(
+        "sign(1 - X)/100*(t - max(0, t - abs(X - 1))*(1.5 - step(X - 1)))",
+        Some(0.0),
+        "the same traction"
+    )]
+    fn two_bars(#[case] motion: &str, #[case] friction: Option<f64>, #[case] violated: &str) {
+        let [one, other] = bars(motion);
+        match meets(&one, &other, 0, friction) {
+            Ok(()) => assert!(violated.is_empty(), "`{violated}` was not seen"),
+            Err(found) if violated.is_empty() => panic!("{found}"),
+            Err(found) => assert!(found.condition.contains(violated), "{found}"),
+        }
+    }
+
+    #[test]
+    fn the_bars_are_sound_each_for_itself() {
+        for bar in bars(BOUNCE) {
+            bar.check().unwrap();
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Laws with a memory are known to the truth for loading that never reverses: that it does not is
+//! checked here.
+
+use super::pointwise::{Event, POINTS};
+use crate::exact::{problem::Problem, random::Random, violation::Violation};
+
+/// In uniaxial strain: where the body flows, the stretch never turns back.
+pub(crate) fn monotone(problem: &Problem) -> Result<(), Violation> {
+    if !problem.equation.has_history() {
+        return Ok(());
+    }
+    let mut random = Random::new(8);
+    for _ in 0..4 * POINTS {
+        let label = problem.point(&mut random);
+        let event = Event { label, t: problem.moment(&mut random) };
+        let now = problem.motion.derivatives(&event.label, event.t);
+        if !problem.equation.flows(now.grad[0][0]) {
+            continue;
+        }
+        let outwards = if now.grad[0][0] < 0.0 { -1.0 } else { 1.0 };
+        let back = (outwards * now.grad_rate[0][0]).min(0.0);
+        let allowed = problem.tolerance * now.grad[0][0].abs() / problem.until;
+        let name = "the demand that loading never reverses where the body flows: \
+                    the rate du_X/dX dt, where it turns back,"
+            .to_owned();
+        event.judge(allowed, name, (0.0, back), "1/s")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,28 @@
+//! The rims of a round body: free of traction, P n = 0 with n along the radius.
+
+use super::pointwise::{AXES, Event, POINTS, strain};
+use crate::exact::{problem::Problem, random::Random, violation::Violation};
+
+/// Holds the traction on every rim against zero.
+pub(crate) fn free(problem: &Problem) -> Result<(), Violation> {
+    let Some(round) = &problem.round else { return Ok(()) };
+    let allowed = problem.tolerance * problem.equation.modulus() * strain(problem);
+    let mut random = Random::new(7);
+    for rim in round.rims() {
+        for _ in 0..POINTS {
+            let (label, normal) = round.on_rim(&mut random, rim);
+            let event = Event { label, t: problem.moment(&mut random) };
+            let now = problem.motion.derivatives(&event.label, event.t);
+            let piola = problem.piola(&event.label, event.t, &now);
+            for i in 0..problem.dimension() {
+                let traction: f64 = piola[i].iter().zip(&normal).map(|(p, n)| p * n).sum();
+                let name = format!(
+                    "boundary condition: the {} rim is free, traction in {}",
+                    rim.name, AXES[i]
+                );
+                event.judge(allowed, name, (0.0, rim.outwards * traction), "Pa")?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,6 @@
+//! Analyses of a solver: its stable time step, its null space, totals over the body, and the cells of its particles.
+
+pub(crate) mod cell_tracker;
+pub(crate) mod null_space;
+pub(crate) mod stable_time_step;
+pub(crate) mod totals;

@@ -1,0 +1,191 @@
+//! The longest step that is stable, from the stages of the solver's own step.
+//!
+//! Velocities of nodes strain the particles, the stresses make forces, and these accelerate the nodes:
+//! `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest eigenvalue,
+//! the square of the highest frequency, is found by power iteration. With it an explicit step is
+//! stable up to `dt^2 L = 4/((2 - a) l)` under USL, where a, between 0 and 1, is the share of a velocity
+//! that particles show to the grid again; so `dt = sqrt(2/L)` is safe whatever a mode shows. Under USF and
+//! MUSL a particle is strained by what has gone through particles: `L = P N M^-1 K` with the maps to
+//! nodes and to particles, of which nothing grows where a node has little mass. Nothing is assumed of
+//! basis, mass matrix, place of particles or law, which are those of the run.
+//!
+//! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the dependence
+//! on the place of particles also Ni & Zhang (2020), IJNME 121.
+
+use crate::{
+    mpm::{
+        algebra::{Matrix, Vector},
+        effect::EffectName,
+        scheme::SchemeName,
+        solver::Solver,
+        stage::Stage,
+        transfer::Kind,
+    },
+    subject::Failure,
+};
+
+/// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside rounding, 1e-16,
+/// and small beside one; and it is a velocity, so that a quadratic viscosity means nothing to it.
+const SPEED: f64 = 1e-7;
+
+/// Times that the iteration is repeated with the step that it gave: where stresses depend on rates the
+/// frequency depends on the step.
+const REPEATS: u32 = 12;
+
+/// Rounds of a repetition, which starts where the one before has ended.
+const AGAIN: u32 = 4;
+
+/// Share of the largest eigenvalue so far by which all are shifted, which almost doubles the rate at
+/// which the others die out. It must be less than a half, or the smallest one would be the largest.
+const SHIFT: f64 = 0.45;
+
+/// A step that changes by no more than this share has settled.
+const SETTLED: f64 = 1e-3;
+
+/// The state that the iteration starts from each time.
+struct Start<const D: usize> {
+    v: Vec<Vector<D>>,
+    sigma: Vec<Matrix<D>>,
+    def_grad: Vec<Matrix<D>>,
+    vol: Vec<f64>,
+    stands: f64,
+}
+
+impl<const D: usize> Solver<D> {
+    /// The longest safe step (s), but at most `longest`, in the present state of the body. Loads are left
+    /// out, and so is friction of walls, and damping but that of the law and of artificial viscosity.
+    /// `rounds` of the power iteration, each as dear as a step, give an upper bound that is too large
+    /// by a few percent after some twenty.
+    ///
+    /// # Errors
+    /// What breaks in a stage; [`Failure::Solve`] if there is no such number.
+    pub fn safe_step(mut self, longest: f64, rounds: u32) -> Result<f64, Failure> {
+        self.setup.effects.retain(|effect| makes_stress(effect.name()));
+        self.setup.boundary.retain(|condition| !condition.reads_velocity());
+        self.run(Stage::Mass, longest)?;
+        let start = self.state_of_start();
+        let nodes = self.setup.grid.velocity.len();
+        let mut mode: Vec<Vector<D>> = (0..nodes)
+            .map(|i| Vector::from_fn(|axis, _| scattered((i * D + axis) as u64)))
+            .collect();
+        let (mut dt, mut rounds) = (longest, rounds);
+        for _ in 0..REPEATS {
+            let speed = SPEED * self.setup.grid.h / longest;
+            let square = self.square_of_frequency(&start, &mut mode, (dt, speed), rounds)?;
+            let stable = (2.0 / square).sqrt();
+            if stable.is_nan() {
+                return Err(Failure::Solve("the body has no highest frequency".to_owned()));
+            }
+            if stable >= (1.0 - SETTLED) * dt {
+                return Ok(stable.min(dt));
+            }
+            (dt, rounds) = (stable, AGAIN);
+        }
+        Ok(dt)
+    }
+
+    /// Power iteration: the largest ratio of the norm of `L mode` to that of `mode`, in the norm of the
+    /// nodal masses, in which the matrix is symmetric.
+    fn square_of_frequency(
+        &mut self,
+        start: &Start<D>,
+        mode: &mut [Vector<D>],
+        (dt, speed): (f64, f64),
+        rounds: u32,
+    ) -> Result<f64, Failure> {
+        let still = vec![Vector::zeros(); mode.len()];
+        let rest = self.response(start, &still, dt)?;
+        let mut square = 0.0_f64;
+        for _ in 0..rounds.max(1) {
+            let largest = mode.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
+            if !(largest > 0.0) {
+                break;
+            }
+            for v in mode.iter_mut() {
+                *v *= speed / largest;
+            }
+            let mut found = self.response(start, mode, dt)?;
+            for (found, rest) in found.iter_mut().zip(&rest) {
+                *found = (*found - rest) / dt;
+            }
+            // Written so that NaN comes through.
+            let ratio = (self.size(&found) / self.size(mode)).sqrt();
+            square = if square > ratio { square } else { ratio };
+            // The next is (L - shift) mode, but for its sign.
+            let shift = SHIFT * square;
+            for (mode, found) in mode.iter_mut().zip(found) {
+                *mode = *mode * shift + found;
+            }
+        }
+        Ok(square)
+    }
+
+    /// What the nodes do next after they have moved with `velocity` (m/s) for `dt` (s): their
+    /// accelerations (m/s2), or what comes back of these from the particles.
+    fn response(
+        &mut self,
+        start: &Start<D>,
+        velocity: &[Vector<D>],
+        dt: f64,
+    ) -> Result<Vec<Vector<D>>, Failure> {
+        self.setup.grid.velocity.copy_from_slice(velocity);
+        self.run(Stage::Stress, dt)?;
+        self.run(Stage::Force, dt)?;
+        self.run(Stage::Acceleration, dt)?;
+        self.restore(start);
+        if !self.strains_by_mapped_velocity() {
+            return Ok(self.setup.grid.acceleration.clone());
+        }
+        self.setup.particles.v.fill(Vector::zeros());
+        let crate::mpm::setup::Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        transfer.kick(kernel.as_ref(), grid, 1.0, particles);
+        self.run(Stage::Momentum, dt)?;
+        self.restore(start);
+        Ok(self.setup.grid.velocity.clone())
+    }
+
+    /// Whether velocities go through particles before they strain them. What an affine field or a series
+    /// brings back is taken for all of it.
+    fn strains_by_mapped_velocity(&self) -> bool {
+        self.setup.scheme != SchemeName::Usl && self.setup.transfer.kind() == Kind::Velocity
+    }
+
+    /// Twice the kinetic energy of nodes with these velocities.
+    fn size(&self, field: &[Vector<D>]) -> f64 {
+        self.setup.grid.mass.iter().zip(field).map(|(m, v)| m * v.norm_squared()).sum()
+    }
+
+    fn state_of_start(&self) -> Start<D> {
+        let particles = &self.setup.particles;
+        Start {
+            v: particles.v.clone(),
+            sigma: particles.sigma.clone(),
+            def_grad: particles.def_grad.clone(),
+            vol: particles.vol.clone(),
+            stands: self.stands,
+        }
+    }
+
+    fn restore(&mut self, start: &Start<D>) {
+        let particles = &mut self.setup.particles;
+        particles.v.copy_from_slice(&start.v);
+        particles.sigma.copy_from_slice(&start.sigma);
+        particles.def_grad.copy_from_slice(&start.def_grad);
+        particles.vol.copy_from_slice(&start.vol);
+        self.stands = start.stands;
+    }
+}
+
+/// Whether an effect meets the law. Given forces are the same whatever moves, and damping takes energy.
+fn makes_stress(effect: EffectName) -> bool {
+    use EffectName::{ArtificialViscosity, Heat, ThermalExpansion};
+    matches!(effect, ArtificialViscosity | Heat | ThermalExpansion)
+}
+
+/// A number from -1 to 1 without any pattern (splitmix64, Steele, Lea & Flood 2014).
+fn scattered(k: u64) -> f64 {
+    let mut z = k.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}

@@ -1,0 +1,190 @@
+//! Domains of GIMP along one axis, and the functions there: hats averaged over a domain, with its ends at
+//! `low` and `high`.
+//!
+//! Four at a time where no domain sees more than three nodes; one at a time, three nodes after three, where one
+//! does.
+
+use super::{weights_1d::Along, weights_1d_batch::Weights};
+use crate::mpm::{
+    algebra::array,
+    grid::Grid,
+    simd::{FOUR, Four, Plain, Width},
+};
+
+/// Functions along an axis that are seen at once: all of them while the domain is not longer than a
+/// cell.
+pub(in crate::mpm) const AT_ONCE: usize = 3;
+
+/// Largest half-length of a domain, in cells. A particle that is stretched further is seen with
+/// this one.
+const LONGEST: f64 = 2.5;
+
+/// The hat of a node at distance z, in cells.
+fn hat(z: f64) -> f64 {
+    (1.0 - z.abs()).max(0.0)
+}
+
+/// Its integral from minus infinity.
+fn integral(z: f64) -> f64 {
+    let z = z.clamp(-1.0, 1.0);
+    if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
+}
+
+/// Domains of four particles along one axis, in cells.
+#[derive(Clone, Copy)]
+pub(in crate::mpm) struct Extent<W: Width> {
+    /// The particle and the ends of its domain.
+    at: W::Four,
+    low: W::Four,
+    high: W::Four,
+    /// The first node that it sees.
+    pub(in crate::mpm) first: W::Four,
+}
+
+impl<W: Width> Extent<W> {
+    /// The domain at `at`, cut off at walls: at the first node and this last one, if there are any.
+    #[inline(always)]
+    pub(in crate::mpm) fn new(at: W::Four, half: W::Four, last: Option<f64>) -> Self {
+        let half = half.abs().at_most(LONGEST);
+        let (mut low, mut high) = (at - half, at + half);
+        if let Some(last) = last {
+            (low, high) = (low.at_least(0.0), high.at_most(last));
+        }
+        Self { at, low, high, first: low.floor() }
+    }
+
+    /// How far the last of [`AT_ONCE`] nodes is beyond the domain. Less than nothing if there are more.
+    #[inline(always)]
+    pub(in crate::mpm) fn spare(&self) -> W::Four {
+        self.first + (AT_ONCE - 1) as f64 - self.high
+    }
+
+    /// The functions of domains that end before the third node. It is known on which side of which node
+    /// the ends are: what is computed are [`integral`] and [`hat`] there, to the bit.
+    #[inline(always)]
+    pub(in crate::mpm) fn along(&self, width: W, h: f64, inverse_h: f64) -> Weights<W, AT_ONCE> {
+        let (zero, one) = (width.all(0.0), width.all(1.0));
+        let rising = |z: W::Four| (z + 1.0) * 0.5 * (z + 1.0);
+        let falling = |z: W::Four| z + 0.5 - z * 0.5 * z;
+        let node: [_; AT_ONCE] = array(zero, |k| self.first + k as f64);
+        let (low, high) =
+            ([self.low - node[0], self.low - node[1]], |k: usize| self.high - node[k]);
+        let high = [high(0).at_most(1.0), high(1), high(2).at_least(-1.0)];
+        let (left, right) = (high[1].at_most(0.0), high[1].at_least(0.0));
+        let share = (self.high - self.low).inverse();
+        let weight = [
+            (falling(high[0]) - falling(low[0])) * share,
+            (rising(left) + right - right * 0.5 * right - rising(low[1])) * share,
+            rising(high[2]) * share,
+        ];
+        let slope = [
+            (one - high[0] - (one - low[0])) * share * inverse_h,
+            (one - high[1].abs() - (low[1] + 1.0)) * share * inverse_h,
+            (high[2] + 1.0) * share * inverse_h,
+        ];
+        let offset = array(zero, |k| (node[k] - self.at) * h);
+        let (mut mean, mut second) = (weight[0] * offset[0], weight[0] * offset[0] * offset[0]);
+        for k in 1..AT_ONCE {
+            mean += weight[k] * offset[k];
+            second += weight[k] * offset[k] * offset[k];
+        }
+        // A domain that is cut off is not centred on its particle.
+        Weights { weight, slope, offset, variance: second - mean * mean }
+    }
+}
+
+/// The domain of one particle along one axis.
+#[derive(Clone, Copy)]
+pub(in crate::mpm) struct Alone {
+    extent: Extent<Plain>,
+    /// How many times [`AT_ONCE`] nodes it sees.
+    pub(in crate::mpm) groups: usize,
+}
+
+impl Alone {
+    #[inline(always)]
+    pub(in crate::mpm) fn new<const D: usize>(
+        grid: &Grid<D>,
+        at: f64,
+        half: f64,
+        axis: usize,
+    ) -> Self {
+        let last = (!grid.periodic[axis]).then_some(grid.cells[axis] as f64);
+        let extent = Extent::<Plain>::new(Plain.all(at), Plain.all(half), last);
+        let [spare, ..]: [f64; FOUR] = extent.spare().into();
+        let groups = if spare >= 0.0 { 1 } else { 2 + (-spare / AT_ONCE as f64) as usize };
+        Self { extent, groups }
+    }
+
+    /// The functions of a group.
+    #[inline(always)]
+    pub(in crate::mpm) fn along<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+        group: usize,
+    ) -> Along<AT_ONCE> {
+        if self.groups > 1 {
+            return self.one_of_many(grid, axis, group);
+        }
+        let first = <[f64; FOUR]>::from(self.extent.first)[0];
+        let along = self.extent.along(Plain, grid.h, grid.inverse_h());
+        along.take(0, grid.wrap_signed(first, axis))
+    }
+
+    /// The functions of a group wherever the domain ends. Those beyond it and beyond the wall are zero.
+    #[inline(always)]
+    fn one_of_many<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+        group: usize,
+    ) -> Along<AT_ONCE> {
+        let Extent { at, low, high, first } = self.extent;
+        let [at, low, high, first] =
+            [at, low, high, first].map(|four| <[f64; FOUR]>::from(four)[0]);
+        let first = first + (group * AT_ONCE) as f64;
+        let (share, node) = (1.0 / (high - low), |k: usize| first + k as f64);
+        let (low, high) = (|k| low - node(k), |k| high - node(k));
+        Along::new(
+            grid.wrap_signed(first, axis),
+            array(0.0, |k| (integral(high(k)) - integral(low(k))) * share),
+            array(0.0, |k| (hat(high(k)) - hat(low(k))) * share * grid.inverse_h()),
+            array(0.0, |k| (node(k) - at) * grid.h),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::algebra::Vector;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What is known of a short domain changes no bit of its functions.
+        #[test]
+        fn a_short_domain_has_the_functions_of_any(
+            at in 0.0..=5.0_f64,
+            half in 0.0..1.0_f64,
+            whole: bool,
+            periodic: bool,
+        ) {
+            let grid = Grid::<1>::new(Vector::<1>::new(0.0), 0.3, [5], [periodic], [6]);
+            let at = if whole { libm::round(at) } else { at };
+            for half in [half, 0.5 * libm::round(2.0 * half), libm::fabs(at - libm::round(at)), 1e-9 * half] {
+                let alone = Alone::new(&grid, at, half, 0);
+                if alone.groups > 1 || half == 0.0 {
+                    continue;
+                }
+                let (short, any) = (alone.along(&grid, 0, 0), alone.one_of_many(&grid, 0, 0));
+                prop_assert_eq!(short.first, any.first);
+                prop_assert_eq!(short.weight, any.weight);
+                prop_assert_eq!(short.slope, any.slope);
+                prop_assert_eq!(short.offset, any.offset);
+                let [_, mean, second] = any.moments();
+                prop_assert_eq!(short.variance, second - mean * mean);
+            }
+        }
+    }
+}

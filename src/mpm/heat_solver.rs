@@ -1,0 +1,96 @@
+//! A body at rest in which heat flows: no stage of mechanics, and no column of it.
+
+use super::{
+    analysis::cell_tracker::Whereabouts, basis::Domain, effect::Effect, grid::Grid,
+    kernel::contract::Kernel, particles::Particles,
+};
+use crate::subject::{Census, Checkpoint, Failure, Profile, Samples, Subject};
+
+/// A body at rest with the effects that advance what they keep: the masses of the grid are taken
+/// once, and a step is what the effects make of it.
+pub struct Conductor<const D: usize> {
+    grid: Grid<D>,
+    particles: Particles<D>,
+    kernel: Box<dyn Kernel<D>>,
+    effects: Vec<Box<dyn Effect<D>>>,
+    time: f64,
+    transfers: u64,
+}
+
+impl<const D: usize> Conductor<D> {
+    /// A body at t = 0.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it is
+    /// outside the grid.
+    pub fn new(
+        kernel: Box<dyn Kernel<D>>,
+        mut grid: Grid<D>,
+        mut particles: Particles<D>,
+        effects: Vec<Box<dyn Effect<D>>>,
+    ) -> Result<Self, Failure> {
+        particles.all_finite()?;
+        Whereabouts::new(&grid, &particles)?;
+        if kernel.domain() == Domain::Follows {
+            particles.track_domains();
+        }
+        particles.forget_motion();
+        grid.forget_motion();
+        kernel.p2g_mass(&particles, &mut grid);
+        let transfers = particles.len() as u64 * kernel.support();
+        Ok(Self { grid, particles, kernel, effects, time: 0.0, transfers })
+    }
+
+    /// The effects, and all that is kept for particles and nodes.
+    pub fn profile(&self) -> Profile {
+        let mut columns = self.particles.columns();
+        columns.extend(self.effects.iter().flat_map(|effect| effect.columns()));
+        columns.extend(self.grid.columns());
+        columns.retain(|column| column.entries > 0);
+        Profile {
+            effects: self.effects.iter().map(|effect| effect.name().name()).collect(),
+            particles: self.particles.len(),
+            nodes: self.grid.nodes(),
+            columns,
+            passes: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize> Subject for Conductor<D> {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        let Self { grid, particles, kernel, effects, .. } = self;
+        for effect in effects {
+            let now = (self.time, dt);
+            self.transfers += effect.advance(now, particles, kernel.as_ref(), grid)?;
+        }
+        self.time += dt;
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+        self.particles.sample(samples);
+    }
+
+    fn census(&self) -> Census {
+        Census {
+            particles: Some(self.particles.len() as u64),
+            transfers: self.transfers,
+            crossings: Some(0),
+            left_domain: Some(0),
+            min_j: 1.0,
+        }
+    }
+    /// The grid has its masses from the start.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
+        checkpoint.visit(particles);
+        for effect in effects {
+            effect.checkpoint(checkpoint);
+        }
+        checkpoint.visit(time);
+        checkpoint.visit(transfers);
+        true
+    }
+}

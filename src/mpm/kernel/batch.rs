@@ -1,0 +1,94 @@
+//! Particles, several at a time, with what they see.
+
+use super::{inertia::inertia, moments::Inertia};
+use crate::mpm::{
+    basis::{Basis, Lattice, Needs, Patch},
+    grid::Grid,
+    packed_grid::Layout,
+    particles::Particles,
+    simd::{FOUR, LANES, Width},
+};
+use std::{marker::PhantomData, ops::Range};
+
+/// Several patches of a basis.
+pub(in crate::mpm) type Several<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Several;
+
+/// The bits of all lanes.
+pub(in crate::mpm) const ALL: u32 = (1 << LANES) - 1;
+
+/// What several particles see. The patches are not part of it: what is beside them in memory would be
+/// read anew after each of their weights is written.
+pub(in crate::mpm) struct Sight<'a, B: Basis, const D: usize> {
+    pub(in crate::mpm) particles: &'a Particles<D>,
+    grid: &'a Grid<D>,
+    lattice: Lattice<D>,
+    needs: Needs,
+    basis: PhantomData<B>,
+}
+
+impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
+    #[inline(always)]
+    pub(in crate::mpm) fn new(
+        (grid, layout): (&'a Grid<D>, Layout),
+        particles: &'a Particles<D>,
+        needs: Needs,
+    ) -> Self {
+        let lattice = Lattice::new(grid, layout, needs);
+        Self { particles, grid, lattice, needs, basis: PhantomData }
+    }
+
+    /// Calls `see` for the patches of the particles from `first` on, in their order, with the lanes
+    /// that they are in: particle `first + k` is in lane k. One that is outside the grid is left out, and
+    /// its bit in the result is not set where patches are put, not added.
+    /// Where a particle sees several patches, their moments must be known before the first of them is seen;
+    /// where it sees one, they follow from its weights at no cost.
+    #[inline(always)]
+    pub(in crate::mpm) fn of<W: Width>(
+        &self,
+        width: W,
+        first: usize,
+        patches: &mut Several<B, D>,
+        mut see: impl FnMut(&mut Several<B, D>, Range<usize>, Option<&Inertia<D>>),
+    ) -> u32 {
+        let Self { particles, grid, lattice, .. } = self;
+        let count = LANES.min(particles.len() - first);
+        let (mut one, mut lane) = (0, 0);
+        while lane < count {
+            let at = (first + lane, lane);
+            one |= B::four(width, (grid, lattice), particles, at, patches) << lane;
+            lane += FOUR;
+        }
+        if B::ONE_PATCH {
+            let (mut rest, mut lane) = (one, 0);
+            while rest != 0 {
+                let from = lane + rest.trailing_zeros();
+                lane = from + (one >> from).trailing_ones();
+                see(patches, from as usize..lane as usize, None);
+                rest = one >> lane;
+            }
+            return one;
+        }
+        let mut lane = 0;
+        while lane < count {
+            let to = lane + (one >> lane).trailing_ones() as usize;
+            if to > lane {
+                see(patches, lane..to, None);
+                lane = to;
+                continue;
+            }
+            let of_all = self.needs.places.then(|| inertia::<D, B>(grid, particles, first + lane));
+            B::patches(
+                grid,
+                particles,
+                first + lane,
+                #[inline(always)]
+                |patch| {
+                    patch.put(lane, &lattice.layout, patches);
+                    see(patches, lane..lane + 1, of_all.as_ref());
+                },
+            );
+            lane += 1;
+        }
+        ALL
+    }
+}

@@ -1,0 +1,219 @@
+//! A kernel that counts its passes: what a step does, seen from outside. Parts of a pass that does
+//! several things count as if each were alone.
+
+use super::{
+    contract::{Affine, Divergence, Kernel, Maps, Shown, Takes},
+    moments::Moments,
+};
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    basis::Domain,
+    grid::Grid,
+    particles::Particles,
+};
+use std::sync::{
+    Arc,
+    atomic::{AtomicU64, Ordering::Relaxed},
+};
+
+/// Particles that each kind of pass has visited.
+#[derive(Debug, Default)]
+pub struct Tally([AtomicU64; NAMES.len()]);
+
+const NAMES: [&str; 18] = [
+    "p2g mass",
+    "p2g momentum",
+    "p2g internal force",
+    "p2g affine force",
+    "p2g point force",
+    "p2g point moment",
+    "g2p",
+    "g2p gradient",
+    "g2p moment",
+    "moments",
+    "mass matrix",
+    "g2p position",
+    "p2g mass gradient",
+    "p2g scalar",
+    "p2g flow",
+    "p2g amount",
+    "g2p scalar",
+    "g2p slope",
+];
+
+impl Tally {
+    pub(in crate::mpm) fn add(&self, name: &str, particles: usize) {
+        if let Some(pass) = NAMES.iter().position(|known| *known == name) {
+            self.0[pass].fetch_add(particles as u64, Relaxed);
+        }
+    }
+
+    /// The passes since the last call, with the particles that each has visited.
+    pub fn take(&self) -> Vec<(&'static str, u64)> {
+        let taken = NAMES.iter().zip(&self.0).map(|(name, count)| (*name, count.swap(0, Relaxed)));
+        taken.filter(|(_, visited)| *visited > 0).collect()
+    }
+}
+
+/// A kernel whose passes are counted.
+pub struct Counted<const D: usize> {
+    pub(in crate::mpm) kernel: Box<dyn Kernel<D>>,
+    pub(in crate::mpm) tally: Arc<Tally>,
+}
+
+impl<const D: usize> Counted<D> {
+    /// Wraps a kernel; the tally is what the caller reads.
+    pub fn new(kernel: Box<dyn Kernel<D>>) -> (Self, Arc<Tally>) {
+        let tally = Arc::new(Tally::default());
+        (Self { kernel, tally: Arc::clone(&tally) }, tally)
+    }
+
+    /// Wraps a kernel that adds to a tally which others add to.
+    pub fn sharing(kernel: Box<dyn Kernel<D>>, tally: &Arc<Tally>) -> Self {
+        Self { kernel, tally: Arc::clone(tally) }
+    }
+}
+
+impl<const D: usize> Kernel<D> for Counted<D> {
+    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
+        let force = |kind| maps.force == Some(kind);
+        let by_moment = |shown: Shown<'_, D>| matches!(shown.affine, Some(Affine::Moment(_)));
+        for (name, wanted) in [
+            ("p2g mass", maps.mass),
+            ("p2g momentum", maps.momentum.is_some()),
+            ("p2g internal force", force(Divergence::Gradient)),
+            ("p2g affine force", force(Divergence::Fit)),
+            ("moments", maps.mass && maps.momentum.is_some_and(by_moment)),
+        ] {
+            self.tally.add(name, if wanted { particles.len() } else { 0 });
+        }
+        self.kernel.p2g(particles, maps, grid);
+    }
+
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>) {
+        for (name, wanted) in [
+            ("g2p", takes.change.is_some()),
+            ("g2p", takes.mix.is_some()),
+            ("g2p moment", takes.moment.is_some()),
+            ("g2p gradient", takes.gradient.is_some()),
+            ("g2p position", takes.carried.is_some()),
+        ] {
+            self.tally.add(name, if wanted { particles.len() } else { 0 });
+        }
+        self.kernel.g2p_all(grid, particles, takes);
+    }
+
+    fn p2g_momentum(
+        &self,
+        particles: &Particles<D>,
+        shown: Shown<'_, D>,
+        grid: &Grid<D>,
+        momentum: &mut [Vector<D>],
+    ) {
+        self.tally.add("p2g momentum", particles.len());
+        self.kernel.p2g_momentum(particles, shown, grid, momentum);
+    }
+
+    fn p2g_point_force(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        force: &Vector<D>,
+        grid: &mut Grid<D>,
+    ) {
+        self.tally.add("p2g point force", 1);
+        self.kernel.p2g_point_force(particles, p, force, grid);
+    }
+
+    fn g2p(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        keep_and_factor: (f64, f64),
+        value: &mut [Vector<D>],
+    ) {
+        self.tally.add("g2p", particles.len());
+        self.kernel.g2p(grid, field, particles, keep_and_factor, value);
+    }
+
+    fn g2p_gradient(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        gradient: &mut [Matrix<D>],
+    ) {
+        self.tally.add("g2p gradient", particles.len());
+        self.kernel.g2p_gradient(grid, field, particles, gradient);
+    }
+
+    fn g2p_moment(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        moment: &mut [Matrix<D>],
+    ) {
+        self.tally.add("g2p moment", particles.len());
+        self.kernel.g2p_moment(grid, field, particles, moment);
+    }
+
+    fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
+        self.tally.add("moments", particles.len());
+        self.kernel.moments(grid, particles, moments);
+    }
+
+    fn mass_entries(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        entry: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        self.tally.add("mass matrix", particles.len());
+        self.kernel.mass_entries(grid, particles, entry);
+    }
+
+    /// Part of what it is divided for.
+    fn divide_by_inertia(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        matrices: &mut [Matrix<D>],
+    ) {
+        self.kernel.divide_by_inertia(grid, particles, matrices);
+    }
+
+    fn p2g_point_moment(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        moment: &Matrix<D>,
+        grid: &mut Grid<D>,
+    ) {
+        self.tally.add("p2g point moment", 1);
+        self.kernel.p2g_point_moment(particles, p, moment, grid);
+    }
+
+    fn p2g_mass_gradient(
+        &self,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        gradient: &mut [Vector<D>],
+    ) {
+        self.tally.add("p2g mass gradient", particles.len());
+        self.kernel.p2g_mass_gradient(particles, grid, gradient);
+    }
+
+    fn support(&self) -> u64 {
+        self.kernel.support()
+    }
+
+    fn domain(&self) -> Domain {
+        self.kernel.domain()
+    }
+
+    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
+        self.kernel.grid(origin, h, cells, periodic)
+    }
+}

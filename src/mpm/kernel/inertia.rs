@@ -1,0 +1,32 @@
+//! Moments of the weights of one particle.
+
+use super::moments::Inertia;
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    basis::{Basis, Patch, Spread},
+    grid::Grid,
+    particles::Particles,
+};
+
+/// Mean and second moments of the weights of particle `p`, from all its patches.
+#[inline(always)]
+pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    p: usize,
+) -> Inertia<D> {
+    let mut all = Spread { first: Vector::zeros(), second: Matrix::zeros() };
+    let mut one = Inertia { mean: Vector::zeros(), second: Matrix::zeros() };
+    let mut patches = 0;
+    B::patches(grid, particles, p, |patch| {
+        one = Inertia::diagonal(patch.variance());
+        patches += 1;
+        if !B::ONE_PATCH {
+            let spread = patch.spread();
+            all.first += spread.first;
+            all.second += spread.second;
+        }
+    });
+    // What is one patch is a product.
+    if B::ONE_PATCH || patches == 1 { one } else { Inertia::full(&all) }
+}

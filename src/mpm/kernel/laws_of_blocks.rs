@@ -1,0 +1,151 @@
+//! What blocks of particles keep: passes give the same on any number of threads, and what they would give
+//! as one block but for rounding.
+
+use super::{
+    Loops,
+    colouring::CHUNKS,
+    contract::{Affine, Kernel, Maps, Shown, Takes},
+};
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    basis::{Basis, BasisName, Domain, with_basis},
+    grid::Grid,
+    particles::{Block, Particles},
+};
+use approx::assert_relative_eq;
+use rayon::ThreadPoolBuilder;
+use rstest::rstest;
+
+const H: f64 = 0.25;
+
+/// Cuts as a scene of so few particles would not be.
+fn cutting<B: Basis>() -> Loops<B> {
+    let loops = Loops::<B>::default();
+    let mut room = loops.room();
+    (room.blocks.fewest, room.blocks.least) = (0, 16 * CHUNKS);
+    drop(room);
+    loops
+}
+
+/// A body in a grid that is long along its last axis, every column filled with numbers.
+fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
+    let cells = std::array::from_fn(|axis| match (axis + 1 == D, D) {
+        (true, 1) => 600,
+        (true, _) => 60,
+        (false, 2) => 9,
+        (false, _) => 3,
+    });
+    let mut grid = kernel.grid(Vector::zeros(), H, cells, [periodic; D]);
+    let to = Vector::from_fn(|axis, _| H * cells[axis] as f64);
+    let mut particles = Particles::fill(&Block { from: Vector::zeros(), to, density: 2.0 }, H, 2);
+    let vector = |k: usize| Vector::<D>::from_fn(|i, _| libm::sin((7 * k + 3 * i + 1) as f64));
+    particles.track_domains();
+    for p in 0..particles.len() {
+        particles.x[p] += vector(p) * (0.2 * H);
+        particles.v[p] = vector(p + 1);
+        particles.sigma[p] = Matrix::from_fn(|i, j| vector(p + i)[j]);
+        particles.domain[p] *= 1.1;
+    }
+    grid.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = vector(i + 2));
+    (grid, particles)
+}
+
+/// Mass, momentum and force of all nodes.
+fn mapped<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+) -> Vec<f64> {
+    let (mut grid, slope) = (grid.clone(), Affine::Slope(&particles.sigma));
+    let momentum = Some(Shown { v: &particles.v, affine: Some(slope) });
+    let force = Some(super::contract::Divergence::Gradient);
+    kernel.p2g(particles, &Maps { mass: true, momentum, force }, &mut grid);
+    let vectors = grid.velocity.iter().chain(&grid.force).flatten();
+    grid.mass.iter().chain(vectors).copied().collect()
+}
+
+fn taken<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+) -> Vec<f64> {
+    let (mut value, mut moment) = (particles.v.clone(), particles.sigma.clone());
+    let (mut gradient, mut carried) = (moment.clone(), value.clone());
+    let takes = Takes {
+        change: Some(0.5),
+        mix: Some((0.5, 0.5)),
+        value: Some(&mut value),
+        moment: Some(&mut moment),
+        gradient: Some(&mut gradient),
+        carried: Some((0.5, &mut carried)),
+    };
+    kernel.g2p_all(grid, particles, takes);
+    let matrices = moment.iter().chain(&gradient).flatten();
+    value.iter().chain(&carried).flatten().chain(matrices).copied().collect()
+}
+
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|x| x.to_bits()).collect()
+}
+
+fn is_shared<B: Basis, const D: usize>(periodic: bool) {
+    let (loops, whole) = (cutting::<B>(), Loops::<B>::default());
+    let (grid, particles) = scene::<D>(&whole, periodic);
+    let serial = mapped(&whole, &grid, &particles);
+    let run = |threads: usize| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pass = || (mapped(&loops, &grid, &particles), taken(&loops, &grid, &particles));
+        pool.install(pass)
+    };
+    let (blocks, (nodes, takes)) = (&loops.room, run(1));
+    let is_cut = blocks.lock().unwrap().blocks.colours[1].len() >= 2;
+    let has_seam = periodic && B::DOMAIN != Domain::Point;
+    assert_eq!(is_cut, !has_seam, "domains beyond a seam see both ends of the field");
+    for (shared, one) in nodes.iter().zip(&serial) {
+        assert_relative_eq!(*shared, *one, epsilon = 1e-13);
+    }
+    for threads in [2, 3] {
+        let (others, took) = run(threads);
+        assert_eq!(bits(&others), bits(&nodes), "{threads} threads");
+        assert_eq!(bits(&took), bits(&takes), "{threads} threads");
+    }
+}
+
+/// Where particles are in no order, or not where a body has them, the sums are still right.
+fn is_right_anywhere<B: Basis, const D: usize>(periodic: bool) {
+    let (loops, whole) = (cutting::<B>(), Loops::<B>::default());
+    let (grid, mut particles) = scene::<D>(&whole, periodic);
+    let n = particles.len();
+    let length = H * grid.cells[D - 1] as f64;
+    let mut check = |change: &mut dyn FnMut(&mut Particles<D>)| {
+        change(&mut particles);
+        let serial = mapped(&whole, &grid, &particles);
+        for (shared, one) in mapped(&loops, &grid, &particles).iter().zip(&serial) {
+            assert!(
+                (shared - one).abs() <= 1e-12 * (1.0 + one.abs()) || one.is_nan(),
+                "{shared} {one}"
+            );
+        }
+    };
+    check(&mut |of| of.x[n / 3][D - 1] = f64::NAN);
+    check(&mut |of| of.x[n / 4][D - 1] = -0.3 * H);
+    check(&mut |of| of.x[n / 2][D - 1] = length);
+    check(&mut |of| of.x[n - 1][D - 1] = length + 0.7 * H);
+    check(&mut |of| of.domain[n / 5] *= 40.0);
+    check(&mut |of| of.domain[n / 6] *= f64::INFINITY);
+    check(&mut |of| of.x.reverse());
+}
+
+#[rstest]
+fn blocks_give_the_same_on_any_number_of_threads(#[values(false, true)] periodic: bool) {
+    for &name in BasisName::ALL {
+        with_basis!(name, B => {
+            is_shared::<B, 1>(periodic);
+            is_shared::<B, 2>(periodic);
+            is_shared::<B, 3>(periodic);
+            is_right_anywhere::<B, 1>(periodic);
+            is_right_anywhere::<B, 2>(periodic);
+            is_right_anywhere::<B, 3>(periodic);
+        });
+    }
+}

@@ -1,0 +1,216 @@
+//! The particle-node loops: the only place where a basis meets particles and grid.
+//!
+//! Sums run over particles in their order and over nodes in theirs, so results are the same bits
+//! everywhere. Transfers are made of these loops and need none of their own: they exist once for
+//! each basis and dimension. Fields of nodes are packed for a pass and unpacked after it, which costs
+//! as much as the nodes of some few particles.
+
+pub(crate) mod contract;
+pub(crate) mod counting;
+pub(crate) mod counting_scalars;
+pub(crate) mod moments;
+pub(crate) mod scalar_contract;
+
+mod batch;
+mod colouring;
+mod g2p;
+mod inertia;
+#[cfg(test)]
+mod laws;
+#[cfg(test)]
+mod laws_of_blocks;
+mod p2g;
+mod par_split;
+mod parallel;
+mod scalar_loops;
+mod workspace;
+
+use self::{inertia::inertia, workspace::Room};
+use super::{
+    algebra::{Matrix, Vector},
+    basis::{Basis, BasisName, Domain, with_basis},
+    grid::Grid,
+    packed_grid::Columns,
+    particles::Particles,
+};
+use contract::{Kernel, Maps, Shown, Takes};
+use moments::{Inertia, Moments};
+use std::{
+    marker::PhantomData,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+/// Builds the kernel of the basis that a suite names.
+pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
+    with_basis!(basis, B => Box::new(Loops::<B>::default()))
+}
+
+/// The kernel of basis `B`.
+struct Loops<B> {
+    /// Kept from one pass to the next. No result depends on what it holds.
+    room: Mutex<Room>,
+    basis: PhantomData<B>,
+}
+
+impl<B> Default for Loops<B> {
+    fn default() -> Self {
+        Self { room: Mutex::default(), basis: PhantomData }
+    }
+}
+
+impl<B> Loops<B> {
+    fn room(&self) -> MutexGuard<'_, Room> {
+        // A pass that has panicked leaves numbers that the next one overwrites.
+        self.room.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
+    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
+        let mut mass = std::mem::take(&mut grid.mass);
+        let mut momentum = std::mem::take(&mut grid.velocity);
+        let mut force = std::mem::take(&mut grid.force);
+        let columns = Columns {
+            mass: maps.mass.then_some(&mut mass),
+            momentum: maps.momentum.is_some().then_some(&mut momentum),
+            force: maps.force.is_some().then_some(&mut force),
+            ..Columns::default()
+        };
+        self.room().scatter::<B, D>(particles, maps, grid, columns);
+        (grid.mass, grid.velocity, grid.force) = (mass, momentum, force);
+    }
+
+    fn p2g_momentum(
+        &self,
+        particles: &Particles<D>,
+        shown: Shown<'_, D>,
+        grid: &Grid<D>,
+        column: &mut [Vector<D>],
+    ) {
+        let maps = Maps { momentum: Some(shown), ..Maps::default() };
+        let columns = Columns { momentum: Some(column), ..Columns::default() };
+        self.room().scatter::<B, D>(particles, &maps, grid, columns);
+    }
+
+    fn p2g_point_force(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        force: &Vector<D>,
+        grid: &mut Grid<D>,
+    ) {
+        let mut column = std::mem::take(&mut grid.force);
+        B::visit(grid, particles, p, |i| column[i.node] += force * i.weight);
+        grid.force = column;
+    }
+
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>) {
+        self.room().gather::<B, D>(grid, particles, &grid.velocity, takes);
+    }
+
+    fn g2p(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        keep_and_factor: (f64, f64),
+        value: &mut [Vector<D>],
+    ) {
+        let (mix, value) = (Some(keep_and_factor), Some(value));
+        self.room().gather::<B, D>(
+            grid,
+            particles,
+            field,
+            Takes { mix, value, ..Takes::default() },
+        );
+    }
+
+    fn g2p_gradient(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        gradient: &mut [Matrix<D>],
+    ) {
+        let gradient = Some(gradient);
+        self.room().gather::<B, D>(grid, particles, field, Takes { gradient, ..Takes::default() });
+    }
+
+    fn g2p_moment(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        moment: &mut [Matrix<D>],
+    ) {
+        let moment = Some(moment);
+        self.room().gather::<B, D>(grid, particles, field, Takes { moment, ..Takes::default() });
+    }
+
+    fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
+        for (p, (mean, second)) in moments.mean.iter_mut().zip(&mut moments.second).enumerate() {
+            Inertia { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
+        }
+    }
+
+    fn divide_by_inertia(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        matrices: &mut [Matrix<D>],
+    ) {
+        for (p, matrix) in matrices.iter_mut().enumerate() {
+            *matrix = inertia::<D, B>(grid, particles, p).divide(matrix, grid.h);
+        }
+    }
+
+    fn mass_entries(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        entry: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        for (p, m) in particles.mass.iter().enumerate() {
+            B::visit(grid, particles, p, |i| {
+                B::visit(grid, particles, p, |j| entry(i.node, j.node, m * i.weight * j.weight));
+            });
+        }
+    }
+
+    fn p2g_point_moment(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        moment: &Matrix<D>,
+        grid: &mut Grid<D>,
+    ) {
+        let mut column = std::mem::take(&mut grid.force);
+        B::visit(grid, particles, p, |i| column[i.node] += moment * i.gradient);
+        grid.force = column;
+    }
+
+    fn p2g_mass_gradient(
+        &self,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        gradient: &mut [Vector<D>],
+    ) {
+        gradient.fill(Vector::zeros());
+        for (p, m) in particles.mass.iter().enumerate() {
+            B::visit(grid, particles, p, |i| gradient[i.node] += i.gradient * *m);
+        }
+    }
+
+    fn support(&self) -> u64 {
+        B::support(D)
+    }
+
+    fn domain(&self) -> Domain {
+        B::DOMAIN
+    }
+
+    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
+        let counts = std::array::from_fn(|axis| B::count(cells[axis], periodic[axis]));
+        Grid::new(origin, h, cells, periodic, counts)
+    }
+}

@@ -1,0 +1,50 @@
+//! Particles that take from nodes, shared by halves among threads: none waits for another.
+
+use super::contract::Takes;
+use crate::mpm::{
+    simd::LANES,
+    threads::{both, split},
+};
+use std::ops::Range;
+
+/// Particles that are not worth a thread of their own.
+const FEW: usize = 1 << 14;
+
+impl<const D: usize> Takes<'_, D> {
+    /// What the first `count` particles take, and what the others do.
+    fn split_at(self, count: usize) -> (Self, Self) {
+        let Self { change, mix, .. } = self;
+        let value = split(self.value, count);
+        let moment = split(self.moment, count);
+        let gradient = split(self.gradient, count);
+        let (dt, carried) = self.carried.unzip();
+        let carried = split(carried, count);
+        let part = |value, moment, gradient, carried| Self {
+            change,
+            mix,
+            value,
+            moment,
+            gradient,
+            carried: dt.zip(carried),
+        };
+        (
+            part(value.0, moment.0, gradient.0, carried.0),
+            part(value.1, moment.1, gradient.1, carried.1),
+        )
+    }
+}
+
+/// Runs `work` for parts of `these` particles, each with what its particles take.
+pub(in crate::mpm) fn halves<const D: usize>(
+    these: Range<usize>,
+    takes: Takes<'_, D>,
+    work: &(impl Fn(Range<usize>, Takes<'_, D>) + Sync),
+) {
+    if these.len() <= FEW {
+        return work(these, takes);
+    }
+    let first = (these.len() / 2).next_multiple_of(LANES);
+    let middle = these.start + first;
+    let (left, right) = takes.split_at(first);
+    both(|| halves(these.start..middle, left, work), || halves(middle..these.end, right, work));
+}

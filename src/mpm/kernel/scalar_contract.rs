@@ -1,0 +1,54 @@
+//! The passes that carry a scalar between particles and nodes, such as a temperature.
+
+use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
+
+/// Passes of P2G and G2P for scalars, of one basis.
+pub trait Scalars<const D: usize> {
+    /// `column_i = sum_p m_p (s_p + slope_p . (x_i - x_p)) N_i(x_p)`: a scalar s with its slope, as
+    /// particles show it to the nodes.
+    fn p2g_scalar(
+        &self,
+        particles: &Particles<D>,
+        shown: (&[f64], &[Vector<D>]),
+        grid: &Grid<D>,
+        column: &mut [f64],
+    );
+
+    /// `column_i = factor sum_p V_p slope_p . grad N_i(x_p)`: what flows to the nodes along a slope.
+    fn p2g_flow(
+        &self,
+        particles: &Particles<D>,
+        slope_and_factor: (&[Vector<D>], f64),
+        grid: &Grid<D>,
+        column: &mut [f64],
+    );
+
+    /// Adds `amount`, which belongs to particle `p`, to the nodes that the particle sees.
+    fn p2g_amount(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        amount: f64,
+        grid: &Grid<D>,
+        column: &mut [f64],
+    );
+
+    /// `s_p += factor sum_i field_i N_i(x_p)`.
+    fn g2p_scalar(
+        &self,
+        grid: &Grid<D>,
+        field: &[f64],
+        particles: &Particles<D>,
+        factor: f64,
+        value: &mut [f64],
+    );
+
+    /// `slope_p = sum_i field_i grad N_i(x_p)`.
+    fn g2p_slope(
+        &self,
+        grid: &Grid<D>,
+        field: &[f64],
+        particles: &Particles<D>,
+        slope: &mut [Vector<D>],
+    );
+}

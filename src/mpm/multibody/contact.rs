@@ -1,0 +1,206 @@
+//! Contact with friction, at the nodes where bodies meet (Bardenhagen, Brackbill & Sulsky 2000,
+//! CMAME 187, section 3).
+//!
+//! Each body has its own velocity at such a node. Two that approach, `(v_a - v_b) . n > 0`, are given
+//! equal and opposite impulses, so that they go on with one velocity along the normal and
+//! with one along the surface too, or, if that takes more than mu times the normal impulse, with as much
+//! as that changes. Bodies that part are left alone.
+//!
+//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. take that of each body's
+//! own mass, and two such normals are not opposite: impulses along them would not be either. With one
+//! normal for both, momentum is kept to rounding, however many bodies meet, pair after pair. The logarithm,
+//! because a smooth basis sees the mass inside a body waver: where one body is there with its last
+//! particles and the other with its inside, `grad m_a - grad m_b` may point the wrong way.
+//!
+//! Impulses go into accelerations, `a_i = (v*_i - v_i)/dt`, so that particles are given all of them.
+//! Velocities that strain the bodies before or after are corrected likewise, for the strain alone.
+
+use super::{coupling::Coupling, interface::Meeting};
+use crate::{
+    mpm::{
+        algebra::Vector, boundary::contact_state::Touch, grid::Grid, scheme::SchemeName,
+        setup::Setup, solver::Solver,
+    },
+    subject::{Checkpoint, Column},
+};
+
+/// Contact between all bodies of a scene.
+pub(in crate::mpm) struct Contact<const D: usize> {
+    friction: f64,
+    meeting: Meeting,
+    /// For each body: `sum_p m_p grad N_i` (kg/m), up to date where bodies meet.
+    outwards: Vec<Vec<Vector<D>>>,
+    /// Every two bodies.
+    pairs: Vec<[usize; 2]>,
+    /// For each node and every two bodies: how the last push left them.
+    touches: Vec<Touch>,
+    /// For each body: velocities as they were mapped (m/s), if strains are updated first.
+    mapped: Vec<Vec<Vector<D>>>,
+}
+
+impl<const D: usize> Contact<D> {
+    /// Contact between `bodies` with a coefficient of friction.
+    pub(in crate::mpm) fn of(bodies: &[Solver<D>], friction: f64) -> Self {
+        let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
+        let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
+        let pairs: Vec<[usize; 2]> =
+            (1..bodies.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
+        let nodes = bodies.first().map_or(0, |body| body.grid().nodes());
+        Self {
+            friction,
+            touches: vec![Touch::Free; nodes * pairs.len()],
+            pairs,
+            meeting: Meeting::of(bodies),
+            outwards: bodies.iter().map(column).collect(),
+            mapped: bodies.iter().filter(strained_first).map(column).collect(),
+        }
+    }
+
+    /// Pushes apart what would approach at each node after `dt` (s), by accelerations.
+    fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
+        self.touches.fill(Touch::Free);
+        for k in 0..self.meeting.nodes().len() {
+            let i = self.meeting.nodes()[k];
+            for pair in 0..self.pairs.len() {
+                let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
+                let [a, b] = self.pairs[pair].map(|k| &bodies[k].setup.grid);
+                let advanced = |grid: &Grid<D>| grid.velocity[i] + grid.acceleration[i] * dt;
+                let (touch, change) = self.law(&(advanced(a) - advanced(b)), &meet.normal);
+                self.touches[i * self.pairs.len() + pair] = touch;
+                let impulse = change * meet.mass;
+                for (k, impulse) in self.pairs[pair].into_iter().zip([impulse, -impulse]) {
+                    let grid = &mut bodies[k].setup.grid;
+                    grid.acceleration[i] += impulse / (grid.mass[i] * dt);
+                }
+            }
+        }
+    }
+
+    /// What contact does to a velocity relative to the other body: how they touch, and the change.
+    fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (Touch, Vector<D>) {
+        let approach = relative.dot(normal);
+        if !(approach > 0.0) {
+            return (Touch::Free, Vector::zeros());
+        }
+        let along = relative - normal * approach;
+        let (speed, most) = (along.norm(), self.friction * approach);
+        if speed <= most {
+            return (Touch::Sticks, -relative);
+        }
+        (Touch::Slides, -(normal * approach + along * (most / speed)))
+    }
+
+    /// Gives velocities that strain the bodies what the last push left of them: along the normal they are
+    /// one where bodies touch, and along the surface too where they stick.
+    fn hold(&self, bodies: &mut [Solver<D>]) {
+        for &i in self.meeting.nodes() {
+            for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
+                let touch = self.touches[i * self.pairs.len() + pair];
+                let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
+                let relative = bodies[a].setup.grid.velocity[i] - bodies[b].setup.grid.velocity[i];
+                let change = match touch {
+                    Touch::Free => continue,
+                    Touch::Slides => meet.normal * -relative.dot(&meet.normal),
+                    Touch::Sticks => -relative,
+                };
+                let impulse = change * meet.mass;
+                for (k, impulse) in [(a, impulse), (b, -impulse)] {
+                    let grid = &mut bodies[k].setup.grid;
+                    grid.velocity[i] += impulse / grid.mass[i];
+                }
+            }
+        }
+    }
+
+    /// How a pair of bodies meets at node i, if both are there.
+    fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<Meet<D>> {
+        let [(m, out_of_one), (k, out_of_other)] =
+            self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));
+        if !(m > 0.0 && k > 0.0) {
+            return None;
+        }
+        let normal = out_of_one / m - out_of_other / k;
+        let size = normal.norm();
+        let sound = size > 0.0 && size.is_finite();
+        sound.then(|| Meet { normal: normal / size, mass: m * k / (m + k) })
+    }
+}
+
+/// Two bodies at a node.
+struct Meet<const D: usize> {
+    /// From the first into the other.
+    normal: Vector<D>,
+    /// Reduced mass (kg): what an impulse is that changes the relative velocity.
+    mass: f64,
+}
+
+impl<const D: usize> Coupling<D> for Contact<D> {
+    fn name(&self) -> Option<&'static str> {
+        Some("contact")
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let all = |name, columns: &[Vec<Vector<D>>]| {
+            let entries = columns.iter().map(Vec::len).sum();
+            Column { entries, ..Column::of_nodes::<Vector<D>>(name, &[]) }
+        };
+        vec![
+            Column::of_nodes("meeting", self.meeting.nodes()),
+            Column::of_nodes("touch", &self.touches),
+            all("normal", &self.outwards),
+            all("mapped velocity", &self.mapped),
+        ]
+    }
+
+    /// How the last push left bodies: what strains them next is held so.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.touches[..]);
+    }
+
+    fn reads_velocity(&self) -> bool {
+        true
+    }
+
+    fn meet(&mut self, bodies: &mut [Solver<D>]) {
+        self.meeting.find(bodies);
+        if self.meeting.nodes().is_empty() {
+            return;
+        }
+        for (body, outwards) in bodies.iter_mut().zip(&mut self.outwards) {
+            let Setup { kernel, particles, grid, .. } = &body.setup;
+            kernel.p2g_mass_gradient(particles, grid, outwards);
+            body.count(1);
+        }
+    }
+
+    fn nodes(&self) -> &[usize] {
+        self.meeting.nodes()
+    }
+
+    fn velocity(&mut self, _: &mut [Solver<D>]) {}
+
+    fn straining_velocity(&mut self, bodies: &mut [Solver<D>]) {
+        for (body, mapped) in bodies.iter().zip(&mut self.mapped) {
+            mapped.copy_from_slice(&body.setup.grid.velocity);
+        }
+        if self.meeting.nodes().is_empty() {
+            return;
+        }
+        self.hold(bodies);
+        bodies.iter_mut().for_each(Solver::hold_velocity);
+    }
+
+    fn strained(&mut self, bodies: &mut [Solver<D>]) {
+        for (body, mapped) in bodies.iter_mut().zip(&self.mapped) {
+            body.setup.grid.velocity.copy_from_slice(mapped);
+        }
+    }
+
+    fn acceleration(&mut self, bodies: &mut [Solver<D>], dt: f64) {
+        if self.meeting.nodes().is_empty() {
+            return;
+        }
+        self.push(bodies, dt);
+        bodies.iter_mut().for_each(Solver::hold_acceleration);
+    }
+}

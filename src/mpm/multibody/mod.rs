@@ -1,0 +1,156 @@
+//! Several bodies on one grid.
+//!
+//! Each body is a [`Solver`] with its own particles, material, effects and fields on a grid of its own
+//! over the same geometry. They take every stage together; at nodes to which more than one body gives
+//! mass they are then coupled:
+//!
+//! - [`shared_velocity`]: they have one velocity and one acceleration there, as in the original MPM, which does not
+//!   know bodies (Sulsky, Chen & Schreyer 1994): they stick to each other for good;
+//! - [`contact`]: each keeps its own, and they push each other apart where they approach.
+//!
+//! A single body is not coupled with anything, and takes the steps of its solver.
+
+mod contact;
+mod coupling;
+mod failure;
+mod interface;
+mod profile;
+mod shared_velocity;
+mod state;
+
+use super::{setup::Setup, solver::Solver, stage::Stage};
+use crate::subject::{Census, Checkpoint, Failure, Profile, Samples, Subject, Totals};
+use contact::Contact;
+use coupling::Coupling;
+use failure::among;
+use shared_velocity::Shared;
+
+/// Bodies that meet on a grid; particles are those of all bodies, one after the other.
+pub struct Bodies<const D: usize> {
+    solvers: Vec<Solver<D>>,
+    /// None of a single body.
+    coupling: Option<Box<dyn Coupling<D>>>,
+}
+
+impl<const D: usize> Bodies<D> {
+    /// Bodies at t = 0, with contact if a coefficient of friction is given. All have the same grid,
+    /// scheme and start.
+    ///
+    /// # Errors
+    /// What [`Solver::new`] has against one of them, and bodies whose grids are not the same.
+    pub fn new(setups: Vec<Setup<D>>, friction: Option<f64>) -> Result<Self, Failure> {
+        let mut solvers: Vec<Solver<D>> = Vec::new();
+        for setup in setups {
+            let first = particles(&solvers);
+            let solver = Solver::new(setup).map_err(|failure| among(failure, first))?;
+            if solvers.first().is_some_and(|known| known.grid().counts != solver.grid().counts) {
+                return Err(Failure::Solve("bodies meet on one grid, and these have two".into()));
+            }
+            solvers.push(solver);
+        }
+        let coupling: Option<Box<dyn Coupling<D>>> = match friction {
+            _ if solvers.len() < 2 => None,
+            Some(friction) => Some(Box::new(Contact::of(&solvers, friction))),
+            None => Some(Box::new(Shared::of(&solvers))),
+        };
+        Ok(Self { solvers, coupling })
+    }
+
+    /// The solver of each body.
+    pub fn solvers(&self) -> &[Solver<D>] {
+        &self.solvers
+    }
+
+    /// Number of nodes at which bodies have met in this step.
+    pub fn meeting(&self) -> usize {
+        self.coupling.as_ref().map_or(0, |coupling| coupling.nodes().len())
+    }
+
+    /// What a step works with, of all bodies and of what couples them.
+    pub fn profile(&self) -> Profile {
+        let coupling = self.coupling.as_deref();
+        profile::of(self.solvers.iter().map(Solver::profile), coupling)
+    }
+
+    /// One stage after another, by all bodies together.
+    fn take(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
+        for (k, &stage) in stages.iter().enumerate() {
+            let mut first = 0;
+            for solver in &mut self.solvers {
+                solver.run_first(&stages[k..], dt).map_err(|failure| among(failure, first))?;
+                first += solver.particles().len();
+            }
+            let Some(coupling) = &mut self.coupling else { continue };
+            let rest = &stages[k + 1..];
+            match stage {
+                Stage::Mass => coupling.meet(&mut self.solvers),
+                Stage::Momentum if rest.first() == Some(&Stage::Stress) => {
+                    coupling.straining_velocity(&mut self.solvers);
+                }
+                Stage::Momentum => coupling.velocity(&mut self.solvers),
+                Stage::Acceleration => coupling.acceleration(&mut self.solvers, dt),
+                // Strains were updated first.
+                Stage::Stress if rest.contains(&Stage::Force) => {
+                    coupling.strained(&mut self.solvers);
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+fn particles<const D: usize>(solvers: &[Solver<D>]) -> usize {
+    solvers.iter().map(|solver| solver.particles().len()).sum()
+}
+
+impl<const D: usize> Subject for Bodies<D> {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        let Some(one) = self.solvers.first() else { return Ok(()) };
+        let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
+        let (opening, started) = (one.opening(), one.started);
+        let stages = one.setup.stages(reads_velocity);
+        if !started {
+            self.solvers.iter_mut().for_each(|solver| solver.open(dt));
+            self.take(opening, dt)?;
+            self.solvers.iter_mut().for_each(|solver| solver.opened(dt));
+        }
+        self.take(stages, dt)?;
+        self.solvers.iter_mut().for_each(|solver| solver.time += dt);
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+        for solver in &self.solvers {
+            solver.particles().sample(samples);
+        }
+        // A column that some body lacks is none.
+        if samples.deformation_gradient.len() != samples.len() * D * D {
+            samples.deformation_gradient.clear();
+        }
+    }
+
+    fn totals(&self) -> Option<Totals> {
+        self.solvers.iter().filter_map(Solver::totals).reduce(Totals::plus)
+    }
+
+    fn census(&self) -> Census {
+        let all = || self.solvers.iter().map(Solver::census);
+        Census {
+            particles: all().map(|census| census.particles).sum(),
+            transfers: all().map(|census| census.transfers).sum(),
+            crossings: all().map(|census| census.crossings).sum(),
+            left_domain: all().map(|census| census.left_domain).sum(),
+            min_j: all().map(|census| census.min_j).fold(f64::INFINITY, f64::min),
+        }
+    }
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { solvers, coupling } = self;
+        checkpoint.visit(&mut solvers[..]);
+        if let Some(coupling) = coupling {
+            coupling.checkpoint(checkpoint);
+        }
+        true
+    }
+}

@@ -1,0 +1,137 @@
+//! Columns of nodes, into which packed fields are unpacked.
+
+use super::{FEW, MARGIN, view::ViewMut};
+use crate::mpm::{
+    algebra::Vector,
+    grid::Grid,
+    simd::part,
+    threads::{both, split},
+};
+use std::ops::Range;
+
+/// Nodes of a row where a grid has one row only: they are still near when the next column is written.
+const PIECE: usize = 1 << 9;
+
+/// What is unpacked from two fields: all nodes, or those of some layers across the last axis.
+#[derive(Debug, Default)]
+pub(in crate::mpm) struct Columns<'a, const D: usize> {
+    /// From the last lane of the first field.
+    pub(in crate::mpm) mass: Option<&'a mut [f64]>,
+    /// From the first field.
+    pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
+    /// From the second field, or where there is but one, from what follows the momentum.
+    pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
+    /// Whether all stands in one field.
+    pub(in crate::mpm) is_one_field: bool,
+    /// Nodes of the grid that come before the first one at hand.
+    pub(in crate::mpm) before: usize,
+}
+
+/// Layers of nodes across the last axis of a packed field.
+pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
+    0..grid.counts[D - 1] + MARGIN
+}
+
+/// Nodes of a layer of the grid.
+fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
+    grid.counts[..D - 1].iter().product()
+}
+
+impl<const D: usize> Columns<'_, D> {
+    /// The same columns.
+    pub(in crate::mpm) fn again(&mut self) -> Columns<'_, D> {
+        let Self { mass, momentum, force, is_one_field, before } = self;
+        let (mass, momentum, force) =
+            (mass.as_deref_mut(), momentum.as_deref_mut(), force.as_deref_mut());
+        Columns { mass, momentum, force, is_one_field: *is_one_field, before: *before }
+    }
+
+    /// The nodes before `layer` of the grid, and those from there on.
+    pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
+        let Self { is_one_field, before, .. } = self;
+        let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
+        let count = from.saturating_sub(before);
+        let mass = split(self.mass, count);
+        let momentum = split(self.momentum, count);
+        let force = split(self.force, count);
+        let part =
+            |mass, momentum, force, before| Self { mass, momentum, force, is_one_field, before };
+        (
+            part(mass.0, momentum.0, force.0, before),
+            part(mass.1, momentum.1, force.1, before + count),
+        )
+    }
+
+    /// Unpacks these layers, which are at hand.
+    pub(in crate::mpm) fn unpack(
+        &mut self,
+        grid: &Grid<D>,
+        fields: &[ViewMut<'_>; 2],
+        layers: Range<usize>,
+    ) {
+        let end = layers.end.min(grid.counts[D - 1]);
+        let mut index = [0; D];
+        if D == 1 {
+            for start in (layers.start..end).step_by(PIECE) {
+                index[0] = start;
+                self.unpack_row(fields, &index, start, PIECE.min(end - start));
+            }
+            return;
+        }
+        let (across, rows) = (grid.counts[0], nodes_of_layer(grid) / grid.counts[0]);
+        for layer in layers.start..end {
+            for row in 0..rows {
+                index[1] = row;
+                index[D - 1] = layer;
+                self.unpack_row(fields, &index, (layer * rows + row) * across, across);
+            }
+        }
+    }
+
+    /// Unpacks all layers, which threads share.
+    pub(in crate::mpm) fn unpack_all(mut self, grid: &Grid<D>, fields: &[ViewMut<'_>; 2]) {
+        self.halves(grid, fields, layers(grid));
+    }
+
+    fn halves(&mut self, grid: &Grid<D>, fields: &[ViewMut<'_>; 2], layers: Range<usize>) {
+        if layers.len() < 2 || layers.len() * nodes_of_layer(grid) <= FEW {
+            return self.unpack(grid, fields, layers);
+        }
+        let middle = layers.start + layers.len() / 2;
+        let (mut left, mut right) = self.again().split_at(grid, middle);
+        both(
+            || left.halves(grid, fields, layers.start..middle),
+            || right.halves(grid, fields, middle..layers.end),
+        );
+    }
+
+    /// Unpacks `count` nodes in a row, from the one with this index, number `to` of the grid.
+    fn unpack_row(
+        &mut self,
+        fields: &[ViewMut<'_>; 2],
+        index: &[usize; D],
+        to: usize,
+        count: usize,
+    ) {
+        let to = to - self.before..to - self.before + count;
+        let lanes = |field: usize| {
+            let from = fields[field].layout.number(index);
+            fields[field].nodes[from..from + count].iter().map(|node| node.0)
+        };
+        if let Some(mass) = &mut self.mass {
+            mass[to.clone()].iter_mut().zip(lanes(0)).for_each(|(m, lanes)| *m = lanes[3]);
+        }
+        if let Some(momentum) = &mut self.momentum {
+            let column = momentum[to.clone()].iter_mut();
+            column.zip(lanes(0)).for_each(|(value, lanes)| *value = part(lanes, 0));
+        }
+        let Some(force) = &mut self.force else { return };
+        let column = force[to].iter_mut();
+        // Apart, so that the lane is known where it is compiled.
+        if self.is_one_field {
+            column.zip(lanes(0)).for_each(|(value, lanes)| *value = part(lanes, D));
+        } else {
+            column.zip(lanes(1)).for_each(|(value, lanes)| *value = part(lanes, 0));
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Nodal fields as the particle-node loops see them: the components of a node side by side, four to a
+//! node, in rows without a seam.
+//!
+//! A periodic axis goes on beyond its last node: its first nodes stand there once more, so that what
+//! a particle sees is always a box of neighbours. All axes are longer by [`MARGIN`], also where
+//! nothing goes on: functions of weight zero may stand there.
+
+mod columns;
+mod view;
+
+pub(in crate::mpm) use columns::{Columns, layers};
+pub(in crate::mpm) use view::{Layout, MARGIN, Node, View, ViewMut};
+
+use super::{algebra::Vector, grid::Grid, threads::Rows};
+
+/// Nodes that are not worth a thread of their own.
+const FEW: usize = 1 << 14;
+
+/// Nodes of a piece where a grid has one row only.
+const PIECE: usize = 1 << 12;
+
+/// A field of nodes.
+#[derive(Debug, Default)]
+pub(in crate::mpm) struct Packed {
+    nodes: Vec<Node>,
+    layout: Layout,
+}
+
+/// Nodes along each axis, one where there is no axis.
+fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
+    std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
+}
+
+/// A vector in four lanes.
+#[inline(always)]
+fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
+    std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
+}
+
+impl Packed {
+    /// The field in the shape of `grid`, whatever stands there yet.
+    pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> ViewMut<'_> {
+        let layout = Layout::of(grid);
+        self.nodes.resize(layout.strides[3], Node::default());
+        self.layout = layout;
+        ViewMut { nodes: &mut self.nodes, layout }
+    }
+
+    /// The field, to be read.
+    pub(in crate::mpm) fn view(&self) -> View<'_> {
+        View { nodes: &self.nodes, layout: self.layout }
+    }
+
+    /// Takes over a field of vectors, and perhaps another one, whose numbers then stand `beside` those
+    /// of the first.
+    pub(in crate::mpm) fn pack<const D: usize>(
+        &mut self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        beside: Option<&[Vector<D>]>,
+    ) {
+        self.shaped(grid);
+        let ([across, rows, planes], [_, row, plane, _]) = (counts(grid), self.layout.strides);
+        let piece = |k: usize| across.min(k * PIECE)..across.min((k + 1) * PIECE);
+        let row_of_field = |k: usize| {
+            let (j, k) = (k % (plane / row), k / (plane / row));
+            let (from, is_there) = ((j + k * rows) * across, j < rows && k < planes);
+            if is_there { from..from + across } else { 0..0 }
+        };
+        let length = if D == 1 { PIECE } else { row };
+        Rows { length, few: FEW }.each(&mut self.nodes, &|k, here| {
+            let there = if D == 1 { piece(k) } else { row_of_field(k) };
+            let (here, beyond) = here.split_at_mut(there.len());
+            let values = here.iter_mut().zip(&field[there.clone()]);
+            if let Some(beside) = beside {
+                for ((Node(here), value), beside) in values.zip(&beside[there]) {
+                    *here = lanes(value);
+                    here[D..2 * D].copy_from_slice(beside.as_slice());
+                }
+            } else {
+                values.for_each(|(Node(here), value)| *here = lanes(value));
+            }
+            // A function of weight zero may stand here, and must not meet what an earlier pass left.
+            beyond.fill(Node::default());
+        });
+        for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
+            for (beyond, node) in self.seam(grid, axis) {
+                self.nodes[beyond] = self.nodes[node];
+            }
+        }
+    }
+
+    /// Adds what lies beyond the ends of periodic axes to the nodes that it belongs to.
+    pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
+        for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
+            for (beyond, node) in self.seam(grid, axis) {
+                let Node(more) = self.nodes[beyond];
+                for (sum, more) in self.nodes[node].0.iter_mut().zip(more) {
+                    *sum += more;
+                }
+            }
+        }
+    }
+
+    /// The nodes beyond the end of `axis`, each with the one that it is.
+    fn seam<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+    ) -> impl Iterator<Item = (usize, usize)> + use<D> {
+        let (stride, count) = (self.layout.strides[axis], grid.counts[axis]);
+        let (length, total) = (stride * (count + MARGIN), self.nodes.len());
+        (0..total).step_by(length).flat_map(move |block| {
+            (0..MARGIN * stride).map(move |k| {
+                let (layer, rest) = (k / stride, k % stride);
+                let at = |layer: usize| block + layer * stride + rest;
+                (at(count + layer), at(layer % count))
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn grid(counts: [usize; 2], periodic: [bool; 2]) -> Grid<2> {
+        Grid::new(Vector::zeros(), 1.0, counts, periodic, counts)
+    }
+
+    proptest! {
+        /// Every place of the packed field stands for one node of the grid: what is put there is
+        /// read back there, and what is left there is found there.
+        #[test]
+        fn packing_and_folding_are_transposes(
+            counts in [1_usize..6, 1..6],
+            periodic in [any::<bool>(), any::<bool>()],
+        ) {
+            let grid = grid(counts, periodic);
+            let field: Vec<_> = (0..grid.nodes()).map(|i| Vector::<2>::new(i as f64, 1.0)).collect();
+            let mut packed = Packed::default();
+            packed.pack(&grid, &field, Some(&field));
+            let reach = |axis: usize| counts[axis] + if periodic[axis] { MARGIN } else { 0 };
+            for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
+                let at = packed.layout.number(&[i, j]);
+                let node = grid.node(&[i % counts[0], j % counts[1]]);
+                let there = packed.view().row::<1>(at)[0].0;
+                prop_assert_eq!(there, [node as f64, 1.0, node as f64, 1.0]);
+
+                let mut one = Packed::default();
+                let mut view = one.shaped(&grid);
+                view.clear();
+                view.row::<1>(at)[0].0[3] = 1.0;
+                one.fold(&grid);
+                let mut found = vec![0.0; grid.nodes()];
+                let columns = Columns { mass: Some(&mut found), ..Columns::default() };
+                columns.unpack_all(&grid, &[one.shaped(&grid), ViewMut::none()]);
+                let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
+                prop_assert_eq!(found, expected);
+            }
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Seeding: bodies filled with particles, and particles sorted by cell.
+
+pub(crate) mod mapped;
+pub(crate) mod quadrilateral;
+pub(crate) mod sort_by_cell;

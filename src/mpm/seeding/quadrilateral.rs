@@ -1,0 +1,200 @@
+//! Panels with four straight sides, filled with particles by the bilinear map of the unit square,
+//! `x = sum_c M_c(s) x_c` with the hats M_c of the corners.
+
+use crate::mpm::{
+    algebra::{Matrix, Vector, det},
+    particles::Particles,
+};
+
+/// A panel in the plane: its corners (m), counter-clockwise, each side turning to the left of the one
+/// before; the first is where the side begins that runs along X most.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quadrilateral {
+    corners: [Vector<2>; 4],
+}
+
+impl Quadrilateral {
+    /// The panel with these corners.
+    ///
+    /// # Errors
+    /// The number of the first corner at which the sides do not turn to the left.
+    pub fn new(corners: [Vector<2>; 4]) -> Result<Self, usize> {
+        let panel = Self { corners };
+        let turns = |i: &usize| {
+            det(&Matrix::from_columns(&[panel.side((i + 3) % 4), panel.side(*i)])) > 0.0
+        };
+        match (0..4).find(|i| !turns(i)) {
+            Some(corner) => Err(corner),
+            None => Ok(panel.upright()),
+        }
+    }
+
+    /// The same panel from another corner on, so that the first axis of its map runs along X as far as it
+    /// can: GIMP has boxes in place of domains, and takes the diagonal of their vectors for the sides.
+    fn upright(self) -> Self {
+        let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
+        let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
+        Self { corners: std::array::from_fn(|i| self.corners[(first + i) % 4]) }
+    }
+
+    /// The corners (m).
+    pub fn corners(&self) -> &[Vector<2>; 4] {
+        &self.corners
+    }
+
+    /// Lowest and highest corner of the box around the panel (m).
+    pub fn ends(&self) -> (Vec<f64>, Vec<f64>) {
+        let [a, b, c, d] = &self.corners;
+        let end = |of: fn(f64, f64) -> f64| {
+            (0..2).map(|axis| of(of(a[axis], b[axis]), of(c[axis], d[axis]))).collect()
+        };
+        (end(f64::min), end(f64::max))
+    }
+
+    /// Whether a whole side lies at the low or the high end of the panel along `axis`.
+    pub fn has_side_at(&self, axis: usize, high: bool) -> bool {
+        let (low, top) = self.ends();
+        let end = if high { top[axis] } else { low[axis] };
+        let at_end = |i: usize| self.corners[i % 4][axis] == end;
+        (0..4).any(|i| at_end(i) && at_end(i + 1))
+    }
+
+    /// From corner i to the next (m).
+    fn side(&self, i: usize) -> Vector<2> {
+        self.corners[(i + 1) % 4] - self.corners[i]
+    }
+
+    /// As near to `per_axis` particles per cell of size `h` (m) along each axis of the map as the mean
+    /// length of its two sides allows, and two at least.
+    pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
+        [0, 1].map(|i| {
+            let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());
+            libm::round(length * per_axis as f64 / h).max(2.0) as usize
+        })
+    }
+
+    /// The place (m) of a point of the unit square, and the slope there (m).
+    fn at(&self, s: f64, t: f64) -> (Vector<2>, Matrix<2>) {
+        let [a, b, c, d] = &self.corners;
+        let place = (a * (1.0 - s) + b * s) * (1.0 - t) + (d * (1.0 - s) + c * s) * t;
+        let along = self.side(0) * (1.0 - t) - self.side(2) * t;
+        let across = self.side(1) * s - self.side(3) * (1.0 - s);
+        (place, Matrix::from_columns(&[along, across]))
+    }
+
+    /// The panel filled with particles of density `density` (kg/m^2).
+    pub fn fill<const D: usize>(&self, density: f64, h: f64, per_axis: usize) -> Particles<D> {
+        let counts = self.counts(h, per_axis);
+        // A panel is a body in the plane; a further axis would be its thickness of one.
+        let counts = std::array::from_fn(|axis| counts.get(axis).copied().unwrap_or(1));
+        Particles::fill_mapped(counts, density, |s| {
+            let (place, slope) = self.at(s[0], s.get(1).copied().unwrap_or(0.5));
+            let flat = |i: usize| i < 2;
+            (
+                Vector::from_fn(|i, _| if flat(i) { place[i] } else { s[i] }),
+                Matrix::from_fn(|i, j| match (flat(i), flat(j)) {
+                    (true, true) => slope[(i, j)],
+                    _ => f64::from(u8::from(i == j)),
+                }),
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    fn cook() -> Quadrilateral {
+        let corners = [[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]];
+        Quadrilateral::new(corners.map(Vector::from)).unwrap()
+    }
+
+    /// A square whose corners are moved by less than a quarter: it stays convex.
+    fn any() -> impl Strategy<Value = Quadrilateral> {
+        prop::array::uniform4(prop::array::uniform2(-0.24..0.24_f64)).prop_map(|moved| {
+            let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            let corners = std::array::from_fn(|i| Vector::from(square[i]) + Vector::from(moved[i]));
+            Quadrilateral::new(corners).unwrap()
+        })
+    }
+
+    fn area(panel: &Quadrilateral) -> f64 {
+        let [a, b, c, d] = panel.corners();
+        0.5 * det(&Matrix::from_columns(&[c - a, d - b]))
+    }
+
+    fn is_inside(panel: &Quadrilateral, x: &Vector<2>) -> bool {
+        let left = |i: usize| det(&Matrix::from_columns(&[panel.side(i), x - panel.corners[i]]));
+        (0..4).all(|i| left(i) > 0.0)
+    }
+
+    proptest! {
+        #[test]
+        fn particles_share_the_panel(panel in any(), h in 0.05..0.6_f64, per_axis in 1..4_usize) {
+            let particles: Particles<2> = panel.fill(3.0, h, per_axis);
+            let [n, m] = panel.counts(h, per_axis);
+            prop_assert_eq!(particles.len(), n * m);
+            let volume: f64 = particles.vol0.iter().sum();
+            prop_assert!((volume - area(&panel)).abs() < 1e-13, "{} of {}", volume, area(&panel));
+            prop_assert!((particles.mass.iter().sum::<f64>() - 3.0 * volume).abs() < 1e-12);
+            for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
+                prop_assert!(is_inside(&panel, x), "{:?}", x);
+                for axis in 0..2 {
+                    // Middles of a domain's sides are inside, but for rounding where sides meet.
+                    let towards = domain.column(axis) * (1.0 - 1e-9);
+                    prop_assert!(is_inside(&panel, &(x + towards)));
+                    prop_assert!(is_inside(&panel, &(x - towards)));
+                }
+            }
+        }
+
+        #[test]
+        fn a_slope_is_that_of_the_places(panel in any(), s in 0.1..0.9_f64, t in 0.1..0.9_f64) {
+            let d = 1e-3;
+            let slope = panel.at(s, t).1;
+            let along = (panel.at(s + d, t).0 - panel.at(s - d, t).0) / (2.0 * d);
+            let across = (panel.at(s, t + d).0 - panel.at(s, t - d).0) / (2.0 * d);
+            prop_assert!((slope.column(0) - along).norm() < 1e-12);
+            prop_assert!((slope.column(1) - across).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn domains_meet_across_the_panel() {
+        let particles: Particles<2> = cook().fill(1.0, 12.0, 2);
+        let [n, _] = cook().counts(12.0, 2);
+        for p in (0..particles.len()).filter(|p| p % n + 1 < n) {
+            let right = particles.x0[p] + particles.domain0[p].column(0);
+            let left = particles.x0[p + 1] - particles.domain0[p + 1].column(0);
+            assert_relative_eq!(right, left, max_relative = 1e-13);
+        }
+    }
+
+    #[test]
+    fn cooks_panel_has_two_upright_sides() {
+        assert_relative_eq!(area(&cook()), 1440.0);
+        assert_eq!(cook().ends(), (vec![0.0, 0.0], vec![48.0, 60.0]));
+        let sides = [(0, false), (0, true), (1, false), (1, true)];
+        assert_eq!(sides.map(|(a, high)| cook().has_side_at(a, high)), [true, true, false, false]);
+    }
+
+    #[test]
+    fn corners_that_turn_to_the_right_are_named() {
+        let [a, b, c, d] = *cook().corners();
+        assert_eq!(Quadrilateral::new([a, d, c, b]), Err(0));
+        assert_eq!(Quadrilateral::new([a, b, (a + b) * 0.5, d]), Err(1));
+        assert_eq!(Quadrilateral::new([a, b, Vector::<2>::new(f64::NAN, 0.0), d]), Err(1));
+        assert_eq!(Quadrilateral::new([a, b, c, b]), Err(0));
+    }
+
+    #[test]
+    fn it_does_not_matter_which_corner_is_the_first() {
+        let [a, b, c, d] = *cook().corners();
+        for corners in [[b, c, d, a], [c, d, a, b], [d, a, b, c]] {
+            assert_eq!(Quadrilateral::new(corners), Ok(cook()));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! What a solver remembers between two steps, all else being made anew in each of them.
+//!
+//! Every field is named, so that the compiler asks after a new one. The grid keeps nothing from step to
+//! step, and what stages leave for each other (what has been visited, where particles are carried) is
+//! used up when a step ends.
+
+use crate::{
+    mpm::{algebra::Vector, boundary::Advance, particles::Particles, setup::Setup, solver::Solver},
+    subject::{Checkpoint, Memory},
+};
+use nalgebra::SMatrix;
+
+/// Vectors and matrices, column after column.
+impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        self.iter_mut().for_each(|entry| checkpoint.visit(entry));
+    }
+}
+
+/// Columns that are there from the start, but for those that never change.
+impl<const D: usize> Memory for Particles<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            x0: _,
+            x,
+            moved,
+            v,
+            mass: _,
+            vol0: _,
+            vol,
+            sigma,
+            def_grad,
+            domain,
+            domain0: _,
+            grad_v,
+            temperature,
+            spacing: _,
+        } = self;
+        for column in [x, moved, v] {
+            checkpoint.visit::<[Vector<D>]>(column);
+        }
+        for column in [vol, temperature] {
+            checkpoint.visit::<[f64]>(column);
+        }
+        for column in [sigma, def_grad, domain, grad_v] {
+            checkpoint.visit(&mut column[..]);
+        }
+    }
+}
+
+impl Memory for Advance {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { from, to, dt } = self;
+        for time in [from, to, dt] {
+            checkpoint.visit(time);
+        }
+    }
+}
+
+impl<const D: usize> Memory for Setup<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            grid: _,
+            particles,
+            kernel: _,
+            transfer,
+            // Assembled in each step.
+            mass: _,
+            frame: _,
+            material,
+            effects,
+            boundary,
+            scheme: _,
+            start: _,
+        } = self;
+        checkpoint.visit(particles);
+        transfer.checkpoint(checkpoint);
+        material.checkpoint(checkpoint);
+        for effect in effects {
+            effect.checkpoint(checkpoint);
+        }
+        for condition in boundary {
+            condition.checkpoint(checkpoint);
+        }
+    }
+}
+
+impl<const D: usize> Memory for Solver<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            setup,
+            time,
+            stands,
+            advance,
+            started,
+            // Who sets up freezes.
+            frozen: _,
+            transfers,
+            min_j,
+            whereabouts,
+            carried: _,
+            visited: _,
+        } = self;
+        checkpoint.visit(setup);
+        for number in [time, stands, min_j] {
+            checkpoint.visit(number);
+        }
+        checkpoint.visit(advance);
+        checkpoint.visit(started);
+        checkpoint.visit(transfers);
+        checkpoint.visit(whereabouts);
+    }
+}

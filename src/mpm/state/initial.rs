@@ -1,0 +1,103 @@
+//! The initial state of the particles, made whole before the first step.
+//!
+//! A body may start deformed ([`Particles::deform`]): stress and volume then follow from F by the
+//! material, and domains from F by the basis, as they would have had the body been brought there.
+
+use crate::{
+    mpm::{basis::Domain, kernel::contract::Kernel, material::Material, particles::Particles},
+    subject::{Failure, Site},
+};
+
+/// Adds the columns that `kernel` and `material` read and completes the state; returns the
+/// smallest J.
+///
+/// # Errors
+/// [`Failure::NotOfDeformation`] if a deformed body has a law that cannot tell its stress,
+/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first particle that is no sound one.
+pub(in crate::mpm) fn complete<const D: usize>(
+    particles: &mut Particles<D>,
+    kernel: &dyn Kernel<D>,
+    material: &mut dyn Material<D>,
+) -> Result<f64, Failure> {
+    particles.all_finite()?;
+    let deformed = particles.is_deformed();
+    if kernel.domain() == Domain::Follows {
+        particles.track_domains();
+    }
+    if material.reads_deformation() {
+        particles.track_deformation();
+    }
+    if deformed && !material.reads_deformation() {
+        return Err(Failure::NotOfDeformation);
+    }
+    if deformed {
+        material.update(0.0, particles);
+    }
+    let mut min_j = f64::INFINITY;
+    for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
+        let j = vol / vol0;
+        // Before the stress is looked at, which is no number where the material is inside out.
+        if deformed && j <= 0.0 {
+            return Err(Failure::Inverted { site: Site::Particle(p), j });
+        }
+        min_j = min_j.min(j);
+    }
+    particles.all_finite()?;
+    Ok(if particles.is_empty() { 1.0 } else { min_j })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{BasisName, Block, LinearElastic, Matrix, NeoHookean, Vector, kernel::kernel};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// A square of four particles under u = (0.1 X + 0.2 Y, -0.25 Y), F the same everywhere.
+    fn deformed(f: Matrix<2>) -> Particles<2> {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+        let labels = body.x0.clone();
+        body.deform(|p| ((f - Matrix::identity()) * labels[p], f));
+        body
+    }
+
+    #[rstest]
+    fn stress_volume_and_domains_are_those_of_the_deformed_body(
+        #[values(BasisName::Linear, BasisName::ContiguousGimp)] basis: BasisName,
+    ) {
+        let f = Matrix::<2>::new(1.1, 0.2, 0.0, 0.75);
+        let mut body = deformed(f);
+        let kernel = kernel::<2>(basis);
+        let min_j = complete(&mut body, kernel.as_ref(), &mut NeoHookean::new(100.0, 0.3));
+        assert_relative_eq!(min_j.expect("a sound start"), 0.825, max_relative = 1e-15);
+        assert_relative_eq!(body.vol[3], 0.825 * 0.25, max_relative = 1e-15);
+        assert_relative_eq!(body.x[3], f * body.x0[3], max_relative = 1e-15);
+        let (lambda, mu) = (57.692_307_692_307_69, 38.461_538_461_538_46);
+        let shear = mu / 0.825 * 0.2 * 0.75;
+        let normal = (lambda * libm::log(0.825) + mu * (0.75 * 0.75 - 1.0)) / 0.825;
+        assert_relative_eq!(body.sigma[3][(0, 1)], shear, max_relative = 1e-13);
+        assert_relative_eq!(body.sigma[3][(1, 1)], normal, max_relative = 1e-13);
+        if basis == BasisName::ContiguousGimp {
+            assert_relative_eq!(body.domain[3].diagonal(), Vector::<2>::new(0.275, 0.1875));
+        }
+    }
+
+    #[test]
+    fn a_start_without_a_meaning_is_refused() {
+        let kernel = kernel::<2>(BasisName::Linear);
+        let mut neo = NeoHookean::new(100.0, 0.3);
+        let start = |f, material: &mut dyn Material<2>| {
+            complete(&mut deformed(f), kernel.as_ref(), material).map(|_| ())
+        };
+        let inside_out = Matrix::<2>::new(1.0, 0.0, 0.0, -0.5);
+        let site = Site::Particle(0);
+        assert_eq!(start(inside_out, &mut neo), Err(Failure::Inverted { site, j: -0.5 }));
+        let torn = Matrix::<2>::new(f64::NAN, 0.0, 0.0, 1.0);
+        assert!(matches!(start(torn, &mut neo), Err(Failure::NonFinite { .. })));
+        let mut rate = LinearElastic::new(100.0, 0.3);
+        let stretched = Matrix::<2>::new(1.1, 0.0, 0.0, 1.0);
+        assert_eq!(start(stretched, &mut rate), Err(Failure::NotOfDeformation));
+        assert_eq!(start(Matrix::identity(), &mut rate), Ok(()));
+    }
+}

@@ -1,0 +1,190 @@
+//! Where integrals are taken: the Gauss points of full cells, and the particles themselves in cells
+//! at the rim of the body, where no polynomial may reach beyond it.
+
+use crate::{
+    mpm::{algebra::Vector, grid::Grid, particles::Particles},
+    subject::Column,
+};
+
+/// Gauss's rule along an axis, exact for a cubic B-spline times a linear field.
+const RULE: [(f64, f64); 3] = [
+    (-0.774_596_669_241_483_4, 5.0 / 18.0),
+    (0.0, 8.0 / 18.0),
+    (0.774_596_669_241_483_4, 5.0 / 18.0),
+];
+
+/// Second moments below this share of h^2 are rounding.
+const SMALLEST: f64 = 1e-6;
+
+/// One point of quadrature.
+#[derive(Debug, Clone)]
+pub(in crate::mpm) struct Spot<const D: usize> {
+    /// Where it is (m).
+    pub(in crate::mpm) x: Vector<D>,
+    /// Volume that it stands for (m^D).
+    pub(in crate::mpm) volume: f64,
+    /// The particle, where the spot is one.
+    pub(in crate::mpm) particle: Option<usize>,
+    /// Centre of its cell (m).
+    pub(in crate::mpm) centre: Vector<D>,
+    /// Second moments of a fit below this (m^2) are none.
+    pub(in crate::mpm) smallest: f64,
+    pub(in crate::mpm) members: (usize, usize),
+}
+
+/// All points of quadrature, and the particles sorted by cell.
+#[derive(Debug, Clone, Default)]
+pub(in crate::mpm) struct Spots<const D: usize> {
+    all: Vec<Spot<D>>,
+    /// Position of each particle (m), inside the grid on periodic axes.
+    x: Vec<Vector<D>>,
+    /// Cell of each particle.
+    cell: Vec<usize>,
+    /// Particles, cell after cell.
+    order: Vec<usize>,
+    /// First place of each cell in `order`, and the end.
+    first: Vec<usize>,
+}
+
+impl<const D: usize> Spots<D> {
+    /// What is kept: of these there are as many as cells have particles, or corners.
+    pub(in crate::mpm) fn columns(&self) -> [Column; 5] {
+        [
+            Column::of_particles("spots", &self.all),
+            Column::of_particles("x in the grid", &self.x),
+            Column::of_particles("cell", &self.cell),
+            Column::of_particles("order", &self.order),
+            Column::of_nodes("first", &self.first),
+        ]
+    }
+
+    /// Makes room, and says for how many spots at most.
+    pub(in crate::mpm) fn start(&mut self, grid: &Grid<D>, particles: &Particles<D>) -> usize {
+        let cells: usize = grid.cells.iter().product();
+        let most = particles.len().min(cells) * RULE.len().pow(D as u32) + particles.len();
+        self.all.reserve(most);
+        self.x.resize(particles.len(), Vector::zeros());
+        self.cell.resize(particles.len(), 0);
+        self.order.resize(particles.len(), 0);
+        self.first.resize(cells + 2, 0);
+        most
+    }
+
+    /// The spots.
+    pub(in crate::mpm) fn all(&self) -> &[Spot<D>] {
+        &self.all
+    }
+
+    /// Positions of all particles (m), inside the grid on periodic axes.
+    pub(in crate::mpm) fn x(&self) -> &[Vector<D>] {
+        &self.x
+    }
+
+    /// The particles in the cell of `spot`.
+    pub(in crate::mpm) fn members(&self, spot: &Spot<D>) -> &[usize] {
+        &self.order[spot.members.0..spot.members.1]
+    }
+
+    /// Finds the spots for particles that have moved.
+    pub(in crate::mpm) fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
+        self.sort(grid, particles);
+        self.all.clear();
+        let cells: usize = grid.cells.iter().product();
+        for cell in 0..cells {
+            let members = (self.first[cell], self.first[cell + 1]);
+            if members.0 == members.1 {
+                continue;
+            }
+            let index = unfold(cell, &grid.cells);
+            let centre =
+                Vector::from_fn(|axis, _| grid.origin[axis] + (index[axis] as f64 + 0.5) * grid.h);
+            let smallest = SMALLEST * grid.h * grid.h;
+            let spot = Spot { x: centre, volume: 0.0, particle: None, centre, smallest, members };
+            if self.is_full(&index, grid) {
+                self.all.extend(gauss(grid.h).map(|(from_centre, volume)| Spot {
+                    x: centre + from_centre,
+                    volume,
+                    ..spot.clone()
+                }));
+            } else {
+                self.all.extend(self.order[members.0..members.1].iter().map(|&p| Spot {
+                    x: particles.x[p],
+                    volume: particles.vol[p],
+                    particle: Some(p),
+                    ..spot.clone()
+                }));
+            }
+        }
+    }
+
+    /// Sorts by counting, so that particles keep their order within a cell. A particle outside the
+    /// grid is left out, as the loops leave it out.
+    fn sort(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
+        let cells: usize = grid.cells.iter().product();
+        self.first.fill(0);
+        for ((cell, inside), x) in self.cell.iter_mut().zip(&mut self.x).zip(&particles.x) {
+            *inside = Vector::from_fn(|axis, _| {
+                // Not moved on other axes, not even by rounding.
+                let turns = if grid.periodic[axis] { grid.turns(x, axis) } else { 0.0 };
+                x[axis] - turns * grid.cells[axis] as f64 * grid.h
+            });
+            *cell = grid.cell(x).map_or(cells, |index| fold(&index, &grid.cells));
+            self.first[*cell + 1] += 1;
+        }
+        for cell in 0..=cells {
+            self.first[cell + 1] += self.first[cell];
+        }
+        // Each first place moves on to that of the next cell, and is moved back below.
+        for (p, cell) in self.cell.iter().enumerate() {
+            self.order[self.first[*cell]] = p;
+            self.first[*cell] += 1;
+        }
+        self.first.rotate_right(1);
+        self.first[0] = 0;
+    }
+
+    /// Whether every neighbour across a face holds particles too, or is a wall.
+    fn is_full(&self, index: &[usize; D], grid: &Grid<D>) -> bool {
+        (0..D).all(|axis| {
+            let n = grid.cells[axis];
+            let held = |along: usize| {
+                let mut neighbour = *index;
+                neighbour[axis] = along;
+                let cell = fold(&neighbour, &grid.cells);
+                self.first[cell] < self.first[cell + 1]
+            };
+            let (here, periodic) = (index[axis], grid.periodic[axis]);
+            let low = if here > 0 { held(here - 1) } else { !periodic || held(n - 1) };
+            let high = if here + 1 < n { held(here + 1) } else { !periodic || held(0) };
+            low && high
+        })
+    }
+}
+
+/// The points of Gauss's rule in a cell, from its centre (m), with their volumes (m^D).
+fn gauss<const D: usize>(h: f64) -> impl Iterator<Item = (Vector<D>, f64)> {
+    (0..RULE.len().pow(D as u32)).map(move |k| {
+        let (mut rest, mut x, mut volume) = (k, Vector::zeros(), 1.0);
+        for axis in 0..D {
+            let (abscissa, weight) = RULE[rest % RULE.len()];
+            rest /= RULE.len();
+            x[axis] = 0.5 * h * abscissa;
+            volume *= weight * h;
+        }
+        (x, volume)
+    })
+}
+
+/// Number of a cell, the first axis running fastest.
+fn fold<const D: usize>(index: &[usize; D], counts: &[usize; D]) -> usize {
+    (0..D).rev().fold(0, |number, axis| number * counts[axis] + index[axis])
+}
+
+/// Index of a cell on each axis.
+fn unfold<const D: usize>(mut cell: usize, counts: &[usize; D]) -> [usize; D] {
+    std::array::from_fn(|axis| {
+        let index = cell % counts[axis];
+        cell /= counts[axis];
+        index
+    })
+}

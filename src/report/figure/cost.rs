@@ -1,0 +1,95 @@
+//! Work-precision diagrams of a ranking.
+
+use super::{Mark, Point, Series, WorkPrecision, drawing::Figure};
+use crate::verify::{Ranked, Ranking, Tried, pareto_front};
+use std::ops::Range;
+
+/// Most lines with a colour and a name: a reader cannot tell more apart.
+const MOST_NAMED: usize = 7;
+
+/// Points of two methods that differ by less than this share lie on each other.
+const SAME: f64 = 0.02;
+
+/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the name
+/// of the file.
+pub fn cost_figures(
+    suite: &str,
+    title: &str,
+    rankings: &[Ranking],
+    work: &str,
+    unit: &str,
+) -> Vec<Figure> {
+    let figure = |(i, ranking): (usize, &Ranking)| {
+        let number = if rankings.len() > 1 { format!("-{}", i + 1) } else { String::new() };
+        let title = match rankings.len() {
+            1 => title.to_owned(),
+            _ => format!("{title}, {}", ranking.problem),
+        };
+        let svg = diagram(ranking, title, work).to_svg();
+        Figure { file: format!("{suite}-work-{unit}{number}.svg"), svg }
+    };
+    rankings.iter().enumerate().map(figure).collect()
+}
+
+fn diagram(ranking: &Ranking, title: String, work: &str) -> WorkPrecision {
+    let mut groups: Vec<(&Ranked, usize)> = Vec::new();
+    for row in &ranking.rows {
+        match groups.iter_mut().find(|(first, _)| coincide(first, row)) {
+            Some((_, more)) => *more += 1,
+            None => groups.push((row, 0)),
+        }
+    }
+    // Those on the front first, then by rank.
+    let mut named = groups;
+    named.sort_by_key(|(row, _)| row.front.is_empty());
+    let others = named.split_off(named.len().min(MOST_NAMED));
+    let every: Vec<Tried> =
+        ranking.rows.iter().flat_map(|row| row.contender.tried.iter().copied()).collect();
+    let front = pareto_front(&every).into_iter().map(|k| (every[k].work, every[k].error));
+    let series = |(row, more): &(&Ranked, usize)| Series {
+        name: match more {
+            0 => row.contender.name.clone(),
+            more => format!("{} (and {more} alike)", row.contender.name),
+        },
+        points: points(row),
+    };
+    WorkPrecision {
+        title,
+        x_label: work.to_owned(),
+        y_label: "error over the size of the solution".to_owned(),
+        series: named.iter().map(series).collect(),
+        others: others.iter().map(series).collect(),
+        front: front.collect(),
+    }
+}
+
+/// Whether one line would hide the other.
+fn coincide(a: &Ranked, b: &Ranked) -> bool {
+    let (a, b) = (&a.contender.tried, &b.contender.tried);
+    let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
+    // Levels that do not count may differ.
+    let same = |(a, b): (&Tried, &Tried)| {
+        let counts = a.counts() || b.counts();
+        !counts || (near(a.work, b.work) && near(a.error, b.error))
+    };
+    a.len() == b.len() && a.iter().zip(b).all(same)
+}
+
+/// The levels; those in the window of a series that diverges are not in that of one that converges.
+fn points(row: &Ranked) -> Vec<Point> {
+    let levels = row.contender.tried.iter().enumerate();
+    levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()
+}
+
+fn point(converging: &Range<usize>, level: usize, one: &Tried) -> Point {
+    let mark = if one.failed {
+        Mark::Failed
+    } else if !one.usable {
+        Mark::Crossing
+    } else if one.asymptotic && converging.contains(&level) {
+        Mark::Window
+    } else {
+        Mark::Shown
+    };
+    Point { h: one.work, error: one.error, mark }
+}

@@ -1,0 +1,223 @@
+//! The frame of a figure: title, axes, grid, and the document around them.
+
+use super::{
+    label::Label,
+    scale::{Kind, Scale},
+    space::Rect,
+    style::{FONT, GRID, HEIGHT, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH},
+    svg::{Element, Pt, number},
+    text, ticks,
+    ticks::Tick,
+};
+
+/// The texts around a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Titles<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) x_label: &'a str,
+    pub(crate) y_label: &'a str,
+}
+
+/// A frame with two scales.
+#[derive(Debug)]
+pub(crate) struct Plot<'a> {
+    titles: Titles<'a>,
+    /// The title broken into lines.
+    heading: Vec<String>,
+    /// The box which holds the data.
+    pub(crate) frame: Rect,
+    x: Axis,
+    y: Axis,
+}
+
+#[derive(Debug)]
+struct Axis {
+    scale: Scale,
+    ticks: Vec<Tick>,
+    factor: Option<Label>,
+}
+
+impl Axis {
+    fn new(scale: Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Self {
+        let factor = match scale.kind() {
+            Kind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
+            _ => None,
+        };
+        Self { scale, ticks: ticks::choose(&scale, length, extent), factor }
+    }
+
+    fn labels(&self) -> impl Iterator<Item = (f64, &Label)> {
+        self.ticks.iter().filter_map(|t| t.label.as_ref().map(|label| (t.at, label)))
+    }
+}
+
+/// Bold faces are wider than regular ones by about this factor.
+const BOLD: f64 = 1.12;
+const TITLE_LEADING: f64 = 17.0;
+const NOTE_LEADING: f64 = 16.0;
+const NOTE_GAP: f64 = 6.0;
+const MARGIN: f64 = 18.0;
+/// Height below the frame for tick labels and the axis label.
+const FOOT: f64 = 52.0;
+const MAJOR: f64 = 6.0;
+const MINOR: f64 = 3.0;
+
+impl<'a> Plot<'a> {
+    /// Lays the frame out so that titles and tick labels have their place around it.
+    pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
+        let heading = text::wrap(titles.title, BOLD * TITLE, WIDTH - 2.0 * MARGIN, 3);
+        let mut top = 12.0 + TITLE_LEADING * heading.len() as f64;
+        let y = Axis::new(y, HEIGHT - top - FOOT, |_| TEXT + 10.0);
+        if y.factor.is_some() {
+            top += 14.0;
+        }
+        let widest = y.labels().map(|(_, l)| l.width()).fold(0.0, f64::max);
+        let left = MARGIN + 18.0 + widest;
+        let room = WIDTH - left - MARGIN;
+        let x = Axis::new(x, room, |l| l.width() + 12.0);
+        let overhang = x
+            .labels()
+            .map(|(at, l)| l.width() / 2.0 - (1.0 - at) * room + 6.0)
+            .fold(MARGIN, f64::max);
+        Self {
+            titles,
+            heading,
+            frame: Rect { x: left, y: top, w: WIDTH - left - overhang, h: HEIGHT - top - FOOT },
+            x,
+            y,
+        }
+    }
+
+    /// The pixel of a pair of values.
+    pub(crate) fn place(&self, (x, y): Pt) -> Pt {
+        (
+            self.frame.x + self.x.scale.fraction(x) * self.frame.w,
+            self.frame.bottom() - self.y.scale.fraction(y) * self.frame.h,
+        )
+    }
+
+    /// The horizontal pixel of a value.
+    pub(crate) fn place_x(&self, x: f64) -> f64 {
+        self.frame.x + self.x.scale.fraction(x) * self.frame.w
+    }
+
+    /// Pixels per working unit (per decade on logarithmic axes) along both axes.
+    pub(crate) fn pace(&self) -> Pt {
+        (self.frame.w / self.x.scale.span(), self.frame.h / self.y.scale.span())
+    }
+
+    /// A text in the middle of a frame which has nothing else to show.
+    pub(crate) fn placeholder(&self, text: &str) -> Element {
+        let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
+        Element::text(middle, "middle", text).set("fill", NEUTRAL)
+    }
+
+    /// The complete document: `layers` over the grid, `notes` below everything, the canvas grown
+    /// to hold the legend where it lies outside.
+    pub(crate) fn document(
+        &self,
+        layers: &[Element],
+        legend: Option<Rect>,
+        notes: &[String],
+    ) -> String {
+        let width = legend.map_or(WIDTH, |r| WIDTH.max(r.right() + 10.0));
+        let bottom = legend.map_or(HEIGHT, |r| HEIGHT.max(r.bottom() + 10.0));
+        let notes: Vec<String> =
+            notes.iter().flat_map(|note| text::wrap(note, TEXT, width - 2.0 * MARGIN, 4)).collect();
+        let gap = if notes.is_empty() { 0.0 } else { NOTE_GAP };
+        let height = bottom + gap + NOTE_LEADING * notes.len() as f64;
+        let view = format!("0 0 {} {}", number(width), number(height));
+        let mut svg = Element::new("svg")
+            .set("xmlns", "http://www.w3.org/2000/svg")
+            .set("viewBox", &view)
+            .at("width", width)
+            .at("height", height)
+            .set("role", "img")
+            .set("font-family", FONT)
+            .at("font-size", TEXT)
+            .set("fill", INK);
+        svg.add(&Element::new("title").content(self.titles.title));
+        svg.add(&Element::new("rect").at("width", width).at("height", height).set("fill", PAPER));
+        svg.add(&self.grid());
+        for layer in layers {
+            svg.add(layer);
+        }
+        svg.add(&self.frame_and_ticks());
+        svg.add(&self.texts());
+        for (i, note) in notes.iter().enumerate() {
+            let at = (MARGIN, height - 10.0 - NOTE_LEADING * (notes.len() - 1 - i) as f64);
+            svg.add(&Element::text(at, "start", note).set("fill", NEUTRAL));
+        }
+        svg.render() + "\n"
+    }
+
+    fn grid(&self) -> Element {
+        let Rect { x, y, .. } = self.frame;
+        let mut grid = Element::new("g").set("stroke", GRID).at("stroke-width", 0.8);
+        for (at, _) in self.x.labels() {
+            let x = x + at * self.frame.w;
+            grid.add(&Element::line((x, y), (x, self.frame.bottom())));
+        }
+        for (at, _) in self.y.labels() {
+            let y = self.frame.bottom() - at * self.frame.h;
+            grid.add(&Element::line((x, y), (self.frame.right(), y)));
+        }
+        grid
+    }
+
+    fn frame_and_ticks(&self) -> Element {
+        let Rect { x, y, w, h } = self.frame;
+        let (right, bottom) = (self.frame.right(), self.frame.bottom());
+        let mut group =
+            Element::new("g").set("fill", "none").set("stroke", INK).at("stroke-width", 0.8);
+        group.add(&Element::new("rect").at("x", x).at("y", y).at("width", w).at("height", h));
+        let length = |tick: &Tick| if tick.label.is_some() { MAJOR } else { MINOR };
+        for tick in &self.x.ticks {
+            let (x, inwards) = (x + tick.at * w, length(tick));
+            group.add(&Element::line((x, bottom), (x, bottom - inwards)));
+            group.add(&Element::line((x, y), (x, y + inwards)));
+        }
+        for tick in &self.y.ticks {
+            let (y, inwards) = (bottom - tick.at * h, length(tick));
+            group.add(&Element::line((x, y), (x + inwards, y)));
+            group.add(&Element::line((right, y), (right - inwards, y)));
+        }
+        group
+    }
+
+    fn texts(&self) -> Element {
+        let Rect { x, y, w, h } = self.frame;
+        let (right, bottom) = (self.frame.right(), self.frame.bottom());
+        let mut group = Element::new("g");
+        for (i, line) in self.heading.iter().enumerate() {
+            let at = (WIDTH / 2.0, 22.0 + TITLE_LEADING * i as f64);
+            group.add(
+                &Element::text(at, "middle", line)
+                    .at("font-size", TITLE)
+                    .set("font-weight", "bold"),
+            );
+        }
+        for (at, label) in self.x.labels() {
+            group.add(&label.draw((x + at * w, bottom + 18.0), "middle"));
+        }
+        for (at, label) in self.y.labels() {
+            group.add(&label.draw((x - 7.0, bottom - at * h + 4.0), "end"));
+        }
+        let foot = bottom + 40.0;
+        let mut room = w;
+        if let Some(factor) = &self.x.factor {
+            group.add(&factor.draw((right, foot - 2.0), "end"));
+            room -= 2.0 * factor.width() + 16.0;
+        }
+        if let Some(factor) = &self.y.factor {
+            group.add(&factor.draw((x, y - 5.0), "start"));
+        }
+        let x_label = text::shorten(self.titles.x_label, TEXT, room);
+        group.add(&Element::text((x + w / 2.0, foot), "middle", &x_label));
+        let y_label = text::shorten(self.titles.y_label, TEXT, h + FOOT);
+        let turn =
+            format!("translate({} {}) rotate(-90)", number(MARGIN + 2.0), number(y + h / 2.0));
+        group.add(&Element::text((0.0, 0.0), "middle", &y_label).set("transform", &turn));
+        group
+    }
+}

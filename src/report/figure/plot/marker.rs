@@ -1,0 +1,119 @@
+//! Markers: one outline per series, one filling per meaning.
+
+use super::{
+    style::{PAPER, Shape},
+    svg::{Element, Pt},
+};
+
+/// How a marker is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fill {
+    /// In the colour of the series.
+    Solid,
+    /// White inside.
+    Hollow,
+    /// White inside with a cross.
+    Crossed,
+}
+
+/// Nominal radius of a marker.
+pub(crate) const RADIUS: f64 = 4.2;
+
+/// A crossed marker is larger, so that the cross inside can be seen in print.
+const CROSSED_RADIUS: f64 = 5.6;
+
+/// A marker centred at `at`.
+pub(crate) fn draw(shape: Shape, fill: Fill, colour: &str, at: Pt) -> Element {
+    let radius = match fill {
+        Fill::Solid | Fill::Hollow => RADIUS,
+        Fill::Crossed => CROSSED_RADIUS,
+    };
+    let inside = match fill {
+        Fill::Solid => colour,
+        Fill::Hollow | Fill::Crossed => PAPER,
+    };
+    let body =
+        body(shape, at, radius).set("fill", inside).set("stroke", colour).at("stroke-width", 1.2);
+    if fill != Fill::Crossed {
+        return body;
+    }
+    let mut crossed = Element::new("g");
+    crossed.add(&body);
+    let arm = 0.55 * CROSSED_RADIUS;
+    let (x, y) = (at.0, at.1 + lowered(shape) * CROSSED_RADIUS);
+    for (dx, dy) in [(arm, arm), (arm, -arm)] {
+        crossed.add(
+            &Element::line((x - dx, y - dy), (x + dx, y + dy))
+                .set("stroke", colour)
+                .at("stroke-width", 1.2),
+        );
+    }
+    crossed
+}
+
+/// An arrow from `tail` straight up to `tip`: the value lies beyond the frame.
+pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> Element {
+    let mut arrow =
+        Element::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
+    arrow.add(&Element::line(tail, tip));
+    let head = [(tip.0 - 3.2, tip.1 + 4.5), tip, (tip.0 + 3.2, tip.1 + 4.5)];
+    arrow.add(&Element::through("polyline", &head));
+    arrow
+}
+
+/// How far the middle of a triangle's area lies below the marker's centre, in radii.
+fn lowered(shape: Shape) -> f64 {
+    match shape {
+        Shape::Up => 0.2,
+        Shape::Down => -0.2,
+        _ => 0.0,
+    }
+}
+
+fn body(shape: Shape, at: Pt, radius: f64) -> Element {
+    // Corners for the unit radius, with about the same area for all shapes.
+    let corners: &[Pt] = match shape {
+        Shape::Circle => {
+            return Element::new("circle").at("cx", at.0).at("cy", at.1).at("r", radius);
+        }
+        Shape::Square => &[(-0.92, -0.92), (0.92, -0.92), (0.92, 0.92), (-0.92, 0.92)],
+        Shape::Up => &[(0.0, -1.25), (1.15, 0.85), (-1.15, 0.85)],
+        Shape::Down => &[(0.0, 1.25), (1.15, -0.85), (-1.15, -0.85)],
+        Shape::Right => &[(1.25, 0.0), (-0.85, 1.15), (-0.85, -1.15)],
+        Shape::Diamond => &[(0.0, -1.35), (1.05, 0.0), (0.0, 1.35), (-1.05, 0.0)],
+        Shape::Pentagon => {
+            &[(0.0, -1.15), (1.09, -0.36), (0.68, 0.93), (-0.68, 0.93), (-1.09, -0.36)]
+        }
+        Shape::Star => &[
+            (0.0, -1.45),
+            (0.38, -0.53),
+            (1.38, -0.45),
+            (0.62, 0.2),
+            (0.85, 1.17),
+            (0.0, 0.65),
+            (-0.85, 1.17),
+            (-0.62, 0.2),
+            (-1.38, -0.45),
+            (-0.38, -0.53),
+        ],
+    };
+    let corners: Vec<Pt> =
+        corners.iter().map(|&(x, y)| (at.0 + radius * x, at.1 + radius * y)).collect();
+    Element::through("polygon", &corners).set("stroke-linejoin", "round")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(Fill::Solid, "fill=\"#123456\"", 0)]
+    #[case(Fill::Hollow, "fill=\"#ffffff\"", 0)]
+    #[case(Fill::Crossed, "fill=\"#ffffff\"", 2)]
+    fn filling(#[case] fill: Fill, #[case] inside: &str, #[case] strokes: usize) {
+        let svg = draw(Shape::Square, fill, "#123456", (0.0, 0.0)).render();
+        assert!(svg.contains(inside), "{svg}");
+        assert_eq!(svg.matches("<line").count(), strokes, "{svg}");
+    }
+}

@@ -1,0 +1,14 @@
+//! The plotting layer: axes, ticks, legends, markers, and the SVG writer.
+
+pub(crate) mod frame;
+pub(crate) mod label;
+pub(crate) mod legend;
+pub(crate) mod marker;
+pub(crate) mod scale;
+pub(crate) mod space;
+pub(crate) mod style;
+pub(crate) mod svg;
+pub(crate) mod text;
+pub(crate) mod thinning;
+pub(crate) mod ticks;
+pub(crate) mod triangle;

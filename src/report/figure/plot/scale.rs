@@ -1,0 +1,149 @@
+//! From values to positions along an axis.
+
+/// The working coordinate of an axis: what is linear in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// The value divided by ten to the given power.
+    Linear {
+        /// The power of ten which all tick labels share; 0 when they are plain decimals.
+        power: i32,
+    },
+    /// The decimal logarithm of the value.
+    Log,
+}
+
+/// The range of one axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    kind: Kind,
+    lo: f64,
+    hi: f64,
+}
+
+/// Free space at both ends of an axis as fractions of its length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pad {
+    /// At the low end.
+    pub(crate) lo: f64,
+    /// At the high end.
+    pub(crate) hi: f64,
+}
+
+/// A logarithmic axis spans at least this many decades: rounding noise between equal errors must
+/// not fill the figure.
+const MIN_DECADES: f64 = 0.5;
+
+/// A linear axis spans at least this fraction of its largest value, for the same reason.
+const MIN_SPREAD: f64 = 1e-7;
+
+/// Below this magnitude (close to the subnormal numbers) a value is drawn as zero.
+const TINY: f64 = 1e-290;
+
+impl Scale {
+    /// A logarithmic axis over the positive finite `values`.
+    pub(crate) fn log(values: impl Iterator<Item = f64>, pad: Pad) -> Self {
+        let logs = values.filter(|v| v.is_finite() && *v > 0.0).map(libm::log10);
+        let (lo, hi) = range(logs).unwrap_or((-1.0, 0.0));
+        let widen = ((MIN_DECADES - (hi - lo)) / 2.0).max(0.0);
+        Self::padded(Kind::Log, lo - widen, hi + widen, pad)
+    }
+
+    /// A linear axis over the finite `values`.
+    pub(crate) fn linear(values: impl Iterator<Item = f64>, pad: Pad) -> Self {
+        let (lo, hi) = range(values.filter(|v| v.is_finite())).unwrap_or((0.0, 1.0));
+        let largest = lo.abs().max(hi.abs());
+        let power = if largest < TINY || (1e-2..1e5).contains(&largest) {
+            0
+        } else {
+            libm::floor(libm::log10(largest)) as i32
+        };
+        // Dividing before any difference is taken keeps the extremes of f64 from overflowing.
+        let unit = libm::pow(10.0, f64::from(power));
+        let (lo, hi, largest) = (lo / unit, hi / unit, largest / unit);
+        let widen = if largest < TINY {
+            1.0
+        } else if hi - lo < MIN_SPREAD * largest {
+            largest / 2.0
+        } else {
+            0.0
+        };
+        Self::padded(Kind::Linear { power }, lo - widen, hi + widen, pad)
+    }
+
+    fn padded(kind: Kind, lo: f64, hi: f64, pad: Pad) -> Self {
+        let span = (hi - lo) / (1.0 - pad.lo - pad.hi);
+        Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
+    }
+
+    /// Which working coordinate the axis uses.
+    pub(crate) fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Both ends in working coordinates.
+    pub(crate) fn ends(&self) -> (f64, f64) {
+        (self.lo, self.hi)
+    }
+
+    /// Length of the axis in working coordinates: decades on a logarithmic axis.
+    pub(crate) fn span(&self) -> f64 {
+        self.hi - self.lo
+    }
+
+    /// Position of a value: 0 at the low end, 1 at the high end.
+    pub(crate) fn fraction(&self, value: f64) -> f64 {
+        self.fraction_of_working(match self.kind {
+            Kind::Linear { power } => value / libm::pow(10.0, f64::from(power)),
+            Kind::Log => libm::log10(value),
+        })
+    }
+
+    /// Position of a working coordinate.
+    pub(crate) fn fraction_of_working(&self, working: f64) -> f64 {
+        (working - self.lo) / self.span()
+    }
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |range, v| match range {
+        None => Some((v, v)),
+        Some((lo, hi)) => Some((f64::min(lo, v), f64::max(hi, v))),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    const NONE: Pad = Pad { lo: 0.0, hi: 0.0 };
+
+    #[rstest]
+    #[case(&[0.0, 2.0], 0, 0.0, 2.0)]
+    #[case(&[2e-5, 4e-5], -5, 2.0, 4.0)]
+    #[case(&[-3e7, 3e7], 7, -3.0, 3.0)]
+    #[case(&[5.0, 5.0], 0, 2.5, 7.5)]
+    #[case(&[0.0, 1e-320], 0, -1.0, 1.0)]
+    #[case(&[f64::NAN, f64::INFINITY], 0, 0.0, 1.0)]
+    fn linear_ranges(#[case] values: &[f64], #[case] power: i32, #[case] lo: f64, #[case] hi: f64) {
+        let scale = Scale::linear(values.iter().copied(), NONE);
+        assert_eq!(scale.kind(), Kind::Linear { power });
+        assert!((scale.ends().0 - lo).abs() < 1e-12 && (scale.ends().1 - hi).abs() < 1e-12);
+    }
+
+    #[rstest]
+    #[case(&[0.01, 1.0], -2.0, 0.0)]
+    #[case(&[0.1, 0.1], -1.25, -0.75)]
+    #[case(&[0.0, -1.0, f64::NAN], -1.0, 0.0)]
+    fn log_ranges(#[case] values: &[f64], #[case] lo: f64, #[case] hi: f64) {
+        let (a, b) = Scale::log(values.iter().copied(), NONE).ends();
+        assert!((a - lo).abs() < 1e-12 && (b - hi).abs() < 1e-12);
+    }
+
+    #[test]
+    fn padding_is_a_fraction_of_the_whole_axis() {
+        let scale = Scale::linear([0.0, 7.0].into_iter(), Pad { lo: 0.1, hi: 0.2 });
+        assert!((scale.fraction(0.0) - 0.1).abs() < 1e-12);
+        assert!((scale.fraction(7.0) - 0.8).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,147 @@
+//! The SVG writer: an element owns its attributes and its content, already escaped.
+//!
+//! Building the document as a tree keeps the tags balanced by construction.
+
+use std::fmt::Write as _;
+
+/// A position on the canvas in pixels, y downwards.
+pub(crate) type Pt = (f64, f64);
+
+/// One SVG element.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    name: &'static str,
+    attributes: String,
+    content: String,
+}
+
+impl Element {
+    /// An element without attributes or content.
+    pub(crate) fn new(name: &'static str) -> Self {
+        Self { name, attributes: String::new(), content: String::new() }
+    }
+
+    /// A group moved to `at`.
+    pub(crate) fn group_at(at: Pt) -> Self {
+        let shift = format!("translate({} {})", number(at.0), number(at.1));
+        Self::new("g").set("transform", &shift)
+    }
+
+    /// A straight line.
+    pub(crate) fn line(from: Pt, to: Pt) -> Self {
+        Self::new("line").at("x1", from.0).at("y1", from.1).at("x2", to.0).at("y2", to.1)
+    }
+
+    /// A `polyline` or `polygon` through `points`.
+    pub(crate) fn through(name: &'static str, points: &[Pt]) -> Self {
+        let mut list = String::new();
+        for &(x, y) in points {
+            let gap = if list.is_empty() { "" } else { " " };
+            let _ = write!(list, "{gap}{},{}", number(x), number(y));
+        }
+        Self::new(name).set("points", &list)
+    }
+
+    /// A text whose baseline is anchored at `at` (`start`, `middle` or `end`).
+    pub(crate) fn text(at: Pt, anchor: &str, text: &str) -> Self {
+        Self::new("text").at("x", at.0).at("y", at.1).set("text-anchor", anchor).content(text)
+    }
+
+    /// Sets a textual attribute.
+    pub(crate) fn set(mut self, name: &str, value: &str) -> Self {
+        let _ = write!(self.attributes, " {name}=\"{}\"", escape(value));
+        self
+    }
+
+    /// Sets an attribute to a coordinate or a length.
+    pub(crate) fn at(self, name: &str, value: f64) -> Self {
+        let value = number(value);
+        self.set(name, &value)
+    }
+
+    /// Appends character data.
+    pub(crate) fn content(mut self, text: &str) -> Self {
+        self.content.push_str(&escape(text));
+        self
+    }
+
+    /// Appends a child with no white space around it, as texts need.
+    pub(crate) fn inline(mut self, child: &Self) -> Self {
+        self.content.push_str(&child.render());
+        self
+    }
+
+    /// Appends a child on a line of its own.
+    pub(crate) fn add(&mut self, child: &Self) {
+        self.content.push('\n');
+        self.content.push_str(&child.render());
+    }
+
+    /// The element as SVG text.
+    pub(crate) fn render(&self) -> String {
+        let Self { name, attributes, content } = self;
+        if content.is_empty() {
+            format!("<{name}{attributes}/>")
+        } else {
+            format!("<{name}{attributes}>{content}</{name}>")
+        }
+    }
+}
+
+/// A coordinate with two decimals; a negative zero would make equal figures differ in bytes.
+pub(crate) fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}
+
+/// Escapes markup; characters which XML 1.0 forbids become the replacement character.
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&apos;"),
+            '\t' | '\n' | '\r' => escaped.push(' '),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            _ => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(-0.001, "0.00")]
+    #[case(-0.0, "0.00")]
+    #[case(1.005, "1.00")]
+    #[case(-12.346, "-12.35")]
+    fn coordinates(#[case] value: f64, #[case] text: &str) {
+        assert_eq!(number(value), text);
+    }
+
+    #[rstest]
+    #[case("a < b & \"c\"", "a &lt; b &amp; &quot;c&quot;")]
+    #[case("it's > 1", "it&apos;s &gt; 1")]
+    #[case("bell\u{7}\nline", "bell\u{fffd} line")]
+    fn escaping(#[case] text: &str, #[case] escaped: &str) {
+        assert_eq!(escape(text), escaped);
+    }
+
+    #[test]
+    fn children_stay_inside_their_parent() {
+        let mut group = Element::group_at((1.0, 2.0));
+        group.add(&Element::line((0.0, 0.0), (1.0, 0.0)));
+        assert_eq!(
+            group.render(),
+            "<g transform=\"translate(1.00 2.00)\">\n\
+             <line x1=\"0.00\" y1=\"0.00\" x2=\"1.00\" y2=\"0.00\"/></g>"
+        );
+    }
+}

@@ -1,0 +1,197 @@
+//! Where an axis is ticked, and what the ticks say.
+
+use super::{
+    label::Label,
+    scale::{Kind, Scale},
+};
+
+/// One tick; a tick with a label is a major one.
+#[derive(Clone, Debug)]
+pub(crate) struct Tick {
+    /// Position along the axis from 0 to 1.
+    pub(crate) at: f64,
+    /// The number, for major ticks.
+    pub(crate) label: Option<Label>,
+}
+
+/// A shorter logarithmic axis shows too few decades to be read by them alone.
+const SHORT: f64 = 1.5;
+
+/// Between these powers of ten a short logarithmic axis shows plain numbers.
+const WRITTEN_OUT: (f64, f64) = (-3.0, 4.0);
+
+/// The digits at which a decade is ticked, in tenths.
+const DIGITS: [i32; 9] = [10, 20, 30, 40, 50, 60, 70, 80, 90];
+
+/// With more decades than this the ticks within them would merge.
+const TICKED_DECADES: f64 = 8.0;
+
+/// The densest ticks whose labels keep their distance on an axis of `length` pixels, where
+/// `extent` is the space which a label takes along the axis, its margin included.
+pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Vec<Tick> {
+    let fits = |ticks: &Vec<Tick>| {
+        let major: Vec<_> = ticks
+            .iter()
+            .filter_map(|t| t.label.as_ref().map(|l| (t.at * length, extent(l))))
+            .collect();
+        major.windows(2).all(|w| w[1].0 - w[0].0 >= f64::midpoint(w[0].1, w[1].1))
+    };
+    let mut choices = match scale.kind() {
+        Kind::Linear { .. } => (1..=8).rev().map(|n| linear(scale, n)).collect(),
+        Kind::Log if scale.span() < SHORT => short_log(scale),
+        Kind::Log => {
+            [1, 2, 3, 4, 5, 10, 20, 50, 100, 200].map(|stride| decades(scale, stride)).to_vec()
+        }
+    };
+    let chosen = choices.iter().position(fits);
+    choices.swap_remove(chosen.unwrap_or(choices.len() - 1))
+}
+
+/// Ticks at multiples of 1, 2 or 5 times a power of ten, about `count` of them labelled.
+fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
+    let (lo, hi) = scale.ends();
+    let raw = (hi - lo) / f64::from(count);
+    let power = libm::floor(libm::log10(raw));
+    let unit = libm::pow(10.0, power);
+    let (digit, parts, carry) = match raw / unit {
+        r if r <= 1.0 => (1.0, 5, 0.0),
+        r if r <= 2.0 => (2.0, 4, 0.0),
+        r if r <= 5.0 => (5.0, 5, 0.0),
+        _ => (1.0, 5, 1.0),
+    };
+    let power = power + carry;
+    let step = digit * libm::pow(10.0, power);
+    let decimals = (-power).max(0.0) as usize;
+    let minor = step / parts as f64;
+    // The ends are ticked even where rounding puts them just outside.
+    let first = libm::ceil(lo / minor - 1e-6) as i64;
+    let last = libm::floor(hi / minor + 1e-6) as i64;
+    (first..=last)
+        .map(|i| Tick {
+            at: scale.fraction_of_working(i as f64 * minor),
+            label: match i {
+                0 => Some(Label::decimal(0.0, 0)),
+                _ if i % parts == 0 => Some(Label::decimal((i / parts) as f64 * step, decimals)),
+                _ => None,
+            },
+        })
+        .collect()
+}
+
+/// Ticks at powers of ten, every `stride`-th labelled.
+fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
+    let within = if stride == 1 && scale.span() <= TICKED_DECADES { &DIGITS } else { &DIGITS[..1] };
+    log_ticks(scale, within, |tenths, power| {
+        (tenths == 10 && power % stride == 0).then(|| Label::power("10", power))
+    })
+}
+
+/// Labels at 1, 2 and 5 times a power of ten, or more of them where these are fewer than three.
+fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
+    // One notation for the whole axis.
+    let (lo, hi) = scale.ends();
+    let written_out = lo >= WRITTEN_OUT.0 && hi <= WRITTEN_OUT.1;
+    let labelled = |ticked: &[i32], shown: &[i32]| {
+        log_ticks(scale, ticked, |tenths, power| {
+            shown.contains(&tenths).then(|| short_label(tenths, power, written_out))
+        })
+    };
+    let few = labelled(&DIGITS, &[10, 20, 50]);
+    let mut choices = Vec::new();
+    if few.iter().filter(|t| t.label.is_some()).count() < 3 {
+        let dense = [10, 15, 20, 30, 40, 50, 60, 70, 80, 90];
+        choices.push(labelled(&dense, &[10, 15, 20, 30, 40, 50, 70]));
+    }
+    choices.push(few);
+    choices.push(labelled(&DIGITS, &[10]));
+    choices
+}
+
+fn short_label(tenths: i32, power: i32, written_out: bool) -> Label {
+    let whole = tenths % 10 == 0;
+    let factor = f64::from(tenths) / 10.0;
+    if written_out {
+        let decimals = i32::from(!whole) - power;
+        let value = factor * libm::pow(10.0, f64::from(power));
+        return Label::decimal(value, decimals.max(0) as usize);
+    }
+    match tenths {
+        10 => Label::power("10", power),
+        _ => Label::power(&format!("{factor}×10"), power),
+    }
+}
+
+/// Ticks at the given multiples (in tenths) of all powers of ten on the axis.
+fn log_ticks(
+    scale: &Scale,
+    tenths: &[i32],
+    label: impl Fn(i32, i32) -> Option<Label>,
+) -> Vec<Tick> {
+    let (lo, hi) = scale.ends();
+    let mut ticks = Vec::new();
+    for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
+        for &tenths in tenths {
+            let digit = libm::log10(f64::from(tenths) / 10.0);
+            let at = scale.fraction_of_working(f64::from(power) + digit);
+            // The ends are ticked even where rounding puts them just outside.
+            if (-1e-9..=1.0 + 1e-9).contains(&at) {
+                let label = label(tenths, power);
+                ticks.push(Tick { at, label });
+            }
+        }
+    }
+    ticks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::plot::scale::Pad;
+    use rstest::rstest;
+
+    const NONE: Pad = Pad { lo: 0.0, hi: 0.0 };
+
+    fn labels(scale: &Scale) -> String {
+        let ticks = choose(scale, 400.0, |l| l.width() + 12.0);
+        assert!(ticks.windows(2).all(|w| w[0].at < w[1].at));
+        let labels: Vec<_> = ticks.iter().filter_map(|t| t.label.as_ref()).collect();
+        labels.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+    }
+
+    #[rstest]
+    #[case(0.0, 1.0, "0 0.2 0.4 0.6 0.8 1.0")]
+    #[case(0.0, 10.0, "0 2 4 6 8 10")]
+    #[case(-1.3, 1.3, "-1.0 -0.5 0 0.5 1.0")]
+    #[case(0.0, 3.5, "0 0.5 1.0 1.5 2.0 2.5 3.0 3.5")]
+    #[case(0.0, 4e-5, "0 1 2 3 4")]
+    #[case(-2e6, 7e6, "-2 0 2 4 6")]
+    #[case(1000.0, 1000.002, "1000.0000 1000.0005 1000.0010 1000.0015 1000.0020")]
+    #[case(f64::MIN, f64::MAX, "-1.5 -1.0 -0.5 0 0.5 1.0 1.5")]
+    fn linear_ticks(#[case] lo: f64, #[case] hi: f64, #[case] expected: &str) {
+        assert_eq!(labels(&Scale::linear([lo, hi].into_iter(), NONE)), expected);
+    }
+
+    #[rstest]
+    #[case(0.1, 1.0, "0.1 0.2 0.5 1")]
+    #[case(0.015, 0.3, "0.02 0.05 0.1 0.2")]
+    #[case(0.3, 0.95, "0.3 0.4 0.5 0.7")]
+    #[case(0.05, 0.2, "0.05 0.1 0.2")]
+    #[case(5e-4, 2e-3, "5×10^-4 10^-3 2×10^-3")]
+    #[case(0.06, 0.3, "0.07 0.1 0.15 0.2 0.3")]
+    #[case(1e6, 4e6, "10^6 1.5×10^6 2×10^6 3×10^6 4×10^6")]
+    #[case(30.0, 600.0, "50 100 200 500")]
+    #[case(1e-7, 1e-6, "10^-7 2×10^-7 5×10^-7 10^-6")]
+    #[case(0.001, 1.0, "10^-3 10^-2 10^-1 10^0")]
+    #[case(1e-10, 1.0, "10^-10 10^-8 10^-6 10^-4 10^-2 10^0")]
+    #[case(5e-324, f64::MAX, "10^-300 10^-200 10^-100 10^0 10^100 10^200 10^300")]
+    fn log_ticks(#[case] lo: f64, #[case] hi: f64, #[case] expected: &str) {
+        assert_eq!(labels(&Scale::log([lo, hi].into_iter(), NONE)), expected);
+    }
+
+    #[test]
+    fn minor_ticks_lie_at_the_digits() {
+        let scale = Scale::log([0.01, 1.0].into_iter(), NONE);
+        let ticks = choose(&scale, 400.0, Label::width);
+        assert_eq!(ticks.iter().filter(|t| t.label.is_none()).count(), 16);
+    }
+}

@@ -1,0 +1,188 @@
+//! The figures of a suite.
+
+use super::{
+    Convergence as Plot, Curve, History, Mark, Point, Series, cost, drawing::Figure, sweep,
+};
+use crate::{
+    report::text::{cost as ranked, stability},
+    subject::Totals,
+    verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict},
+};
+
+/// Most curves in one plot: a reader cannot tell more apart.
+const MOST_SERIES: usize = 6;
+
+/// Every figure of a suite: convergence plots (as many as keep each readable), the observed
+/// velocity for each MPM or FEM case that watched one, the energies that were asked for, the forces of an
+/// internal-force study, and error against work.
+pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let mut figures = convergence(outcome);
+    figures.extend(histories(outcome));
+    figures.extend(energies(outcome));
+    figures.extend(forces(outcome));
+    let file = || format!("{}.svg", outcome.suite);
+    figures.extend(stability::map(outcome).map(|svg| Figure { file: file(), svg }));
+    let named = |(file, svg): (String, String)| Figure { file, svg };
+    figures.extend(sweep::figures(outcome).into_iter().map(named));
+    let (rankings, work) = (ranked::by_transfers(outcome), "particle-node transfers");
+    figures.extend(cost::cost_figures(
+        &outcome.suite,
+        &outcome.title,
+        &rankings,
+        work,
+        "transfers",
+    ));
+    figures
+}
+
+fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
+    let cases = outcome.cases.iter();
+    let studies = cases.filter_map(|case| Some((case.case.as_str(), case.convergence()?)));
+    studies.filter(|(_, study)| study.compared).collect()
+}
+
+fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let studies = studies(outcome);
+    let plots = studies.len().div_ceil(MOST_SERIES).max(1);
+    let parts = studies.chunks(studies.len().div_ceil(plots).max(1)).enumerate();
+    let figure = |(i, part): (usize, &[(&str, &Convergence)])| {
+        let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
+        let svg = plot(outcome, part).to_svg();
+        Figure { file: format!("{}{number}.svg", outcome.suite), svg }
+    };
+    parts.map(figure).collect()
+}
+
+fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
+    let series = |(name, study): &(&str, &Convergence)| Series {
+        name: (*name).to_owned(),
+        points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
+    };
+    let mut orders: Vec<f64> = studies.iter().filter_map(|(_, study)| reference(study)).collect();
+    if orders.is_empty() {
+        orders.extend(studies.first().map(|(_, study)| study.formal_order));
+    }
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
+    Plot {
+        title: outcome.title.clone(),
+        x_label: spacing(studies.first().map_or(Axis::Space, |(_, study)| study.axis)).to_owned(),
+        y_label: judged,
+        series: studies.iter().map(series).collect(),
+        reference_orders: orders,
+    }
+}
+
+fn spacing(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Space => "cell size h (m)",
+        Axis::Time => "time step dt (s)",
+        Axis::Particles => "particle spacing h/ppc^(1/D) (m)",
+    }
+}
+
+/// The slope that a reader should see beside a series that converges: its observed order, or the
+/// simple fraction next to it.
+fn reference(study: &Convergence) -> Option<f64> {
+    let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
+    Some(libm::round(order.value * 3.0) / 3.0)
+}
+
+fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
+    let window = study.judgement.window.as_deref().unwrap_or_default();
+    let mark = if level.run.failure.is_some() {
+        Mark::Failed
+    } else if level.run.census.crossings.unwrap_or(0) > 0 {
+        Mark::Crossing
+    } else if window.contains(&index) {
+        Mark::Window
+    } else {
+        Mark::Shown
+    };
+    let error = study.judgement.levels.get(index).map_or(f64::NAN, |judged| judged.error);
+    Point { h: level.spacing, error, mark }
+}
+
+/// Exact and computed velocity at the observed label, on a coarse, the middle and the finest level.
+fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let figure = |(name, study): (&str, &Convergence)| {
+        let seen: Vec<_> = study
+            .levels
+            .iter()
+            .filter(|level| level.run.failure.is_none())
+            .filter_map(|level| Some((level, level.run.history.as_ref()?)))
+            .collect();
+        let (_, first) = *seen.first()?;
+        let pick = [0, seen.len() / 2, seen.len() - 1];
+        let mut curves = vec![Curve {
+            name: "exact".to_owned(),
+            points: first.velocity.iter().map(|[t, _, exact]| (*t, *exact)).collect(),
+            exact: true,
+            markers: false,
+        }];
+        for (i, (level, history)) in seen.iter().enumerate() {
+            if pick.contains(&i) {
+                curves.push(Curve {
+                    name: level.name(study.axis),
+                    points: history.velocity.iter().map(|[t, v, _]| (*t, *v)).collect(),
+                    exact: false,
+                    markers: false,
+                });
+            }
+        }
+        let title = format!("{}: velocity near X = {} m, {name}", outcome.title, study.place()?);
+        let (x_label, y_label) = ("time (s)".to_owned(), "velocity (m/s)".to_owned());
+        let svg = History { title, x_label, y_label, curves }.to_svg();
+        Some(Figure { file: format!("{}-{name}-velocity.svg", outcome.suite), svg })
+    };
+    studies(outcome).into_iter().filter_map(figure).collect()
+}
+
+/// The energy over time, relative to that of the start, on the finest level of every case that is asked
+/// for its rate.
+fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
+    let curve = |(name, study): (&str, &Convergence)| {
+        let account = &study.levels.last().filter(|_| study.rated)?.run.account;
+        let start = account.first()?.1.energy()?;
+        let point = |(t, totals): &(f64, Totals)| Some((*t, totals.energy()? / start));
+        let points = account.iter().map(point).collect::<Option<Vec<_>>>()?;
+        Some(Curve { name: name.to_owned(), points, exact: false, markers: false })
+    };
+    let curves: Vec<Curve> = studies(outcome).into_iter().filter_map(curve).collect();
+    if curves.is_empty() {
+        return None;
+    }
+    let title = format!("{}: energy", outcome.title);
+    let (x_label, y_label) = ("time (s)".to_owned(), "energy over that of the start".to_owned());
+    let svg = History { title, x_label, y_label, curves }.to_svg();
+    Some(Figure { file: format!("{}-energy.svg", outcome.suite), svg })
+}
+
+fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
+    let mut curves = Vec::new();
+    for case in &outcome.cases {
+        let Study::InternalForce(rows) = &case.study else { continue };
+        if curves.is_empty() {
+            let points = rows.iter().map(|row| (row.position, row.predicted)).collect();
+            curves.push(Curve {
+                name: "predicted".to_owned(),
+                points,
+                exact: true,
+                markers: false,
+            });
+        }
+        let points = rows.iter().map(|row| (row.position, row.force)).collect();
+        curves.push(Curve { name: case.case.clone(), points, exact: false, markers: true });
+    }
+    if curves.is_empty() {
+        return None;
+    }
+    let svg = History {
+        title: outcome.title.clone(),
+        x_label: "position of the moving particle, x/h".to_owned(),
+        y_label: "internal force on the node (N)".to_owned(),
+        curves,
+    };
+    Some(Figure { file: format!("{}.svg", outcome.suite), svg: svg.to_svg() })
+}

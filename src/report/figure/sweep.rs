@@ -1,0 +1,120 @@
+//! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
+
+use super::{Curve, Field, History, Map};
+use crate::{
+    report::text::stability::merged,
+    verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome},
+};
+
+/// Values from which on they make curves.
+const CURVES: usize = 5;
+
+/// Most curves in one plot.
+const MOST_CURVES: usize = 6;
+
+/// A file name, and what the file holds.
+type Named = (String, String);
+
+/// Studies without a limit that is sought, with the names of their cases.
+fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
+    outcome.stability_studies().filter(|(_, study)| study.sought.is_none()).collect()
+}
+
+/// A figure for each figure of the runs that the suite speaks of, where there is something to compare.
+pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Named> {
+    let studies = studies(outcome);
+    let Some((_, first)) = studies.first() else { return Vec::new() };
+    let values = first.rows.len();
+    let shown = |figure: &RunFigure| -> Vec<Named> {
+        if values >= CURVES {
+            curves(outcome, &studies, *figure)
+        } else if values > 1 || studies.len() > 1 {
+            vec![map(outcome, &studies, *figure)]
+        } else {
+            Vec::new()
+        }
+    };
+    first.figures.iter().flat_map(shown).collect()
+}
+
+/// NaN of a run that failed: what it showed on the way has no place beside what others end with.
+fn value(row: &StabilityRow, figure: RunFigure) -> f64 {
+    let ended = row.trial.as_ref().filter(|trial| trial.verdict != Stability::Failed);
+    ended.map_or(f64::NAN, |trial| figure.of(trial))
+}
+
+/// Three digits that fit into a field.
+fn short(value: f64) -> String {
+    match value.abs() {
+        size if size.is_nan() => "failed".to_owned(),
+        size if size >= 1e4 || (size < 1e-3 && size > 0.0) => format!("{value:.1e}"),
+        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 1.0 => format!("{value:.2}"),
+        size if size >= 0.1 => format!("{value:.3}"),
+        _ => format!("{value:.4}"),
+    }
+}
+
+fn title(outcome: &SuiteOutcome, figure: RunFigure) -> String {
+    format!("{}: {}", outcome.title, figure.head())
+}
+
+fn curves(
+    outcome: &SuiteOutcome,
+    studies: &[(&str, &StabilityStudy)],
+    figure: RunFigure,
+) -> Vec<Named> {
+    let plots = studies.len().div_ceil(MOST_CURVES);
+    let parts = studies.chunks(studies.len().div_ceil(plots.max(1)).max(1)).enumerate();
+    let plot = |(i, part): (usize, &[(&str, &StabilityStudy)])| {
+        let curve = |(name, study): &(&str, &StabilityStudy)| Curve {
+            name: (*name).to_owned(),
+            points: study.rows.iter().map(|row| (row.value, value(row, figure))).collect(),
+            exact: false,
+            markers: true,
+        };
+        let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
+        let svg = History {
+            title: title(outcome, figure),
+            x_label: part.first().map_or(String::new(), |(_, study)| study.swept.clone()),
+            y_label: figure.head().to_owned(),
+            curves: part.iter().map(curve).collect(),
+        };
+        let file = format!("{}-{}{number}.svg", outcome.suite, figure.name());
+        (file, svg.to_svg())
+    };
+    parts.map(plot).collect()
+}
+
+fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Named {
+    let field = |row: &StabilityRow| {
+        let value = value(row, figure);
+        Field { value: Some(value), text: short(value) }
+    };
+    let row = |(name, study): &(&str, &StabilityStudy)| {
+        ((*name).to_owned(), study.rows.iter().map(field).collect())
+    };
+    let first = studies.first().map(|(_, study)| *study);
+    let svg = Map {
+        title: title(outcome, figure),
+        x_label: first.map_or(String::new(), |study| study.swept.clone()),
+        z_label: figure.head().to_owned(),
+        columns: first
+            .map_or(Vec::new(), |study| study.rows.iter().map(|r| r.value.to_string()).collect()),
+        rows: merged(studies.iter().map(row).collect()),
+    };
+    let file = format!("{}-{}.svg", outcome.suite, figure.name());
+    (file, svg.to_svg())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn three_digits_fit_into_a_field() {
+        let values = [f64::NAN, 0.0, -12.345, 0.10351, 0.0104, 1e-9, 6543.2, 2.5e7];
+        let expected = ["failed", "0.0000", "-12.35", "0.104", "0.0104", "1.0e-9", "6543", "2.5e7"];
+        assert_eq!(values.map(short), expected);
+    }
+}

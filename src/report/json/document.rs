@@ -1,0 +1,195 @@
+//! The report as JSON: an interface for programs.
+//!
+//! One document:
+//!
+//! ```json
+//! {"suites": [{"suite": "...", "passed": true, "cases": [{
+//!     "case": "...", "subject": "mpm", "axis": "space", "formal_order": 2.0,
+//!     "judge": {"of": "displacement", "norm": "rms", "scale": null},
+//!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
+//!     "verdict": "converging", "expected": "...", "passed": true,
+//!     "reason": "...", "unmet": [],
+//!     "profile": {"effects": ["gravity"], "particles": 20, "nodes": 26,
+//!         "passes": [{"pass": "p2g mass", "particles": 20}],
+//!         "columns": [{"name": "v", "of": "particle", "entries": 20, "bytes": 8}]},
+//!     "floor": {"cause": "time", "error": 1e-4,
+//!         "probes": [{"axis": "time", "error": 5e-5, "failure": null}]},
+//!     "levels": [{"cells": 5, "h": 5.0, "spacing": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
+//!         "transfers": 300000, "crossings": 0, "left_domain": 0, "min_j": 0.99,
+//!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
+//!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
+//!             "kinetic_energy": 1e-4, "kinetic_energy_gain": 0.0, "energy": 1e-6},
+//!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "safe_step": null, "order": null, "failure": null}],
+//!     "forces": null, "stability": null}],
+//!   "cost": [{"problem": "until t = 0.5 s, against the exact solution", "size": 0.05, "work": "transfers",
+//!     "targets": [0.01, 0.001, 0.0001], "methods": [{"case": "...",
+//!       "reached": [{"work": 130000.0, "at_most": false, "times": 1.0}, null, null],
+//!       "best": 5e-3, "not_reached": "floor", "front": [0, 1],
+//!       "exponent": {"value": -1.0, "low": -1.1, "high": -0.9, "theory": -1.0, "agrees": true}}]}]}]}
+//! ```
+//!
+//! `cost` ranks the methods of each problem of the suite, the cheapest first: errors are over `size`, `reached`
+//! has the work at each of the `targets` and how many `times` the least that is, `front` the levels that no
+//! other one beats, and `exponent` is k in work ~ error^k.
+//!
+//! `null` stands where a thing does not exist; numbers that are not finite are the strings
+//! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Nor have stability studies; their `stability`
+//! is `{"swept", "sought", "rows"}`, each row with the `value` of what is swept, and the `run` with its
+//! verdict and figures, or the limit of what is sought: `predicted`, `observed` (each with `at`, or
+//! `above` or `below` the range) and the runs that `confirmed` it. `axis` is what was refined (`space`,
+//! `time`, `particles`) and `spacing` that of this axis; where particles are, there is no formal order.
+//! `energy_rate` is d ln E/dt (1/s), and both ends of its 95 % interval; of a law without an energy the drift
+//! of `energy` is `"nan"`. `safe_step` is the longest safe time step (s), where a rule
+//! chose the step or a stated one is longer. `profile` is what one step takes on the coarsest level, from a subject that says (MPM); `bytes`
+//! are those of one entry.
+//! `floor` is what became of the finest level's error with another spacing halved, where that was
+//! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
+//! or removed without a new major version.
+
+use super::{cost, number::number, stability};
+use crate::{
+    report::text::cost::by_transfers,
+    subject::{Column, Holder, Profile},
+    verify::{
+        Axis, CaseOutcome, Conserved, Convergence, Floor, FloorCause, ForceRow, Interval,
+        LevelOutcome, Probe, Study, SuiteOutcome,
+    },
+};
+use serde_json::{Map, Value, json};
+
+/// The document for `outcomes`, indented, with a newline at its end.
+pub fn json(outcomes: &[SuiteOutcome]) -> String {
+    let suites: Vec<Value> = outcomes.iter().map(suite).collect();
+    format!("{:#}\n", json!({ "suites": suites }))
+}
+
+fn suite(outcome: &SuiteOutcome) -> Value {
+    json!({
+        "suite": outcome.suite,
+        "passed": outcome.passed(),
+        "cases": outcome.cases.iter().map(case).collect::<Vec<_>>(),
+        "cost": cost::rankings(&by_transfers(outcome), "transfers"),
+    })
+}
+
+fn case(outcome: &CaseOutcome) -> Value {
+    let study = outcome.convergence();
+    let levels = study.map_or(&[][..], |study| &study.levels);
+    let compared = study.is_some_and(|study| study.compared);
+    json!({
+        "case": outcome.case,
+        "subject": outcome.subject,
+        "axis": study.map(|study| study.axis.name()),
+        "formal_order": study
+            .filter(|study| study.axis != Axis::Particles)
+            .map(|study| number(study.formal_order)),
+        "judge": study.filter(|study| study.compared).map(judge),
+        "observed_order": study.and_then(|study| study.judgement.order).map(interval),
+        "verdict": outcome.verdict,
+        "expected": outcome.expected,
+        "passed": outcome.passed(),
+        "reason": outcome.reason,
+        "unmet": outcome.unmet,
+        "profile": outcome.profile.as_ref().map(profile),
+        "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
+        "levels": levels.iter().map(|one| level(one, compared)).collect::<Vec<_>>(),
+        "forces": match &outcome.study {
+            Study::InternalForce(rows) => rows.iter().map(force).collect(),
+            _ => Value::Null,
+        },
+        "stability": match &outcome.study {
+            Study::Stability(study) => stability::study(study),
+            _ => Value::Null,
+        },
+    })
+}
+
+/// What the judged errors are errors of, and what they are divided by.
+fn judge(study: &Convergence) -> Value {
+    json!({"of": study.of.name(), "norm": study.norm, "scale": study.scale.map(number)})
+}
+
+fn interval(order: Interval) -> Value {
+    json!({"value": number(order.value), "low": number(order.low), "high": number(order.high)})
+}
+
+fn profile(profile: &Profile) -> Value {
+    let pass = |(pass, particles): &(&str, u64)| json!({"pass": pass, "particles": particles});
+    let column = |column: &Column| {
+        let of = match column.holder {
+            Holder::Particle => "particle",
+            Holder::Node => "node",
+        };
+        let Column { name, entries, bytes, .. } = column;
+        json!({"name": name, "of": of, "entries": entries, "bytes": bytes})
+    };
+    json!({
+        "effects": profile.effects,
+        "particles": profile.particles,
+        "nodes": profile.nodes,
+        "passes": profile.passes.iter().map(pass).collect::<Vec<_>>(),
+        "columns": profile.columns.iter().map(column).collect::<Vec<_>>(),
+    })
+}
+
+fn floor(floor: &Floor) -> Value {
+    let probe = |probe: &Probe| {
+        json!({
+            "axis": probe.axis.name(),
+            "error": probe.error.as_ref().ok().copied().map(number),
+            "failure": probe.error.as_ref().err(),
+        })
+    };
+    json!({
+        "cause": floor.cause().map(FloorCause::name),
+        "error": number(floor.error),
+        "probes": floor.probes.iter().map(probe).collect::<Vec<_>>(),
+    })
+}
+
+/// One level; errors only where something was `compared`.
+fn level(level: &LevelOutcome, compared: bool) -> Value {
+    let (run, census) = (&level.run, &level.run.census);
+    let error = |value: f64| compared.then(|| number(value));
+    json!({
+        "cells": level.cells,
+        "h": number(level.h),
+        "spacing": number(level.spacing),
+        "dt": number(level.dt),
+        "ppc": level.ppc,
+        "particles": census.particles,
+        "steps": run.steps,
+        "transfers": census.transfers,
+        "crossings": census.crossings,
+        "left_domain": census.left_domain,
+        "min_j": number(census.min_j),
+        "errors": {
+            "rms": error(run.errors.rms),
+            "l1": error(run.errors.l1),
+            "l2": error(run.errors.l2),
+            "linf": error(run.errors.linf),
+            "max_rms": error(run.max_rms),
+        },
+        "judged": error(level.error),
+        "drift": run.drift.map(|drift| -> Value {
+            let sum = |sum: &Conserved| (sum.name().to_owned(), number(drift.of(*sum)));
+            Conserved::ALL.iter().map(sum).collect::<Map<_, _>>().into()
+        }),
+        "energy_rate": run.energy_rate.map(|rate| [rate.value, rate.low, rate.high].map(number)),
+        "unrest": run.unrest.map(number),
+        "safe_step": level.safe_step.map(number),
+        "order": level.order.map(number),
+        "failure": run.failure,
+    })
+}
+
+fn force(row: &ForceRow) -> Value {
+    json!({
+        "position": number(row.position),
+        "n_left": row.left,
+        "n_right": row.right,
+        "force": number(row.force),
+        "predicted": number(row.predicted),
+    })
+}

@@ -1,0 +1,10 @@
+//! The report as aligned text: what snapshots keep and terminals show.
+
+pub(crate) mod cost;
+pub mod drift;
+pub(crate) mod levels;
+pub(crate) mod profile;
+pub(crate) mod report;
+pub(crate) mod stability;
+pub(crate) mod table;
+pub(crate) mod timed_suite;

@@ -1,0 +1,205 @@
+//! The FEM bar, from a plan: subject, and what references are made of.
+
+use super::initial_state::Initial;
+use crate::{
+    exact::{Forcing, Problem, Region},
+    fem,
+    fem::{Bar, Sampling},
+    mpm::{LinearElastic, MaterialPlan},
+    subject::Start,
+    suite::{
+        grammar::EquationName,
+        model::{
+            ConvergencePlan, ReferencePlan, Scene, SceneFace, grid_size::cell_size, method::Method,
+        },
+    },
+};
+
+/// The FEM bar of `method`; also what references are made of.
+pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {
+    let Method::Fem { element, mass, law, start, sampling } = method else {
+        return Err("not an FEM method".to_owned());
+    };
+    let scene = &plan.scene;
+    let (from, to) = (scene.from[0], scene.to[0]);
+    let elements = libm::round((to - from) / cell_size(scene, cells)).max(1.0);
+    let [deformed, moving] = [Initial::of(plan), Initial::of(plan)];
+    let setup = fem::Setup {
+        from,
+        to,
+        cells: elements as usize,
+        element,
+        mass,
+        density: scene.density,
+        law: piola(law, &scene.material)?,
+        fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
+        body_force: body_force(scene, plan.manufactured().cloned()),
+        traction: [(&scene.faces[0], from), (&scene.faces[1], to)].map(end_traction),
+        initial_displacement: Box::new(move |x| deformed.at(&[x]).u[0]),
+        initial_velocity: Box::new(move |x| moving.at(&[x]).velocity[0]),
+        start,
+        sampling,
+    };
+    Bar::new(setup).map_err(|error| error.to_string())
+}
+
+/// Gravity, declared and manufactured force and forces on sets of a bar, if it has any.
+fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
+    let scene = scene.clone();
+    let stated = scene.gravity.is_some() || scene.body_force.is_some() || !scene.sets.is_empty();
+    if !stated && made.is_none() {
+        return None;
+    }
+    let mut forcing = None;
+    Some(Box::new(move |t, places, values| {
+        match &made {
+            None => values.fill(0.0),
+            Some(made) => {
+                let labels = || places.iter().map(std::slice::from_ref);
+                let forcing = forcing.get_or_insert_with(|| Forcing::new(made, labels()));
+                forcing.at(t, values, |force| force[0]);
+            }
+        }
+        if stated {
+            add_stated(&scene, t, places, values);
+        }
+    }))
+}
+
+/// Adds what the scene states (m/s2) at each place; gravity, the same everywhere, is computed once.
+fn add_stated(scene: &Scene, t: f64, places: &[f64], values: &mut [f64]) {
+    let gravity = scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t]));
+    let body = (&scene.from[..], &scene.to[..]);
+    for (value, x) in values.iter_mut().zip(places) {
+        let on = |set: &Region| set.force_density(0, &[*x], t, body) / scene.density;
+        let sets: f64 = scene.sets.iter().map(on).sum();
+        let declared = scene.body_force.as_ref().map_or(0.0, |b| b[0].eval(&[*x, t]));
+        *value += declared + gravity + sets;
+    }
+}
+
+/// A suite gives forces along +X; the FEM wants tension, which points outwards.
+fn end_traction((face, x): (&SceneFace, f64)) -> Option<fem::History> {
+    let outwards = if face.high { 1.0 } else { -1.0 };
+    // In uniaxial strain a face keeps its area, so a pressure is a traction.
+    if let Some(pressure) = face.pressure.clone() {
+        return Some(Box::new(move |t| -pressure.eval(&[x, t])));
+    }
+    let formula = face.traction.as_ref()?.first()?.clone();
+    Some(Box::new(move |t| outwards * formula.eval(&[x, t])))
+}
+
+/// P(F) (Pa) of a bar in uniaxial strain.
+fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::Field, String> {
+    let (young, poisson) = material.elasticity().ok_or("the material has no Young's modulus")?;
+    let material = LinearElastic::new(young, poisson);
+    let modulus = material.lambda + 2.0 * material.mu;
+    Ok(match law {
+        EquationName::SmallStrain => Box::new(move |f| modulus * (f - 1.0)),
+        EquationName::LogStrain => Box::new(move |f| modulus * libm::log(f)),
+        EquationName::NeoHookean => {
+            let LinearElastic { lambda, mu } = material;
+            Box::new(move |f| lambda * libm::log(f) / f + mu * (f - 1.0 / f))
+        }
+        EquationName::Hencky => Box::new(move |f| modulus * libm::log(f) / f),
+        EquationName::J2 | EquationName::Tait => {
+            return Err(format!("the reference FEM has no `{}`", law.name()));
+        }
+    })
+}
+
+/// The method that a reference is computed with.
+pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
+    Method::Fem {
+        element: plan.element,
+        mass: plan.mass,
+        law: plan.equation,
+        start: Start::HalfStepBack,
+        sampling: Sampling::Inside,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        mpm::{Block, Matrix, Particles, Vector},
+        suite::compile::truth::law,
+    };
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// `J sigma F^-T` (Pa) of the MPM's material.
+    fn piola_of_mpm<const D: usize>(plan: &MaterialPlan, f: &Matrix<D>) -> Matrix<3> {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut one = Particles::<D>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        one.track_deformation();
+        one.def_grad[0] = *f;
+        plan.build().update(0.0, &mut one);
+        let mut space = Matrix::<3>::identity();
+        space.fixed_view_mut::<D, D>(0, 0).copy_from(f);
+        let mut sigma = Matrix::<3>::zeros();
+        sigma.fixed_view_mut::<D, D>(0, 0).copy_from(&one.sigma[0]);
+        sigma * space.try_inverse().unwrap().transpose() * space.determinant()
+    }
+
+    /// A law is written three times, in three ways: no part can agree with another's slip.
+    #[rstest]
+    #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]
+    #[case(MaterialPlan::Hencky { young: 100.0, poisson: 0.3 })]
+    fn mpm_fem_and_truth_mean_the_same_law(#[case] plan: MaterialPlan) {
+        let truth = law::equation(&plan).expect("an elastic law");
+        let bar = piola(law::own(&plan).unwrap(), &plan).unwrap();
+        for stretch in [0.7, 1.0 + 1e-6, 1.4] {
+            let stress = piola_of_mpm(&plan, &Matrix::<1>::new(stretch))[(0, 0)];
+            assert_relative_eq!(bar(stretch), stress, max_relative = 1e-9);
+        }
+        let f = Matrix::<3>::new(1.2, -0.1, 0.05, 0.3, 0.8, 0.1, 0.0, 0.15, 1.1);
+        let grad = f - Matrix::identity();
+        let stress = truth.piola(&[0, 1, 2].map(|i| [0, 1, 2].map(|j| grad[(i, j)])));
+        let expected = piola_of_mpm(&plan, &f);
+        for (k, expected) in expected.iter().enumerate() {
+            assert_relative_eq!(stress[k % 3][k / 3], *expected, epsilon = 1e-11);
+        }
+    }
+
+    /// What has no FEM: the elastic range and beyond, where loading never reverses; a fluid at rest.
+    #[rstest]
+    #[case(MaterialPlan::J2 { young: 100.0, poisson: 0.3, r#yield: 5.0, hardening: 0.0 })]
+    #[case(MaterialPlan::J2 { young: 100.0, poisson: 0.3, r#yield: 5.0, hardening: 40.0 })]
+    #[case(MaterialPlan::Newtonian { bulk: 100.0, viscosity: 0.5 })]
+    fn mpm_and_truth_mean_the_same_law(#[case] plan: MaterialPlan) {
+        let truth = law::equation(&plan).expect("an elastic law");
+        for stretch in [0.7, 0.97, 1.0, 1.03, 1.4] {
+            let mut grad = [[0.0; 3]; 3];
+            grad[0][0] = stretch - 1.0;
+            let expected = piola_at(&plan, stretch);
+            assert_relative_eq!(
+                truth.piola(&grad)[0][0],
+                expected,
+                max_relative = 1e-9,
+                epsilon = 1e-12
+            );
+            assert_relative_eq!(
+                truth.cauchy(&grad)[0][0],
+                expected,
+                max_relative = 1e-9,
+                epsilon = 1e-12
+            );
+        }
+    }
+
+    /// P (Pa) of the MPM's material in a bar that has been stretched in one step and is still again.
+    fn piola_at(plan: &MaterialPlan, stretch: f64) -> f64 {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut one = Particles::<1>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        one.track_deformation();
+        one.def_grad[0] = Matrix::<1>::new(stretch);
+        one.grad_v[0] = Matrix::<1>::new(stretch - 1.0);
+        let mut material = plan.build();
+        material.update(1.0, &mut one);
+        one.grad_v[0] = Matrix::zeros();
+        material.update(1.0, &mut one);
+        one.sigma[0][(0, 0)]
+    }
+}

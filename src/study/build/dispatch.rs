@@ -1,0 +1,206 @@
+//! Names become types: the only place that knows every family, and the only one that spells out
+//! 1, 2 and 3 dimensions.
+
+use super::{
+    bar::bar,
+    seeding,
+    setup::{Body, conductor, plain, setup},
+};
+use crate::{
+    mpm::{BasisName, Bodies, Counted, Kernel, Setup, Solver, Tally, Vector},
+    subject::{Failure, Perturbable, Profile, Subject},
+    suite::model::{
+        ConvergencePlan, Scene, grid_size::grid_axis, method::Method, refine_plan::LevelPlan,
+    },
+};
+use std::sync::Arc;
+
+/// Builds the subject of `method` for one level.
+///
+/// # Errors
+/// One line that says why there is no such subject.
+pub(crate) fn subject(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Box<dyn Subject>, String> {
+    match (method, plan.scene.dimension()) {
+        (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
+        (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
+        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, level),
+        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, level),
+        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, level),
+        (Method::Heat { basis }, 1) => Ok(Box::new(conductor::<1>(plan, basis, level, plain)?)),
+        (Method::Heat { basis }, 2) => Ok(Box::new(conductor::<2>(plan, basis, level, plain)?)),
+        (Method::Heat { basis }, 3) => Ok(Box::new(conductor::<3>(plan, basis, level, plain)?)),
+        (_, d) => Err(format!("there is no MPM in {d} dimensions")),
+    }
+}
+
+/// What a step of `method` takes on one level: the second step, the first having made all room.
+/// None of a method that does not say, and of one that does not get so far.
+pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
+    fn of_second_step<const D: usize>(
+        plan: &ConvergencePlan,
+        method: Method,
+        level: LevelPlan,
+    ) -> Option<Profile> {
+        let tally = Arc::<Tally>::default();
+        let counted = |setup: Setup<D>| {
+            let kernel = Box::new(Counted::sharing(setup.kernel, &tally));
+            Setup { kernel, ..setup }
+        };
+        let setups = setups::<D>(plan, method, level).ok()?.into_iter().map(counted).collect();
+        let mut bodies = Bodies::new(setups, plan.scene.contact).ok()?;
+        bodies.step(level.dt).ok()?;
+        tally.take();
+        bodies.step(level.dt).ok()?;
+        Some(Profile { passes: tally.take(), ..bodies.profile() })
+    }
+    fn of_heat<const D: usize>(
+        plan: &ConvergencePlan,
+        basis: BasisName,
+        level: LevelPlan,
+    ) -> Option<Profile> {
+        let mut tally = None;
+        let counted = |kernel| {
+            let (kernel, count) = Counted::new(kernel);
+            tally = Some(count);
+            Box::new(kernel) as Box<dyn Kernel<D>>
+        };
+        let mut body = conductor::<D>(plan, basis, level, counted).ok()?;
+        let tally = tally?;
+        body.step(level.dt).ok()?;
+        tally.take();
+        body.step(level.dt).ok()?;
+        Some(Profile { passes: tally.take(), ..body.profile() })
+    }
+    match (method, plan.scene.dimension()) {
+        (Method::Fem { .. }, _) => None,
+        (Method::Heat { basis }, 1) => of_heat::<1>(plan, basis, level),
+        (Method::Heat { basis }, 2) => of_heat::<2>(plan, basis, level),
+        (Method::Heat { basis }, _) => of_heat::<3>(plan, basis, level),
+        (Method::Mpm { .. }, 1) => of_second_step::<1>(plan, method, level),
+        (Method::Mpm { .. }, 2) => of_second_step::<2>(plan, method, level),
+        (Method::Mpm { .. }, _) => of_second_step::<3>(plan, method, level),
+    }
+}
+
+/// Whether a level with cells of size `h` has no particle of some round body.
+pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
+    fn vacant<const D: usize>(scene: &Scene, h: f64, per_axis: usize) -> bool {
+        let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
+        let mut round = scene.each().iter().filter(|body| body.round.is_some());
+        round.any(|body| seeding::is_empty(body, &origin, h, per_axis))
+    }
+    match scene.dimension() {
+        1 => vacant::<1>(scene, h, per_axis),
+        2 => vacant::<2>(scene, h, per_axis),
+        _ => vacant::<3>(scene, h, per_axis),
+    }
+}
+
+/// The longest step (s) that is predicted to be safe for `method` on one level, from so many rounds of an
+/// iteration: the least over the bodies. One that shares nodes with others is no less stable.
+///
+/// # Errors
+/// One line that says why it cannot be told.
+pub(crate) fn safe_step(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+    rounds: u32,
+) -> Result<f64, String> {
+    plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
+        // A given force makes no difference, and is dear to prepare.
+        let body = Body { manufactured: None, ..Body::of(plan, own) };
+        Ok(least.min(safe_step_of(&body, method, level, rounds)?))
+    })
+}
+
+/// The same for one body.
+pub(crate) fn safe_step_of(
+    body: &Body<'_>,
+    method: Method,
+    level: LevelPlan,
+    rounds: u32,
+) -> Result<f64, String> {
+    fn of<const D: usize>(
+        body: &Body<'_>,
+        method: Method,
+        level: LevelPlan,
+        rounds: u32,
+    ) -> Result<f64, String> {
+        let solver = solver::<D>(body, method, level)?;
+        let fastest = solver.particles().v.iter().map(Vector::norm).fold(0.0, f64::max);
+        let longest = level.h / (body.own.wave_speed() + fastest);
+        solver.safe_step(longest, rounds).map_err(|failure| failure.to_string())
+    }
+    match body.scene.dimension() {
+        1 => of::<1>(body, method, level, rounds),
+        2 => of::<2>(body, method, level, rounds),
+        _ => of::<3>(body, method, level, rounds),
+    }
+}
+
+/// An MPM subject that can be perturbed: `bodies` of one scene on the cells of `level`.
+///
+/// # Errors
+/// One line that says why there is no such subject.
+pub(crate) fn perturbable(
+    bodies: &[Body<'_>],
+    method: Method,
+    level: LevelPlan,
+) -> Result<Box<dyn Perturbable>, String> {
+    fn of<const D: usize>(
+        bodies: &[Body<'_>],
+        method: Method,
+        level: LevelPlan,
+    ) -> Result<Box<dyn Perturbable>, String> {
+        if let [one] = bodies {
+            return Ok(Box::new(solver::<D>(one, method, level)?));
+        }
+        let setups: Result<Vec<Setup<D>>, String> =
+            bodies.iter().map(|body| setup(body, method, level)).collect();
+        let contact = bodies.first().and_then(|body| body.scene.contact);
+        Ok(Box::new(Bodies::new(setups?, contact).map_err(|failure| failure.to_string())?))
+    }
+    match bodies.first().map_or(1, |body| body.scene.dimension()) {
+        1 => of::<1>(bodies, method, level),
+        2 => of::<2>(bodies, method, level),
+        _ => of::<3>(bodies, method, level),
+    }
+}
+
+fn solver<const D: usize>(
+    body: &Body<'_>,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Solver<D>, String> {
+    Solver::new(setup(body, method, level)?).map_err(|failure| failure.to_string())
+}
+
+fn mpm<const D: usize>(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Box<dyn Subject>, String> {
+    let mut setups = setups::<D>(plan, method, level)?;
+    let said = |failure: Failure| failure.to_string();
+    Ok(match (setups.pop(), setups.is_empty(), plan.scene.contact) {
+        (Some(one), true, None) => Box::new(Solver::new(one).map_err(said)?),
+        (last, _, contact) => {
+            setups.extend(last);
+            Box::new(Bodies::new(setups, contact).map_err(said)?)
+        }
+    })
+}
+
+/// What the solver of each body is made of.
+fn setups<const D: usize>(
+    plan: &ConvergencePlan,
+    method: Method,
+    level: LevelPlan,
+) -> Result<Vec<Setup<D>>, String> {
+    plan.scene.each().iter().map(|own| setup(&Body::of(plan, own), method, level)).collect()
+}

@@ -1,0 +1,9 @@
+//! From the model to subjects: names become types.
+
+pub(crate) mod bar;
+pub(crate) mod conditions;
+pub(crate) mod dispatch;
+pub(crate) mod initial_state;
+pub(crate) mod seeding;
+pub(crate) mod setup;
+pub(crate) mod thermal;

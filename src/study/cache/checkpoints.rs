@@ -1,0 +1,201 @@
+//! The state of a level in the middle of its run, in a file: an interrupted level goes on from there.
+//!
+//! The file begins with the key of the level, which names all that its bits depend on, and ends with a
+//! fingerprint of all before. Whatever is of another level or torn is not taken, and the level starts
+//! anew. The file is written to another name first, and gone when the level has ended.
+
+use super::log::Notes;
+use crate::{suite::model::fingerprint::fingerprint, verify::Keeper};
+use std::{
+    fs,
+    io::ErrorKind,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// Keeps the state of one level.
+pub(crate) struct LevelKeeper<'a> {
+    notes: &'a Notes,
+    every: Duration,
+    last: Instant,
+    path: PathBuf,
+    key: &'a str,
+    what: &'a str,
+}
+
+impl<'a> LevelKeeper<'a> {
+    /// For the level that is kept as `path` under `key`; `notes` call it `what`.
+    pub(crate) fn new(
+        notes: &'a Notes,
+        every: Duration,
+        path: &Path,
+        key: &'a str,
+        what: &'a str,
+    ) -> Self {
+        let path = path.with_extension("checkpoint");
+        Self { notes, every, last: Instant::now(), path, key, what }
+    }
+
+    /// The level has ended and is kept itself.
+    pub(crate) fn forget(&self) {
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => self.notes.complain(&error),
+            _ => {}
+        }
+        // What was being written when an earlier run was killed.
+        let _ = fs::remove_file(self.unfinished());
+    }
+
+    fn unfinished(&self) -> PathBuf {
+        self.path.with_extension("unfinished")
+    }
+
+    fn refuse(&self, why: &str) {
+        self.notes.tell(format!("{}: its checkpoint {why}; the level starts anew", self.what));
+    }
+}
+
+impl Keeper for LevelKeeper<'_> {
+    fn left(&mut self) -> Option<Vec<u8>> {
+        let bytes = match fs::read(&self.path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == ErrorKind::NotFound => return None,
+            Err(error) => {
+                self.refuse(&format!("cannot be read ({error})"));
+                return None;
+            }
+        };
+        let state = state(bytes, self.key);
+        state.map_err(|why| self.refuse(why)).ok()
+    }
+
+    fn taken(&mut self, steps: Option<u64>) {
+        match steps {
+            Some(steps) => self.notes.tell(format!("{}: goes on after step {steps}", self.what)),
+            None => self.refuse("holds another state"),
+        }
+    }
+
+    fn is_due(&mut self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    fn keep(&mut self, state: &[u8]) {
+        let unfinished = self.unfinished();
+        let written = fs::write(&unfinished, sealed(state, self.key))
+            .and_then(|()| fs::rename(&unfinished, &self.path));
+        if let Err(error) = written {
+            self.notes.complain(&error);
+        }
+        self.last = Instant::now();
+    }
+}
+
+/// Bytes of a fingerprint.
+const SEAL: usize = 8;
+
+fn head(key: &str) -> String {
+    format!("# {key}\n")
+}
+
+fn sealed(state: &[u8], key: &str) -> Vec<u8> {
+    let mut bytes = [head(key).as_bytes(), state].concat();
+    bytes.extend(fingerprint(&bytes).to_le_bytes());
+    bytes
+}
+
+/// What was [`sealed`], or why it is not taken.
+fn state(mut bytes: Vec<u8>, key: &str) -> Result<Vec<u8>, &'static str> {
+    let Some((rest, seal)) = bytes.split_last_chunk::<SEAL>() else { return Err("is torn") };
+    if fingerprint(rest).to_le_bytes() != *seal {
+        return Err("is torn");
+    }
+    let head = head(key);
+    if !rest.starts_with(head.as_bytes()) {
+        return Err("is of another level, suite or program");
+    }
+    bytes.truncate(bytes.len() - SEAL);
+    Ok(bytes.split_off(head.len()))
+}
+
+/// A run that is interrupted, for tests.
+#[cfg(test)]
+#[derive(Default)]
+pub(crate) struct Interruption {
+    /// The step whose state is kept, and the steps that there have been.
+    at: u64,
+    asked: u64,
+    state: Option<Vec<u8>>,
+    told: Vec<Option<u64>>,
+}
+
+#[cfg(test)]
+impl Keeper for Interruption {
+    fn left(&mut self) -> Option<Vec<u8>> {
+        self.state.clone()
+    }
+
+    fn taken(&mut self, steps: Option<u64>) {
+        self.told.push(steps);
+    }
+
+    fn is_due(&mut self) -> bool {
+        self.asked += 1;
+        self.asked == self.at
+    }
+
+    fn keep(&mut self, state: &[u8]) {
+        self.state = Some(state.to_vec());
+    }
+}
+
+#[cfg(test)]
+impl Interruption {
+    /// A run of so many steps shows the same whether it is interrupted or not. Returns what it shows, and
+    /// the state that was left.
+    pub(crate) fn holds(
+        steps: u64,
+        run: impl Fn(&mut dyn Keeper) -> String,
+        what: &str,
+    ) -> (String, Vec<u8>) {
+        let at = (steps / 3).max(1);
+        let mut first = Self { at, ..Self::default() };
+        let whole = run(&mut first);
+        assert_eq!(first.told, [], "{what}: nothing was left");
+        let state = first.state.expect(what);
+        let mut second = Self { state: Some(state.clone()), ..Self::default() };
+        assert_eq!(run(&mut second), whole, "{what}");
+        assert_eq!(second.told, [Some(at)], "{what}");
+        (whole, state)
+    }
+
+    /// A run for which no state of its own is left shows the same.
+    pub(crate) fn is_refused(state: Vec<u8>, run: impl Fn(&mut dyn Keeper) -> String, whole: &str) {
+        let mut third = Self { state: Some(state), ..Self::default() };
+        assert_eq!(run(&mut third), whole);
+        assert_eq!(third.told, [None], "no such state");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_torn_changed_or_of_another_level_is_not_taken() {
+        let whole = sealed(&[7, 0, 255], "key");
+        assert_eq!(state(whole.clone(), "key"), Ok(vec![7, 0, 255]));
+        assert_eq!(state(sealed(&[], "key"), "key"), Ok(vec![]));
+        for end in 0..whole.len() {
+            assert_eq!(state(whole[..end].to_vec(), "key"), Err("is torn"), "{end}");
+        }
+        for at in 0..whole.len() {
+            let mut changed = whole.clone();
+            changed[at] ^= 4;
+            assert_eq!(state(changed, "key"), Err("is torn"), "{at}");
+        }
+        for other in ["another", "ke", "key\n"] {
+            assert_eq!(state(whole.clone(), other), Err("is of another level, suite or program"));
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Finished levels of a long run, kept on disk: an interrupted run goes on where it was. Of levels that
+//! have not ended, see [`checkpoints`](super::checkpoints).
+//!
+//! What a level has shown is written as soon as it has ended, under a name made of all that it depends
+//! on: the program itself, bit by bit, the text of the suite, the case and the level. So nothing that
+//! was computed otherwise is ever taken for it, and a run that goes on prints what it would have printed
+//! uninterrupted, byte by byte. A file is written whole or not at all: to another name first.
+
+use super::{checkpoints::LevelKeeper, log::Notes};
+use crate::{
+    suite::{
+        model::fingerprint::fingerprint,
+        yaml::{read_again, written},
+    },
+    verify::Keeper,
+};
+use serde::{Serialize, de::DeserializeOwned};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+/// A folder of finished levels, and of states of running ones.
+#[derive(Debug)]
+pub struct Kept {
+    folder: PathBuf,
+    program: u64,
+    every: Duration,
+    notes: Notes,
+}
+
+/// How often the state of a running level is kept: shorter ones never are.
+const EVERY: Duration = Duration::from_secs(10);
+
+impl Kept {
+    /// Uses a folder, and makes it if it is not there.
+    ///
+    /// # Errors
+    /// If there can be no such folder, or the program cannot be read.
+    pub fn open(folder: &Path) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        let program = fingerprint(&fs::read(std::env::current_exe()?)?);
+        Ok(Self { folder: folder.to_owned(), program, every: EVERY, notes: Notes::default() })
+    }
+
+    /// Keeps the state of running levels so often, not every ten seconds.
+    #[must_use]
+    pub fn with_checkpoints_every(self, every: Duration) -> Self {
+        Self { every, ..self }
+    }
+
+    /// What a level has shown: from the folder, or else by running it, with who keeps its state on the
+    /// way. `key` says all that it depends on, besides the program; messages call it `what`.
+    pub(crate) fn level<T: Serialize + DeserializeOwned>(
+        &self,
+        key: &str,
+        what: &str,
+        run: impl FnOnce(&mut dyn Keeper) -> Result<T, String>,
+    ) -> Result<T, String> {
+        let key = format!("{:016x} {key}", self.program);
+        let path = self.folder.join(format!("{:016x}.level", fingerprint(key.as_bytes())));
+        let mut keeper = LevelKeeper::new(&self.notes, self.every, &path, &key, what);
+        if let Some(found) = fs::read_to_string(&path).ok().and_then(|text| read(&text, &key)) {
+            // A run may have been killed between the two.
+            keeper.forget();
+            return Ok(found);
+        }
+        let found = run(&mut keeper)?;
+        match save(&path, &key, &found) {
+            Ok(()) => keeper.forget(),
+            Err(error) => self.notes.complain(&error),
+        }
+        Ok(found)
+    }
+
+    /// Why something could not be kept, if so.
+    pub fn complaint(&self) -> Option<String> {
+        Some(format!("{}: {}", self.folder.display(), self.notes.complaint()?))
+    }
+
+    /// What became of states that were left by an interrupted run: one line for each, told once.
+    pub fn take_told(&self) -> Vec<String> {
+        self.notes.take_told()
+    }
+}
+
+fn save(path: &Path, key: &str, level: &impl Serialize) -> Result<(), String> {
+    let text = written(level)?;
+    let unfinished = path.with_extension(format!("{}", std::process::id()));
+    fs::write(&unfinished, format!("# {key}\n{text}"))
+        .and_then(|()| fs::rename(&unfinished, path))
+        .map_err(|error| error.to_string())
+}
+
+/// None if the text is of another level, or no level at all.
+fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
+    let rest = text.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix('\n')?;
+    read_again(rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        subject::{Census, Totals},
+        verify::{Drift, History, Interval, Norms, Run},
+    };
+    use proptest::prelude::*;
+
+    fn some(x: f64, failure: Option<String>) -> Run {
+        let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN };
+        let totals = Totals { kinetic_energy: x, strain_energy: Some(x), ..Totals::default() };
+        Run {
+            errors: norms,
+            max_rms: x,
+            at_end: Norms::NONE,
+            largest: norms,
+            drift: Some(Drift::NONE),
+            account: vec![(0.0, totals), (x, Totals { strain_energy: None, ..totals })],
+            energy_rate: Some(Interval { value: x, low: -x, high: f64::INFINITY }),
+            census: Census {
+                particles: Some(7),
+                transfers: u64::MAX,
+                crossings: None,
+                left_domain: None,
+                min_j: x,
+            },
+            steps: 3,
+            failure,
+            history: Some(History { label: vec![x], velocity: vec![[x, -0.0, 1e-320]] }),
+            displacement: Some(vec![x, 0.1 + 0.2]),
+            observed_error: None,
+            unrest: Some(x),
+        }
+    }
+
+    /// As text, NaN is itself and -0 is not 0.
+    fn shown(run: &Run) -> String {
+        format!("{run:?}")
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
+
+        #[test]
+        fn what_is_kept_is_what_was_there(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
+            let run = some(x, Some(why));
+            let text = format!("# key\n{}", written(&run).unwrap());
+            prop_assert_eq!(shown(&read::<Run>(&text, "key").unwrap()), shown(&run));
+        }
+    }
+
+    #[test]
+    fn what_is_torn_or_of_another_level_is_not_taken() {
+        let text = format!("# key\n{}", written(&some(1.5, None)).unwrap());
+        assert!(read::<Run>(&text, "key").is_some());
+        assert!(read::<Run>(&text, "another").is_none());
+        assert!(read::<Run>(&text[..text.len() / 2], "key").is_none());
+        assert!(read::<Run>("", "key").is_none());
+    }
+}

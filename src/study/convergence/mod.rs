@@ -1,0 +1,9 @@
+//! The convergence study: every level of every case, its error, and the verdict.
+
+pub(crate) mod error_scale;
+pub(crate) mod formal_order;
+pub(crate) mod outcome;
+pub(crate) mod probe;
+pub(crate) mod reference;
+pub(crate) mod runner;
+pub(crate) mod small_step_reference;

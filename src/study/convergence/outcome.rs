@@ -1,0 +1,309 @@
+//! From levels that have run to the outcome of a case.
+
+use super::formal_order::formal_order;
+use crate::{
+    study::describe::{profiles, statement},
+    suite::{
+        compile::truth::conservation_only,
+        grammar::NormName,
+        model::{Against, Case, ConvergencePlan},
+    },
+    verify,
+    verify::{
+        Axis, CaseOutcome, Claim, Convergence, Drift, Expectation, Floor, Interval, Judgement,
+        LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, Yardstick, judge, larger,
+    },
+};
+
+/// The error that `plan` judges.
+pub(crate) fn error_of(plan: &ConvergencePlan, run: &Run) -> f64 {
+    let error = match plan.norm {
+        NormName::Rms => run.at_end.rms,
+        NormName::L1 => run.at_end.l1,
+        NormName::L2 => run.at_end.l2,
+        NormName::Linf => run.at_end.linf,
+        NormName::MaxRms => run.largest.rms,
+        NormName::MaxL1 => run.largest.l1,
+        NormName::MaxL2 => run.largest.l2,
+        NormName::MaxLinf => run.largest.linf,
+    };
+    plan.scale.map_or(error, |scale| error / scale)
+}
+
+/// The outcome of a case whose levels have run.
+pub(crate) fn judged(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: &Expectation,
+    mut levels: Vec<LevelOutcome>,
+    judgement: Judgement,
+    floor: Option<Floor>,
+    yardstick: Yardstick,
+) -> CaseOutcome {
+    for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
+        level.order = *order;
+    }
+    let finest = levels.last();
+    let measured = measured(&levels);
+    let seen = Seen {
+        verdict: judgement.verdict,
+        order: judgement.order.map(|order| (order.low, order.high)),
+        finest_pair: finest.and_then(|level| level.order),
+        crossings: finest.and_then(|level| level.run.census.crossings),
+        measured,
+        floor: floor.as_ref().and_then(Floor::cause),
+    };
+    let unmet = expectation.unmet(&seen);
+    let (verdict, reason) = headline(expectation, &judgement, &measured, &unmet);
+    let found = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
+    CaseOutcome {
+        verdict,
+        reason: [Some(reason), found].into_iter().flatten().collect::<Vec<_>>().join("; "),
+        unmet,
+        study: Study::Convergence(Box::new(Convergence {
+            axis: plan.refine.axis,
+            formal_order: formal_order(plan, case),
+            floor,
+            richardson: richardson(plan.refine.axis, &levels),
+            observed_at: plan.observe.clone(),
+            norm: plan.norm.name(),
+            of: plan.of,
+            scale: plan.scale,
+            yardstick,
+            compared: case.against != Against::Nothing,
+            bounded: expectation.verdict.is_none(),
+            drifts: expectation.limits.drifts(),
+            rated: expectation.limits.energy_rate.is_some(),
+            judgement,
+            levels,
+        })),
+        ..described(plan, case, expectation)
+    }
+}
+
+/// The judge's finding on levels that have run.
+pub(crate) fn judge_levels(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: &Expectation,
+    levels: &[LevelOutcome],
+) -> Judgement {
+    let truthless = case.against == Against::Nothing;
+    if let Some(judgement) = truthless.then(|| conservation_only::judgement(levels)).flatten() {
+        return judgement;
+    }
+    let judged: Vec<verify::Level> = levels
+        .iter()
+        .map(|level| {
+            let plain = verify::Level::new(level.spacing, level.error);
+            let plain = if level.usable { plain } else { plain.unusable() };
+            match &level.run.failure {
+                Some(reason) => plain.failing(reason.clone()),
+                None => plain,
+            }
+        })
+        .collect();
+    let (formal_order, axis) = (formal_order(plan, case), plan.refine.axis);
+    let claim = Claim { formal_order, expected: expectation.order, axis };
+    judge(&judged, &claim)
+}
+
+/// What limits speak of: the worst of the levels that count, and the observed place on the finest.
+fn measured(levels: &[LevelOutcome]) -> Measured {
+    let counted = || levels.iter().filter(|level| level.usable);
+    let errors = counted().map(|level| (level.error, level.error));
+    let unrest: Option<Vec<f64>> = counted().map(|level| level.run.unrest).collect();
+    let drifts: Option<Vec<Drift>> = counted().map(|level| level.run.drift).collect();
+    let rates: Option<Vec<Interval>> = counted().map(|level| level.run.energy_rate).collect();
+    Measured {
+        errors: errors.reduce(|(least, most), (error, _)| {
+            if (least + most + error).is_nan() {
+                return (f64::NAN, f64::NAN);
+            }
+            (least.min(error), most.max(error))
+        }),
+        observed: levels.last().and_then(|level| level.run.observed_error),
+        unrest: unrest.and_then(|all| all.into_iter().reduce(larger)),
+        drift: drifts.and_then(|drifts| drifts.into_iter().reduce(Drift::larger)),
+        energy_rate: rates.and_then(|rates| {
+            let ends = rates.into_iter().map(|rate| (rate.low, rate.high));
+            ends.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+        }),
+    }
+}
+
+/// The verdict in words, and why. Where limits alone bind a case, what they say comes first, and
+/// the judge is heard if the levels are enough for a judgement.
+fn headline(
+    expectation: &Expectation,
+    judgement: &Judgement,
+    measured: &Measured,
+    unmet: &[String],
+) -> (String, String) {
+    let (verdict, reason) = (judgement.verdict, &judgement.reason);
+    let found = expectation.limits.found(measured);
+    if found.is_empty() {
+        return (verdict.to_string(), reason.clone());
+    }
+    if expectation.verdict.is_some() || verdict == Verdict::Failed {
+        return (verdict.to_string(), format!("{reason}; {found}"));
+    }
+    let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
+    // The judge's reason speaks of an expected order, of which there is none here.
+    let judged = match (verdict, judgement.order) {
+        (Verdict::TooFewLevels, _) => String::new(),
+        (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
+        (_, Some(Interval { value, low, high })) => {
+            format!("; order {value:.2} [{low:.2}, {high:.2}]")
+        }
+    };
+    (within.to_owned(), found + &judged)
+}
+
+/// Richardson's extrapolation for each triple of levels of which each is twice as fine as the one
+/// before: with n, 2n and 4n cells, steps or (in 1-D, where alone a place is observed) particles.
+fn richardson(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardson)> {
+    let fineness = |level: &LevelOutcome| match axis {
+        Axis::Space => level.cells,
+        Axis::Time => level.run.steps,
+        Axis::Particles => level.ppc.unwrap_or(0),
+    };
+    let with = |wanted: u64| levels.iter().position(|level| fineness(level) == wanted);
+    let triple = |k: usize| {
+        let n = fineness(&levels[k]);
+        let triple = [k, with(2 * n)?, with(4 * n)?];
+        // Of several components no one stands for the displacement.
+        let value =
+            |k: usize| levels[k].run.displacement.as_deref().filter(|u| u.len() == 1).map(|u| u[0]);
+        let values = [value(triple[0])?, value(triple[1])?, value(triple[2])?];
+        Some((triple, Richardson::equal_ratio(values, 2.0)))
+    };
+    (0..levels.len()).filter_map(triple).collect()
+}
+
+/// What is known of a case before it runs.
+fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> CaseOutcome {
+    CaseOutcome {
+        case: case.name.clone(),
+        subject: case.method.subject(),
+        settings: statement::settings(plan, case),
+        profile: profiles::of(plan, case),
+        expected: expectation.summary(),
+        because: expectation.because.clone(),
+        verdict: String::new(),
+        reason: String::new(),
+        unmet: Vec::new(),
+        study: Study::Refused,
+    }
+}
+
+/// The outcome of a case that could not be set up.
+pub(crate) fn refused(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: &Expectation,
+    reason: String,
+) -> CaseOutcome {
+    CaseOutcome {
+        verdict: verify::Verdict::Failed.to_string(),
+        unmet: vec![format!("the case could not be run: {reason}")],
+        reason,
+        ..described(plan, case, expectation)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        subject::Census,
+        verify::{Limits, Norms},
+    };
+
+    fn level(usable: bool, error: f64, drift: Option<Drift>) -> LevelOutcome {
+        let census = Census {
+            particles: None,
+            transfers: 0,
+            crossings: None,
+            left_domain: None,
+            min_j: 1.0,
+        };
+        let run = Run {
+            errors: Norms::ZERO,
+            max_rms: 0.0,
+            at_end: Norms::ZERO,
+            largest: Norms::ZERO,
+            drift,
+            account: Vec::new(),
+            energy_rate: None,
+            census,
+            steps: 1,
+            failure: None,
+            history: None,
+            displacement: None,
+            observed_error: Some(error),
+            unrest: None,
+        };
+        LevelOutcome {
+            cells: 1,
+            h: 1.0,
+            spacing: 1.0,
+            dt: 1.0,
+            ppc: None,
+            run,
+            error,
+            usable,
+            order: None,
+            safe_step: None,
+        }
+    }
+
+    #[test]
+    fn only_levels_that_count_are_measured() {
+        let levels = [3.0, 1.0, 2.0].map(|error| level(true, error, None));
+        let [a, b, c] = levels;
+        let found = measured(&[a, b, c, level(false, 9.0, None)]);
+        assert_eq!(
+            (found.errors, found.observed, found.drift),
+            (Some((1.0, 3.0)), Some(9.0), None)
+        );
+        assert_eq!(measured(&[level(false, 1.0, None)]).errors, None);
+    }
+
+    #[test]
+    fn one_nan_is_the_largest_and_the_smallest() {
+        for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            let (least, most) = measured(&errors.map(|e| level(true, e, None))).errors.unwrap();
+            assert!(least.is_nan() && most.is_nan());
+        }
+        let alone = measured(&[level(true, f64::NAN, Some(Drift::NONE))]);
+        assert!(alone.errors.unwrap().0.is_nan());
+        assert!(alone.drift.unwrap().of(verify::Conserved::Mass).is_nan());
+    }
+
+    /// One level that is bound and asked for no verdict.
+    #[test]
+    fn bounds_alone_make_the_headline() {
+        let limits = Limits { error_below: Some(1e-9), ..Limits::default() };
+        let crossings = None;
+        let because = String::new();
+        let (verdict, order, finest_pair, floor) = (None, None, None, None);
+        let bound = Expectation { verdict, order, finest_pair, crossings, limits, floor, because };
+        let said = |level: verify::Level, unmet: &[String]| {
+            let judgement = judge(&[level], &Claim::formal(2.0));
+            let measured = Measured {
+                errors: Some((1e-12, 1e-12)),
+                observed: None,
+                unrest: None,
+                drift: None,
+                energy_rate: None,
+            };
+            headline(&bound, &judgement, &measured, unmet)
+        };
+        let one = verify::Level::new(1.0, 1e-12);
+        let within = ("within bounds".to_owned(), "largest error 1e-12".to_owned());
+        assert_eq!(said(one.clone(), &[]), within);
+        assert_eq!(said(one.clone(), &["too large".to_owned()]).0, "out of bounds");
+        assert_eq!(said(one.failing("inverted"), &[]).0, "failed");
+    }
+}

@@ -1,0 +1,50 @@
+//! The finest level once more, with the spacing of another axis halved: whose error is the floor?
+
+use crate::{
+    suite::{
+        compile::check::size,
+        model::{Against, Case, ConvergencePlan, refine_plan::LevelPlan},
+    },
+    verify::{Axis, Expectation, Floor, Judgement, LevelOutcome, Probe, Verdict},
+};
+use rayon::prelude::*;
+
+/// What halving the axes that are not refined does to the error of the finest level that counts; `None`
+/// if nobody asks: the error has not stopped falling, and the suite expects no floor. Nor is there an
+/// answer where the truth is the same method on the same grid.
+///
+/// `run` runs a level. One to three runs, in parallel; the outcome keeps the order of the axes.
+pub(crate) fn floor(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: &Expectation,
+    judgement: &Judgement,
+    levels: &[LevelOutcome],
+    run: impl Fn(LevelPlan) -> Result<LevelOutcome, String> + Sync,
+) -> Option<Floor> {
+    let asked = judgement.verdict == Verdict::AtFloor || expectation.floor.is_some();
+    let finest = levels.iter().rev().find(|level| level.usable).filter(|_| asked)?;
+    if finest.run.failure.is_some() || case.against == Against::SameMethod {
+        return None;
+    }
+    // The step that was taken, so that a halved one is half of it.
+    let (cells, h, dt, ppc) = (finest.cells, finest.h, finest.dt, finest.ppc);
+    let level = LevelPlan { cells, h, dt, ppc };
+    let dimension = plan.scene.dimension();
+    let others: Vec<(Axis, LevelPlan)> = [Axis::Time, Axis::Particles, Axis::Space]
+        .into_iter()
+        .filter(|axis| *axis != plan.refine.axis)
+        .filter_map(|axis| Some((axis, level.halved(axis, dimension)?)))
+        .collect();
+    let probe = |(axis, level): (Axis, LevelPlan)| {
+        let error = match size::too_large(&plan.scene, level) {
+            Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many")),
+            None => run(level).and_then(|outcome| match outcome.run.failure {
+                Some(reason) => Err(reason),
+                None => Ok(outcome.error),
+            }),
+        };
+        Probe { axis, error }
+    };
+    Some(Floor { error: finest.error, probes: others.into_par_iter().map(probe).collect() })
+}

@@ -1,0 +1,65 @@
+//! The coarsest level of each method that reaches an error: what a benchmark of accuracy times.
+
+use super::measure::seconds;
+use crate::{
+    study::convergence::runner::Runner,
+    suite::model::{Case, ConvergencePlan, StudyPlan, Suite, refine_plan::LevelPlan},
+    verify::{CaseOutcome, LevelOutcome, Ranked, rankings},
+};
+
+/// A level that reaches an error, run by one thread.
+#[derive(Debug)]
+pub struct Goal<'a> {
+    plan: &'a ConvergencePlan,
+    case: &'a Case,
+    level: LevelPlan,
+    error: f64,
+}
+
+/// For every method of the suite's first problem the cheapest level that it lists, of those over which
+/// the method converges, whose error over the size of the solution is at most `target`; the cheapest
+/// method first. Methods that do not reach it are left out.
+pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
+    let StudyPlan::Convergence(plan) = &suite.study else { return Vec::new() };
+    let transfers =
+        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.census.transfers as f64;
+    let ranked = rankings(&Runner::new(suite).run(&|| ()).cases, transfers);
+    let goal = |row: &Ranked| {
+        let case = plan.cases.iter().find(|case| case.name == row.contender.name)?;
+        let k = row.part.levels.clone().find(|k| row.contender.tried[*k].error <= target)?;
+        let level = *plan.refine.levels.get(k)?;
+        Some((
+            row.contender.tried[k],
+            Goal { plan, case, level, error: row.contender.tried[k].error },
+        ))
+    };
+    let rows = ranked.first().map_or(&[][..], |ranking| &ranking.rows);
+    let mut goals: Vec<_> = rows.iter().filter_map(goal).collect();
+    goals.sort_by(|(a, _), (b, _)| a.work.total_cmp(&b.work));
+    goals.into_iter().map(|(_, goal)| goal).collect()
+}
+
+impl Goal<'_> {
+    /// Name of the case.
+    pub fn case(&self) -> &str {
+        &self.case.name
+    }
+
+    /// Cells along the first axis.
+    pub fn cells(&self) -> u64 {
+        self.level.cells
+    }
+
+    /// Error over the size of the solution, of the run that was judged.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// Sets the level up and takes its steps; the seconds of the steps.
+    ///
+    /// # Errors
+    /// One line that says why it cannot be set up.
+    pub fn seconds(&self) -> Result<f64, String> {
+        seconds(self.plan, self.case, self.level)
+    }
+}

@@ -1,0 +1,95 @@
+//! What of the machine can be seen in seconds: cores, load, and a loop that always does the same.
+
+use crate::verify::{Machine, Timing};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::{hint::black_box, sync::LazyLock, time::Instant};
+
+/// Rounds of the loop: about a millisecond.
+const ROUNDS: u32 = 250_000;
+
+/// A thread that has no other to share work with; none where the system gives none.
+static ALONE: LazyLock<Option<ThreadPool>> =
+    LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
+
+/// Does `work` on one thread, all of it: large scenes would use more.
+pub(crate) fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match &*ALONE {
+        Some(pool) => pool.install(work),
+        None => work(),
+    }
+}
+
+/// A machine under observation.
+pub(crate) struct Observed {
+    load: Option<f64>,
+    loops: Vec<f64>,
+    passed: Instant,
+    waited: Option<f64>,
+}
+
+/// Time of a piece of work (s): all that passed, and how much of it this thread waited for a core that
+/// ran something else, where the system tells.
+pub(crate) struct Watch {
+    start: Instant,
+    waited: Option<f64>,
+}
+
+impl Watch {
+    /// From now on.
+    pub(crate) fn start() -> Self {
+        Self { waited: waited(), start: Instant::now() }
+    }
+
+    /// Until now, without the waiting.
+    pub(crate) fn stop(self) -> f64 {
+        let passed = self.start.elapsed().as_secs_f64();
+        let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
+        // What is not positive has not been told rightly.
+        if idle > 0.0 && idle < passed { passed - idle } else { passed }
+    }
+}
+
+/// Seconds for which this thread has been ready to run and waited: the second number of `schedstat`
+/// (Linux, Documentation/scheduler/sched-stats).
+fn waited() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
+    Some(1e-9 * nanoseconds)
+}
+
+impl Observed {
+    /// From now on.
+    pub(crate) fn new() -> Self {
+        let loops = Vec::new();
+        Self { load: load(), loops, passed: Instant::now(), waited: waited() }
+    }
+
+    /// Times the loop once.
+    pub(crate) fn look(&mut self) {
+        let watch = Watch::start();
+        let mut x = black_box(0.5_f64);
+        for _ in 0..ROUNDS {
+            x = x * 0.999 + 0.001;
+        }
+        black_box(x);
+        self.loops.push(watch.stop());
+    }
+
+    /// What was seen.
+    pub(crate) fn seen(self) -> Machine {
+        Machine {
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            load: self.load.zip(load()).map(|(before, after)| [before, after]),
+            waited: self
+                .waited
+                .zip(waited())
+                .map(|(before, after)| (after - before) / self.passed.elapsed().as_secs_f64()),
+            fixed_loop: Timing::of(&self.loops),
+        }
+    }
+}
+
+/// Runnable processes, averaged over the last minute; where there is a file that says so.
+fn load() -> Option<f64> {
+    std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
+}

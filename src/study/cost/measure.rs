@@ -1,0 +1,143 @@
+//! Seconds of every level of every case.
+//!
+//! A level is run once to warm up and then at least five times, or for a second, whichever comes first;
+//! short ones more often, for fifty milliseconds in all. Repeats go round all levels rather than one
+//! after the other: a machine that slows down slows all of them. Time for which other processes had the
+//! core does not count, where the system tells it.
+
+use super::machine::{Observed, Watch, alone};
+use crate::{
+    study::{build::dispatch::subject, convergence::runner::Runner},
+    suite::{
+        compile::check::size::nodes,
+        model::{
+            Case, ConvergencePlan, StudyPlan, Suite,
+            refine_plan::{Extent, LevelPlan},
+        },
+    },
+    verify::{CaseOutcome, Clock, LevelOutcome, Load, Priced, Timing},
+};
+
+/// Fewest repeats, and the time (s) that they must fill.
+const FEWEST: usize = 5;
+const LEAST: f64 = 0.05;
+
+/// No more than this much time (s), nor repeats.
+const LONGEST: f64 = 1.0;
+const MOST: usize = 200;
+
+/// One level that is timed.
+struct Job<'a> {
+    plan: &'a ConvergencePlan,
+    case: &'a Case,
+    level: LevelPlan,
+    /// Where the result belongs.
+    at: (usize, usize),
+    seconds: Vec<f64>,
+}
+
+impl Job<'_> {
+    fn is_done(&self) -> bool {
+        let (spent, repeats) = (self.seconds.iter().sum::<f64>(), self.seconds.len());
+        (repeats >= FEWEST && spent >= LEAST) || spent >= LONGEST || repeats >= MOST
+    }
+}
+
+/// Seconds that the steps of a level take; of one that breaks, those until then.
+///
+/// # Errors
+/// One line that says why there is no such run.
+pub(crate) fn seconds(
+    plan: &ConvergencePlan,
+    case: &Case,
+    level: LevelPlan,
+) -> Result<f64, String> {
+    let clock =
+        Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
+    alone(|| {
+        let mut subject = subject(plan, case.method, level)?;
+        let watch = Watch::start();
+        for _ in 0..clock.steps {
+            if subject.step(clock.dt()).is_err() {
+                break;
+            }
+        }
+        Ok(watch.stop())
+    })
+}
+
+/// Runs `suite` and its `variants`, whose cases are taken for cases of the suite, and times every level;
+/// `progress` is told after each level that ran and after each that was timed. A suite that is no
+/// convergence study has nothing to be timed.
+pub fn price(
+    suite: &Suite,
+    variants: &[Suite],
+    extent: Extent,
+    progress: &(dyn Fn() + Sync),
+) -> Priced {
+    let suites: Vec<&Suite> = std::iter::once(suite).chain(variants).collect();
+    let mut cases: Vec<CaseOutcome> = Vec::new();
+    let mut jobs: Vec<Job<'_>> = Vec::new();
+    for one in &suites {
+        let StudyPlan::Convergence(plan) = &one.study else { continue };
+        for case in &plan.cases {
+            let levels = plan.refine.levels(extent).iter().enumerate();
+            jobs.extend(levels.map(|(k, level)| {
+                let at = (cases.len() + index(plan, case), k);
+                Job { plan, case, level: *level, at, seconds: Vec::new() }
+            }));
+        }
+        cases.extend(Runner::over(one, extent).run(progress).cases);
+    }
+    let observed = alone(|| {
+        let mut observed = Observed::new();
+        time(&mut jobs, &mut observed, progress);
+        observed
+    });
+    let mut levels: Vec<Vec<(Load, Option<Timing>)>> = vec![Vec::new(); cases.len()];
+    for job in &jobs {
+        let (case, level) = job.at;
+        if let Some(outcome) = cases[case].convergence().and_then(|study| study.levels.get(level)) {
+            levels[case].push((load(job.plan, outcome), Timing::of(&job.seconds)));
+        }
+    }
+    let outcome = Runner::over(suite, extent).outcome(cases);
+    Priced { outcome, levels, machine: observed.seen() }
+}
+
+fn index(plan: &ConvergencePlan, case: &Case) -> usize {
+    plan.cases.iter().position(|known| known.name == case.name).unwrap_or(0)
+}
+
+/// Round after round until every level has been timed often enough.
+fn time(jobs: &mut [Job<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
+    for job in jobs.iter() {
+        let _ = seconds(job.plan, job.case, job.level);
+    }
+    let mut open: Vec<usize> = (0..jobs.len()).collect();
+    while !open.is_empty() {
+        observed.look();
+        open.retain(|k| {
+            let job = &mut jobs[*k];
+            let found = seconds(job.plan, job.case, job.level);
+            job.seconds.extend(found.iter());
+            // What cannot be set up has no time, now or later.
+            let done = found.is_err() || job.is_done();
+            if done {
+                progress();
+            }
+            !done
+        });
+    }
+}
+
+/// What a level that has run had to do.
+pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Load {
+    let (census, steps) = (&level.run.census, level.run.steps as f64);
+    Load {
+        transfers: census.transfers as f64,
+        updates: census.particles.unwrap_or(0) as f64 * steps,
+        node_steps: nodes(&plan.scene, level.h) * steps,
+        steps,
+    }
+}

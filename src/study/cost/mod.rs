@@ -1,0 +1,16 @@
+//! What suites cost in seconds: measured level by level, varied, and bid for.
+//!
+//! Errors come from the same runs as reports, in parallel; then every level is run again, alone, by one
+//! thread, and its steps are timed: without setting up, without taking errors.
+
+pub(crate) mod budget;
+pub(crate) mod candidate;
+pub(crate) mod goal;
+pub(crate) mod machine;
+pub(crate) mod measure;
+pub(crate) mod variants;
+
+pub use budget::bid;
+pub use goal::{Goal, goals};
+pub use measure::price;
+pub use variants::{Over, variants};

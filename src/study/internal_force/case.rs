@@ -1,0 +1,63 @@
+//! One case of an internal-force study: rows and what was expected of them.
+
+use crate::{
+    suite::{
+        compile::internal_force,
+        model::{ForceCase, ForceExpectation, ForcePlan},
+    },
+    verify,
+    verify::{CaseOutcome, ForceRow, Study},
+};
+
+/// The force for every position, judged.
+pub(crate) fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
+    let rows = internal_force::rows(plan, case);
+    let (met, verdict, reason) = judged_force(&rows, case.expected);
+    let expected = case.expected.summary();
+    let unmet = if met { Vec::new() } else { vec![format!("expected: {expected}; {reason}")] };
+    CaseOutcome {
+        case: case.name.clone(),
+        subject: "mpm",
+        settings: vec![("basis".to_owned(), case.basis.name().to_owned())],
+        profile: None,
+        expected,
+        because: case.because.clone(),
+        verdict: verdict.to_owned(),
+        reason,
+        unmet,
+        study: Study::InternalForce(rows),
+    }
+}
+
+/// Whether the force is as expected, the verdict, and the figure that led to it.
+fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'static str, String) {
+    let largest = largest(rows.iter().map(|row| row.predicted));
+    match expected {
+        ForceExpectation::AgreesWithin(share) => {
+            let worst = self::largest(rows.iter().map(|row| row.force - row.predicted)) / largest;
+            let met = worst <= share;
+            let reason = format!(
+                "largest deviation from the prediction {worst:.1e} of the largest predicted \
+                 force, over {} positions",
+                rows.len()
+            );
+            (met, if met { "agrees" } else { "differs" }, reason)
+        }
+        ForceExpectation::StepsBelow(share) => {
+            let steps = rows.windows(2).map(|pair| pair[1].force - pair[0].force);
+            let worst = self::largest(steps) / largest;
+            let met = worst <= share;
+            let reason = format!(
+                "largest change between neighbouring positions {worst:.3} of the largest \
+                 predicted force, over {} positions",
+                rows.len()
+            );
+            (met, if met { "smooth" } else { "jumps" }, reason)
+        }
+    }
+}
+
+/// Largest magnitude; NaN if any value is.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, verify::larger)
+}

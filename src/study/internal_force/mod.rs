@@ -1,0 +1,3 @@
+//! The internal-force study: the force on a node while a particle moves through its cells.
+
+pub(crate) mod case;

@@ -1,0 +1,22 @@
+//! Studies: what a suite asks for, run and judged.
+//!
+//! ```text
+//! build            model -> Subject: names become types
+//! convergence      errors over a refinement plan, judged
+//! internal_force   the internal force on a node while a particle crosses it
+//! stability        runs watched for growth, limits by bisection
+//! cost             seconds of every level, and what they buy
+//! cache            results and checkpoints kept on disk
+//! describe         the rows that state a problem in reports
+//! ```
+
+pub(crate) mod build;
+pub(crate) mod cache;
+pub(crate) mod convergence;
+pub mod cost;
+pub mod describe;
+pub(crate) mod internal_force;
+pub(crate) mod stability;
+
+pub use cache::results::Kept;
+pub use convergence::runner::{Progress, Runner};

@@ -1,0 +1,3 @@
+//! The stability study: every row of every case, run and judged.
+
+pub(crate) mod run;

@@ -1,0 +1,285 @@
+//! Running a stability study: every row of every case.
+
+use crate::{
+    exact::Random,
+    study::{
+        build::{
+            dispatch::{perturbable, safe_step_of},
+            initial_state::Initial,
+            setup::Body,
+        },
+        cache::results::Kept,
+    },
+    subject::{Perturbable, Subject},
+    suite::{
+        compile::{
+            run::step_rule::ROUNDS,
+            stability::recipe::{Setting, Values},
+        },
+        model::{
+            method::Method,
+            refine_plan::Extent,
+            stability::{StabilityCase, StabilityPlan},
+        },
+    },
+    verify::{
+        CaseOutcome, Critical, Keeper, Nobody, Prediction, Scales, Stability, StabilityLimit,
+        StabilityRow, StabilityStudy, Study, Trial, amplification, resume_trial, spectral_radius,
+        stability_limit,
+    },
+};
+use rayon::prelude::*;
+
+/// Values at which a limit is looked for before the first unstable interval is halved.
+const SCAN: u32 = 48;
+
+/// The same where each value is a whole run.
+const SCAN_OF_RUNS: u32 = 16;
+
+/// The share to which limits are found: of a prediction, and of runs.
+const SHARP: f64 = 1e-5;
+const SHARP_OF_RUNS: f64 = 5e-3;
+
+/// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %. Below the
+/// limit the nearer one asks for more, and a full run, with all its steps, makes both.
+const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
+
+/// What rounding makes of an eigenvalue of one with too few eigenvectors (rigid motion has one).
+const DEFECT: f64 = 1e-5;
+
+/// Seed of the perturbations at the start.
+const SEED: u64 = 8;
+
+/// Runs a case of `suite`, whose name and text that stands for. Of what is `kept` runs are taken, and
+/// added to it.
+pub(crate) fn case(
+    (suite, text): (&str, u64),
+    plan: &StabilityPlan,
+    case: &StabilityCase,
+    (extent, kept): (Extent, Option<&Kept>),
+    progress: &(dyn Fn() + Sync),
+) -> CaseOutcome {
+    let name = format!("{suite}::{}", case.name);
+    let key = format!("{suite} {text:016x} {} {extent:?}", case.name);
+    let job = Job { plan, method: case.method, extent, kept, name, key };
+    let rows: Vec<StabilityRow> = plan
+        .values
+        .par_iter()
+        .map(|value| {
+            let row = job.row(*value);
+            progress();
+            row
+        })
+        .collect();
+    // Where no face is held, nothing is to be said of walls.
+    let mut settings = case.method.settings();
+    let walls = job.setting(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
+    settings.retain(|(key, _)| walls || key != "walls");
+    let unmet: Vec<String> = case
+        .expected
+        .iter()
+        .zip(&rows)
+        .flat_map(|(expected, row)| {
+            let place = format!("{} = {}", plan.swept, row.value);
+            expected.unmet(row).into_iter().map(move |unmet| format!("{place}: {unmet}"))
+        })
+        .collect();
+    let study = StabilityStudy {
+        swept: plan.swept.clone(),
+        sought: plan.sought.as_ref().map(|(name, ..)| name.clone()),
+        figures: plan.figures.clone(),
+        rows,
+    };
+    CaseOutcome {
+        case: case.name.clone(),
+        subject: "mpm",
+        settings,
+        profile: None,
+        expected: case.summary.clone(),
+        because: case.because.clone(),
+        verdict: study.verdict(),
+        reason: study.reason(),
+        unmet,
+        study: Study::Stability(Box::new(study)),
+    }
+}
+
+/// One method in a study.
+struct Job<'a> {
+    plan: &'a StabilityPlan,
+    method: Method,
+    extent: Extent,
+    kept: Option<&'a Kept>,
+    /// What messages call it.
+    name: String,
+    /// All that its runs depend on, besides their parameters.
+    key: String,
+}
+
+impl Job<'_> {
+    fn row(&self, value: f64) -> StabilityRow {
+        let empty = StabilityRow { value, trial: None, critical: None, refused: None };
+        let found = match &self.plan.sought {
+            None => self
+                .run(&[(&self.plan.swept, value)])
+                .map(|trial| StabilityRow { trial: Some(trial), ..empty.clone() }),
+            Some(sought) => self
+                .critical(value, sought)
+                .map(|critical| StabilityRow { critical: Some(critical), ..empty.clone() }),
+        };
+        found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
+    }
+
+    /// The set-up with these values of the parameters.
+    fn setting(&self, values: &Values<'_>) -> Result<Setting, String> {
+        let mut setting =
+            self.plan.recipe.setting(values).map_err(|complaint| complaint.one_line())?;
+        if self.extent == Extent::Full {
+            setting.steps = setting.full_steps;
+        }
+        if let Some(share) = setting.rule {
+            let limit = bodies(&setting).iter().try_fold(f64::INFINITY, |least, body| {
+                Ok::<f64, String>(least.min(safe_step_of(
+                    body,
+                    self.method,
+                    setting.level,
+                    ROUNDS,
+                )?))
+            })?;
+            setting.dt = vec![share * limit];
+        }
+        Ok(setting)
+    }
+
+    fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
+        let mut subject = perturbable(&bodies(setting), self.method, setting.level)?;
+        if setting.frozen {
+            subject.freeze();
+        }
+        Ok(subject)
+    }
+
+    /// The run with these values of the parameters.
+    fn run(&self, values: &Values<'_>) -> Result<Trial, String> {
+        let run = |keeper: &mut dyn Keeper| self.run_keeping(values, keeper);
+        let Some(kept) = self.kept else { return run(&mut Nobody) };
+        let said: Vec<String> =
+            values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let what = format!("{}, {}", self.name, said.join(", "));
+        kept.level(&format!("{} {values:?}", self.key), &what, run)
+    }
+
+    fn run_keeping(&self, values: &Values<'_>, keeper: &mut dyn Keeper) -> Result<Trial, String> {
+        let setting = self.setting(values)?;
+        let make = || -> Result<Box<dyn Subject>, String> {
+            let mut subject = self.subject(&setting)?;
+            if setting.perturb > 0.0 {
+                perturb(subject.as_mut(), &setting);
+            }
+            Ok(subject)
+        };
+        resume_trial(make, &setting.dt, setting.steps, &setting.scales, keeper)
+    }
+
+    /// The limit of what is sought: predicted and confirmed where the body is frozen, else observed.
+    fn critical(
+        &self,
+        value: f64,
+        (name, low, high): &(String, f64, f64),
+    ) -> Result<Critical, String> {
+        let with = |sought: f64| [(self.plan.swept.as_str(), value), (name.as_str(), sought)];
+        if self.plan.frozen {
+            return self.predicted((*low, *high), with);
+        }
+        let stable = |sought: f64| -> Result<bool, String> {
+            Ok(self.run(&with(sought))?.verdict == Stability::Stable)
+        };
+        let observed = stability_limit((*low, *high), SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
+        Ok(Critical { predicted: None, confirmed: Vec::new(), observed: Some(observed) })
+    }
+
+    fn predicted<'v>(
+        &self,
+        range: (f64, f64),
+        with: impl Fn(f64) -> [(&'v str, f64); 2],
+    ) -> Result<Critical, String> {
+        let mut leaves = None;
+        let stable = |sought: f64| -> Result<bool, String> {
+            let setting = self.setting(&with(sought))?;
+            let mut subject = self.subject(&setting)?;
+            let Scales { speed, modulus, .. } = setting.scales;
+            let matrix = amplification(subject.as_mut(), &setting.dt, speed, modulus)?;
+            let found = spectral_radius(&matrix);
+            let grows = !(found.radius <= 1.0 + DEFECT);
+            if grows {
+                leaves = found.eigenvalue;
+            }
+            Ok(!grows)
+        };
+        let limit = stability_limit(range, SCAN, SHARP, stable)?;
+        let shares: Vec<(f64, f64)> = match limit {
+            StabilityLimit::At(limit) => {
+                let least = usize::from(self.extent != Extent::Full);
+                SHARES[least..].iter().map(|s| (*s, s * limit)).collect()
+            }
+            StabilityLimit::Above(end) | StabilityLimit::Below(end) => vec![(1.0, end)],
+        };
+        let confirm = |(share, sought)| Ok((share, self.run(&with(sought))?));
+        let confirmed = shares.into_iter().map(confirm).collect::<Result<_, String>>()?;
+        Ok(Critical { predicted: Some(Prediction { limit, leaves }), confirmed, observed: None })
+    }
+}
+
+/// What a run starts from.
+fn bodies(setting: &Setting) -> Vec<Body<'_>> {
+    let body = |own| Body {
+        scene: &setting.scene,
+        own,
+        initial: Initial::stated(own),
+        manufactured: None,
+        heat: None,
+        keeps_deformation: false,
+        placed: setting.placed.clone(),
+    };
+    setting.scene.each().iter().map(body).collect()
+}
+
+/// Adds a random number to each number of the state, so that no mode is left out.
+fn perturb(subject: &mut dyn Perturbable, setting: &Setting) {
+    let (mut state, mut sizes, mut random) = (Vec::new(), Vec::new(), Random::new(SEED));
+    subject.state(&mut state);
+    subject.sizes(setting.scales.speed, setting.scales.modulus, &mut sizes);
+    for (number, size) in state.iter_mut().zip(&sizes) {
+        *number += setting.perturb * size * random.between(-1.0, 1.0);
+    }
+    subject.set_state(&state);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        study::cache::checkpoints::Interruption,
+        suite::{StudyPlan, Suite, embedded},
+    };
+    use rstest::rstest;
+
+    /// Runs that come to their end, and runs that fail by name; steps of two lengths.
+    #[rstest]
+    #[case("extreme-compression")]
+    #[case("varying-step")]
+    fn an_interrupted_run_shows_what_a_whole_one_does(#[case] name: &str) {
+        let suite = Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap();
+        let StudyPlan::Stability(plan) = &suite.study else { panic!("{name} is of stability") };
+        let (kept, name, key) = (None, String::new(), String::new());
+        let job =
+            Job { plan, method: plan.cases[0].method, extent: Extent::Usual, kept, name, key };
+        for value in plan.values.first().into_iter().chain(plan.values.last()) {
+            let mut values = vec![(plan.swept.as_str(), *value)];
+            values.extend(plan.sought.iter().map(|(name, from, _)| (name.as_str(), *from)));
+            let run = |keeper: &mut dyn Keeper| job.run_keeping(&values, keeper).unwrap();
+            let steps = run(&mut Nobody).steps;
+            Interruption::holds(steps, |keeper| format!("{:?}", run(keeper)), &plan.swept);
+        }
+    }
+}

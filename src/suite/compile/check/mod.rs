@@ -1,0 +1,6 @@
+//! Checks of a whole suite: what subjects and truths support, and whether levels fit.
+
+pub(crate) mod energy;
+pub(crate) mod fem_support;
+pub(crate) mod size;
+pub(crate) mod subject_support;

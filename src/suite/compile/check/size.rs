@@ -1,0 +1,157 @@
+//! Whether every level fits into a machine, and has nodes where a face is held.
+
+use crate::{
+    study::build::dispatch::is_vacant,
+    suite::{
+        compile::{
+            evaluator::Binder, path::Path, run::refine::Place, scene::boundary::Hold,
+            wording::shown,
+        },
+        grammar::{ConvergenceWords, MethodWords},
+        model::{
+            ConvergencePlan, Scene,
+            grid_size::{cell_size, grid_axis, per_axis},
+            refine_plan::LevelPlan,
+        },
+        yaml::Complaint,
+    },
+};
+
+/// Most particles, and most nodes, of one level.
+const MOST: f64 = 5e7;
+
+/// Distance of a held face from the grid's face that is no more than rounding, in cells.
+const ROUNDING: f64 = 1e-6;
+
+/// Refuses a level that is too large, or on which a held face has no nodes.
+pub(crate) fn check(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    plan: &ConvergencePlan,
+    places: &[Place],
+) -> Result<(), Complaint> {
+    reference(binder, plan)?;
+    if words.methods.iter().all(|method| matches!(method, MethodWords::Fem { .. })) {
+        return Ok(());
+    }
+    for (level, place) in plan.refine.levels.iter().zip(places) {
+        if let Some((what, amount)) = too_large(&plan.scene, *level) {
+            let cells = level.cells;
+            let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
+            let complaint = binder.complain(&place.size, &message);
+            return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
+        }
+        vacant(binder, &place.size, &plan.scene, *level)?;
+        held_faces(binder, &place.size, &plan.scene, level.cells)?;
+        sets(binder, &place.size, &plan.scene, *level)?;
+    }
+    Ok(())
+}
+
+/// Refuses a round body that is smaller than the spacing of its particles.
+fn vacant(
+    binder: &Binder<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<(), Complaint> {
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
+    if !per_axis.is_some_and(|n| is_vacant(scene, level.h, n)) {
+        return Ok(());
+    }
+    let cells = level.cells;
+    let message = format!("with {cells} cells along the first axis no particle lies in the body");
+    let label = "expected cells small enough for the body to hold one";
+    Err(binder.complain(path, &message).with_label(label))
+}
+
+/// What the level has too many of, and how many.
+pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
+    let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
+    amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
+}
+
+pub(crate) fn nodes(scene: &Scene, h: f64) -> f64 {
+    (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
+}
+
+fn particles(scene: &Scene, level: LevelPlan) -> f64 {
+    (0..scene.dimension()).map(|axis| along(scene, axis, level).max(1.0)).product()
+}
+
+/// Particles along an axis, before rounding.
+fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
+    (scene.to[axis] - scene.from[axis]) * per_axis / level.h
+}
+
+/// The nodes that are held lie on the last face of the grid, which must be that of the body; a
+/// periodic grid must end where it was told to.
+pub(crate) fn held_faces(
+    binder: &Binder<'_>,
+    path: &Path,
+    scene: &Scene,
+    cells: u64,
+) -> Result<(), Complaint> {
+    let h = cell_size(scene, cells);
+    for face in scene.faces.iter().filter(|face| !face.hold.is_free() && face.high) {
+        let (origin, along) = grid_axis(scene, face.axis, h);
+        let end = origin + along * h;
+        let body = match (&face.hold, &scene.grid) {
+            (Hold::Periodic, Some((_, to))) => to[face.axis],
+            _ => scene.to[face.axis],
+        };
+        if (end - body).abs() > ROUNDING * h {
+            let (name, verb, h, end) = (face.name, face.hold.verb(), shown(h), shown(end));
+            let message = format!(
+                "with {cells} cells along the first axis the {name} face, which {verb}, is at \
+                 {}, and the nodes next to it at {end}",
+                shown(body)
+            );
+            let label = format!("expected cells of which a whole number fits, not {h} m");
+            return Err(binder.complain(path, &message).with_label(&label));
+        }
+    }
+    Ok(())
+}
+
+/// A set of particles has at least one.
+fn sets(
+    binder: &Binder<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<(), Complaint> {
+    let cells = level.cells;
+    for set in &scene.sets {
+        // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
+        let some = |axis: usize| {
+            let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
+            let count = libm::round(along(scene, axis, level)).max(1.0);
+            let index = libm::ceil((set.from[axis] - from) / length * count - 0.5).max(0.0);
+            from + length * (index.min(count - 1.0) + 0.5) / count <= set.to[axis]
+        };
+        if !(0..scene.dimension()).all(some) {
+            let name = &set.name;
+            let message = format!(
+                "with {cells} cells along the first axis the set `{name}` holds no particle"
+            );
+            return Err(binder.complain(path, &message).with_label("expected more cells"));
+        }
+    }
+    Ok(())
+}
+
+/// A reference keeps its state at every instant.
+fn reference(binder: &Binder<'_>, plan: &ConvergencePlan) -> Result<(), Complaint> {
+    let Some(fine) = &plan.reference else { return Ok(()) };
+    let kept = fine.cells as f64 * plan.instants as f64;
+    if kept <= MOST {
+        return Ok(());
+    }
+    let message =
+        format!("{} elements at {} instants are too many to keep", fine.cells, plan.instants);
+    let path = Path::top("reference").then("fem").then("cells");
+    let label = format!("expected at most {MOST:e} elements times instants");
+    Err(binder.complain(&path, &message).with_label(&label))
+}

@@ -1,0 +1,185 @@
+//! Which expectation holds for which case: exactly one for each.
+
+use super::limits::limits;
+use crate::{
+    suite::{
+        compile::{
+            check::subject_support, evaluator::Binder, interval::interval, path::Path,
+            wording::suggestion,
+        },
+        grammar::{CrossingsName, ExpectWords},
+        model::{ConvergencePlan, method::Method},
+        yaml::{Complaint, NumberText, OneOrMany},
+    },
+    verify::{Expectation, Verdict},
+};
+use std::str::FromStr;
+
+/// What is expected of a case, and of a full run if that differs.
+type Expected = (Expectation, Option<Expectation>);
+
+/// One expectation for each of the `cases`, in their order.
+pub(crate) fn expectations(
+    binder: &Binder<'_>,
+    words: &[ExpectWords],
+    plan: &ConvergencePlan,
+    cases: &[(&str, Method)],
+) -> Result<Vec<Expected>, Complaint> {
+    let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
+    let selectors: Vec<_> = words.iter().map(|words| words.case.as_ref()).collect();
+    let owners = assign(binder, &selectors, &names)?;
+    let both = |(i, words): (usize, &ExpectWords)| {
+        let path = Path::top("expect").then(i);
+        Ok((expectation(binder, &path, words, plan)?, in_full(binder, &path, words, plan)?))
+    };
+    let parsed = words.iter().enumerate().map(both).collect::<Result<Vec<Expected>, _>>()?;
+    for (&owner, (_, method)) in owners.iter().zip(cases) {
+        let path = Path::top("expect").then(owner);
+        subject_support::check_drift(binder, &path, &parsed[owner].0.limits, *method)?;
+        if let Some(full) = &parsed[owner].1 {
+            subject_support::check_drift(binder, &path.then("full"), &full.limits, *method)?;
+        }
+    }
+    Ok(owners.into_iter().map(|owner| parsed[owner].clone()).collect())
+}
+
+/// For each case the one entry of `expect` that speaks of it.
+pub(crate) fn assign(
+    binder: &Binder<'_>,
+    selectors: &[Option<&OneOrMany<String>>],
+    names: &[&str],
+) -> Result<Vec<usize>, Complaint> {
+    let path = Path::top("expect");
+    let speaks = |i: usize, name: &str| {
+        selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
+    };
+    for (i, selector) in selectors.iter().enumerate() {
+        let globs = selector.map_or(&[][..], OneOrMany::as_slice);
+        let idle = |glob: &String| !names.iter().any(|name| matches(glob, name));
+        if let Some(k) = globs.iter().position(idle) {
+            let at = binder.alternative(&path.then(i).then("case"), k);
+            let complaint = binder.complain(&at, &format!("`{}` fits no case", globs[k]));
+            return Err(complaint.with_help(&format!("cases: {}", names.join(", "))));
+        }
+    }
+    let owner = |name: &&str| {
+        let owners: Vec<usize> = (0..selectors.len()).filter(|i| speaks(*i, name)).collect();
+        match owners[..] {
+            [only] => Ok(only),
+            [] => {
+                let message = format!("nothing is expected of the case `{name}`");
+                Err(binder.complain_key(&path, &message))
+            }
+            [_, second, ..] => {
+                let message = format!("a second expectation for the case `{name}`");
+                Err(binder.complain(&path.then(second), &message))
+            }
+        }
+    };
+    names.iter().map(owner).collect()
+}
+
+/// Whether `glob`, in which `*` stands for any text, fits `name`.
+fn matches(glob: &str, name: &str) -> bool {
+    let mut parts = glob.split('*');
+    let Some(rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };
+    let parts: Vec<&str> = parts.collect();
+    let Some((last, middle)) = parts.split_last() else { return rest.is_empty() };
+    let mut rest = rest;
+    for part in middle {
+        let Some(at) = rest.find(part) else { return false };
+        rest = &rest[at + part.len()..];
+    }
+    rest.ends_with(last)
+}
+
+/// What is expected of a full run, where an entry says that it differs.
+fn in_full(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExpectWords,
+    plan: &ConvergencePlan,
+) -> Result<Option<Expectation>, Complaint> {
+    let Some(full) = &words.full else { return Ok(None) };
+    let path = path.then("full");
+    for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
+        if given {
+            let message = format!("what is expected of a full run has no `{key}` of its own");
+            return Err(binder.complain_key(&path.then(key), &message).with_help("remove it"));
+        }
+    }
+    expectation(binder, &path, full, plan).map(Some)
+}
+
+fn expectation(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExpectWords,
+    plan: &ConvergencePlan,
+) -> Result<Expectation, Complaint> {
+    let limits = limits(binder, path, words, plan)?;
+    let verdict = match &words.verdict {
+        Some(word) => Some(verdict(binder, &path.then("verdict"), word)?),
+        None if words.order.is_some() => Some(Verdict::Converging),
+        None if !limits.is_empty() => None,
+        None => {
+            let complaint =
+                binder.complain(path, "this expects neither an order nor a verdict nor a bound");
+            let help = "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`";
+            return Err(complaint.with_help(help));
+        }
+    };
+    let because = because(binder, path, &words.because)?;
+    let bounds = |key: &str, words: &Option<Vec<NumberText>>| {
+        words.as_ref().map(|pair| interval(binder, &path.then(key), pair)).transpose()
+    };
+    Ok(Expectation {
+        verdict,
+        order: bounds("order", &words.order)?,
+        finest_pair: bounds("finest_pair", &words.finest_pair)?,
+        crossings: words.crossings.map(|name| name == CrossingsName::Some),
+        floor: words.floor,
+        limits,
+        because,
+    })
+}
+
+/// The reason of an expectation, which must say something.
+pub(crate) fn because(binder: &Binder<'_>, path: &Path, text: &str) -> Result<String, Complaint> {
+    let text = text.trim();
+    if !text.is_empty() {
+        return Ok(text.to_owned());
+    }
+    let complaint = binder.complain(&path.then("because"), "an expectation needs its reason");
+    Err(complaint.with_label("expected words"))
+}
+
+fn verdict(binder: &Binder<'_>, path: &Path, word: &str) -> Result<Verdict, Complaint> {
+    Verdict::from_str(word).map_err(|_| {
+        let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
+        let known = known.each_ref().map(String::as_str);
+        let complaint = binder.complain(path, &format!("`{word}` is not a verdict"));
+        complaint.with_help(&suggestion("verdicts", word, &known))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::matches;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("fem-linear-lumped", "fem-linear-lumped", true)]
+    #[case("fem-linear-lumped", "fem-linear-lumped-x", false)]
+    #[case("*", "anything", true)]
+    #[case("fem-*", "fem-linear-lumped", true)]
+    #[case("fem-*", "mpm-linear", false)]
+    #[case("*-lumped", "fem-linear-lumped", true)]
+    #[case("fem-*-nodes", "fem-linear-lumped-nodes", true)]
+    #[case("fem-*-*-nodes", "fem-linear-nodes", false)]
+    #[case("*usl*usl", "a-usl", false)]
+    #[case("", "x", false)]
+    fn globs(#[case] glob: &str, #[case] name: &str, #[case] fits: bool) {
+        assert_eq!(matches(glob, name), fits);
+    }
+}

@@ -1,0 +1,92 @@
+//! Bounds on figures that an expectation asks for, from words.
+
+use crate::{
+    suite::{
+        compile::{check::energy, evaluator::Binder, interval::interval, path::Path},
+        grammar::{DriftWords, ExpectWords},
+        model::ConvergencePlan,
+        yaml::{Complaint, NumberText},
+    },
+    verify::{Conserved, Limits},
+};
+
+/// The limits of the expectation at `path`.
+pub(crate) fn limits(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExpectWords,
+    plan: &ConvergencePlan,
+) -> Result<Limits, Complaint> {
+    let bound = |key: &str, text: &Option<NumberText>| {
+        text.as_ref().map(|text| binder.positive(&path.then(key), text, "a bound")).transpose()
+    };
+    let limits = Limits {
+        error_below: bound("error_below", &words.error_below)?,
+        error_above: bound("error_above", &words.error_above)?,
+        observed_within: bound("observed_within", &words.observed_within)?,
+        rest_below: bound("rest_below", &words.rest_below)?,
+        drift: match &words.drift {
+            Some(words) => drifts(binder, &path.then("drift"), words, plan)?,
+            None => Vec::new(),
+        },
+        energy_rate: match &words.energy_rate {
+            Some(words) => {
+                let path = path.then("energy_rate");
+                energy::check(binder, &path, plan)?;
+                Some(interval(binder, &path, words)?)
+            }
+            None => None,
+        },
+    };
+    if let (Some(most), Some(least)) = (limits.error_below, limits.error_above)
+        && most < least
+    {
+        let message = format!("no error is below {most:e} and above {least:e}");
+        return Err(binder.complain(&path.then("error_above"), &message));
+    }
+    if limits.observed_within.is_some() && plan.observe.is_none() {
+        let complaint = binder.complain_key(&path.then("observed_within"), "nothing is observed");
+        return Err(complaint.with_help("add `observe: {at: [...]}` to the suite"));
+    }
+    if limits.rest_below.is_some() && !plan.exact.as_ref().is_some_and(|truth| truth.at_rest) {
+        let message = "the truth is no state of rest";
+        let complaint = binder.complain_key(&path.then("rest_below"), message);
+        return Err(complaint.with_help("state it under `equilibrium`"));
+    }
+    Ok(limits)
+}
+
+fn drifts(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &DriftWords,
+    plan: &ConvergencePlan,
+) -> Result<Vec<(Conserved, f64)>, Complaint> {
+    let mut drifts = Vec::new();
+    for &sum in Conserved::ALL {
+        let text = match sum {
+            Conserved::Mass => &words.mass,
+            Conserved::Momentum => &words.momentum,
+            Conserved::AngularMomentum => &words.angular_momentum,
+            Conserved::KineticEnergy => &words.kinetic_energy,
+            Conserved::KineticEnergyGain => &words.kinetic_energy_gain,
+            Conserved::Energy => &words.energy,
+        };
+        let Some(text) = text else { continue };
+        let path = path.then(sum.name());
+        if sum == Conserved::AngularMomentum && plan.scene.dimension() == 1 {
+            let message = "there is no angular momentum in 1-D";
+            return Err(binder.complain_key(&path, message));
+        }
+        if sum == Conserved::Energy {
+            energy::check(binder, &path, plan)?;
+        }
+        drifts.push((sum, binder.positive(&path, text, "a bound")?));
+    }
+    if drifts.is_empty() {
+        let names: Vec<&str> = Conserved::ALL.iter().map(|sum| sum.name()).collect();
+        let complaint = binder.complain(path, "this bounds no drift");
+        return Err(complaint.with_help(&format!("name some of: {}", names.join(", "))));
+    }
+    Ok(drifts)
+}

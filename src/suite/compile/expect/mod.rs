@@ -1,0 +1,4 @@
+//! Expectations: exactly one for each case.
+
+pub(crate) mod cases;
+pub(crate) mod limits;

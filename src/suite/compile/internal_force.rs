@@ -1,0 +1,142 @@
+//! The internal-force study: the mechanism of grid crossing, without a run.
+//!
+//! Two cells meet at a node; like all others, they hold equal particles under one uniform stress. One
+//! particle of the left cell is moved through the node, and the internal force on the node is read from the
+//! solver's own P2G.
+
+use super::{evaluator::Binder, expect::cases, path::Path};
+use crate::{
+    mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel},
+    suite::{
+        grammar::{ForceExpectWords, ForceMethodWords, InternalForceWords},
+        model::{ForceCase, ForceExpectation, ForcePlan},
+        yaml::Complaint,
+    },
+    verify::ForceRow,
+};
+
+/// Cells on either side of the node, all of them full. The axis is periodic: no wall, and no end of
+/// the body that a wide basis could see.
+const SIDE: usize = 4;
+
+/// Most particles over all positions: a second of work, and a report that can be read.
+const MOST_SUMMANDS: u64 = 1_000_000;
+
+/// Variables of the predicted force.
+const VARIABLES: [&str; 2] = ["n_left", "n_right"];
+
+/// Checks an internal-force study.
+pub(crate) fn plan(
+    binder: &Binder<'_>,
+    words: &InternalForceWords,
+) -> Result<ForcePlan, Complaint> {
+    let path = Path::top("internal_force");
+    let force = &words.internal_force;
+    let plan = ForcePlan {
+        cell: binder.positive(&path.then("cell"), &force.cell, "the cell size")?,
+        ppc: binder.count(&path.then("ppc"), &force.ppc, "the number of particles per cell")?,
+        volume: binder.positive(&path.then("volume"), &force.volume, "a particle's volume")?,
+        stress: binder.number(&path.then("stress"), &force.stress)?,
+        positions: binder.count(
+            &path.then("positions"),
+            &force.positions,
+            "the number of positions",
+        )?,
+        prediction: binder.formula(&path.then("prediction"), &force.prediction, &VARIABLES)?,
+        cases: Vec::new(),
+    };
+    if plan.ppc.saturating_mul(plan.positions) > MOST_SUMMANDS {
+        let (ppc, positions) = (plan.ppc, plan.positions);
+        let message = format!("{positions} positions with {ppc} particles per cell each");
+        let label = format!("expected at most {MOST_SUMMANDS} particles over all positions");
+        return Err(binder.complain(&path.then("positions"), &message).with_label(&label));
+    }
+    Ok(ForcePlan { cases: cases(binder, words)?, ..plan })
+}
+
+fn cases(binder: &Binder<'_>, words: &InternalForceWords) -> Result<Vec<ForceCase>, Complaint> {
+    let bases = |ForceMethodWords::Mpm { basis }: &ForceMethodWords| basis.as_slice().to_vec();
+    let bases: Vec<BasisName> = words.methods.iter().flat_map(bases).collect();
+    if bases.is_empty() {
+        let path = Path::top("methods");
+        return Err(binder.complain(&path, "a suite without methods has no case"));
+    }
+    let names: Vec<String> =
+        bases.iter().map(|basis| format!("mpm-{}", basis.name().replace('_', "-"))).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        let message = format!("the case `{}` appears twice", twice.1);
+        return Err(binder.complain(&Path::top("methods"), &message));
+    }
+    let selectors: Vec<_> = words.expect.iter().map(|words| words.case.as_ref()).collect();
+    let owners = cases::assign(binder, &selectors, &names)?;
+    let case = |((basis, name), owner): ((BasisName, &str), usize)| {
+        let path = Path::top("expect").then(owner);
+        let expected = &words.expect[owner];
+        Ok(ForceCase {
+            name: name.to_owned(),
+            basis,
+            expected: expectation(binder, &path, expected)?,
+            because: cases::because(binder, &path, &expected.because)?,
+        })
+    };
+    bases.into_iter().zip(names).zip(owners).map(case).collect()
+}
+
+fn expectation(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ForceExpectWords,
+) -> Result<ForceExpectation, Complaint> {
+    let share = |key: &str, text| binder.positive(&path.then(key), text, "the share");
+    match (&words.agrees_within, &words.steps_below) {
+        (Some(text), None) => share("agrees_within", text).map(ForceExpectation::AgreesWithin),
+        (None, Some(text)) => share("steps_below", text).map(ForceExpectation::StepsBelow),
+        _ => Err(binder
+            .complain(path, "one thing can be expected of a force")
+            .with_label("expected either `agrees_within` or `steps_below`")),
+    }
+}
+
+/// The force on the node for every position of the moving particle.
+pub(crate) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
+    (0..plan.positions).map(|k| row(plan, case, k)).collect()
+}
+
+fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
+    // Positions from -1/2 to 1/2 cells, symmetric, at the middles of equal parts.
+    let position = (k as f64 + 0.5) / plan.positions as f64 - 0.5;
+    let right = plan.ppc + u64::from(position >= 0.0);
+    let left = 2 * plan.ppc - right;
+    ForceRow {
+        position,
+        left,
+        right,
+        force: force(plan, case.basis, position),
+        predicted: plan.prediction.eval(&[left as f64, right as f64]),
+    }
+}
+
+fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
+    let h = plan.cell;
+    let kernel = kernel::<1>(basis);
+    let (from, to) = (Vector::<1>::new(-h * SIDE as f64), Vector::<1>::new(h * SIDE as f64));
+    let mut grid = kernel.grid(from, h, [2 * SIDE], [true]);
+    let block = Block { from, to, density: 1.0 };
+    let mut particles = Particles::fill(&block, h, plan.ppc as usize);
+    particles.vol.fill(plan.volume);
+    particles.sigma.fill(Matrix::<1>::new(plan.stress));
+    // The last particle of the left half is the one that moves.
+    particles.x[SIDE * plan.ppc as usize - 1][0] = position * h;
+    kernel.p2g_internal_force(&particles, &mut grid);
+    let node = node_at(kernel.as_ref(), &mut grid, h);
+    grid.force[node][0]
+}
+
+/// The function that a particle at x = 0 sees most of; of two, the one on the right.
+fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
+    let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
+    let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);
+    kernel.p2g_mass(&alone, grid);
+    (0..grid.nodes()).max_by(|a, b| grid.mass[*a].total_cmp(&grid.mass[*b])).unwrap_or(0)
+}

@@ -1,0 +1,62 @@
+//! Thermal expansion, from words to the solver.
+
+use crate::{
+    exact::Expansion,
+    mpm::{MaterialPlan, ThermalExpansion},
+    suite::{
+        compile::{evaluator::Binder, path::Path, truth::law},
+        grammar::ExpansionWords,
+        model::Scene,
+        yaml::Complaint,
+    },
+};
+
+/// The expansion that `words` at `path` give to a scene.
+pub(crate) fn expansion(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExpansionWords,
+    scene: &Scene,
+) -> Result<Expansion, Complaint> {
+    if scene.expansion.is_some() {
+        return Err(binder.complain_key(path, "thermal expansion appears twice"));
+    }
+    let name = scene.material.name();
+    let elastic = matches!(
+        scene.material,
+        MaterialPlan::LinearElastic { .. }
+            | MaterialPlan::NeoHookean { .. }
+            | MaterialPlan::Hencky { .. }
+    );
+    if !elastic {
+        let message = format!("the stress of a heated `{name}` body is not known");
+        let complaint = binder.complain_key(path, &message);
+        return Err(complaint.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
+    }
+    let split = law::manufactured(&scene.material).is_ok();
+    let poisson = scene.material.elasticity().map_or(0.0, |(_, poisson)| poisson);
+    let d = scene.dimension();
+    if split && d < 3 && poisson != 0.0 {
+        let message = format!(
+            "in {d}-D a heated `{name}` body would be held along the axes that are left out, and its \
+             Poisson's ratio is {poisson}"
+        );
+        let complaint = binder.complain_key(path, &message);
+        return Err(complaint.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));
+    }
+    let coefficient = path.then("coefficient");
+    Ok(Expansion {
+        coefficient: binder.positive(&coefficient, &words.coefficient, "the coefficient")?,
+        reference: binder.number(&path.then("reference"), &words.reference)?,
+    })
+}
+
+/// The effect of a scene that lists it.
+pub(crate) fn effect<const D: usize>(scene: &Scene) -> Option<ThermalExpansion<D>> {
+    let Expansion { coefficient, reference } = scene.expansion?;
+    if law::manufactured(&scene.material).is_ok() {
+        return Some(ThermalExpansion::of_deformation(coefficient, reference));
+    }
+    let elasticity = scene.material.elasticity()?;
+    Some(ThermalExpansion::in_rate_form(coefficient, reference, elasticity))
+}

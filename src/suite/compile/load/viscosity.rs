@@ -1,0 +1,73 @@
+//! Artificial viscosity, from words to the solver.
+
+use crate::{
+    mpm::{ArtificialViscosity, LinearElastic, MaterialPlan},
+    suite::{
+        compile::{
+            check::subject_support::fem_lacks, evaluator::Binder, path::Path, wording::shown,
+        },
+        grammar::{ConvergenceWords, ViscosityWords},
+        model::Scene,
+        yaml::{Complaint, NumberText},
+    },
+};
+
+/// The effect on one of the bodies of a scene, on a grid of cell size `h` (m), if it lists one.
+pub(crate) fn on(body: &Scene, h: f64) -> Option<ArtificialViscosity> {
+    let [linear, quadratic] = body.viscosity?;
+    let speed = wave_speed(&body.material, body.density);
+    Some(ArtificialViscosity { linear, quadratic, length: h, speed, q: Vec::new() })
+}
+
+/// Speed (m/s) of a pressure wave in a body at rest.
+fn wave_speed(material: &MaterialPlan, density: f64) -> f64 {
+    let modulus = match *material {
+        MaterialPlan::LinearElastic { young, poisson }
+        | MaterialPlan::NeoHookean { young, poisson }
+        | MaterialPlan::Hencky { young, poisson }
+        | MaterialPlan::J2 { young, poisson, .. } => {
+            let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+            lambda + 2.0 * mu
+        }
+        MaterialPlan::Newtonian { bulk, .. } => bulk,
+        MaterialPlan::Rigid {} => 0.0,
+    };
+    (modulus / density).sqrt()
+}
+
+/// Gives the scene an artificial viscosity.
+pub(crate) fn add(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ViscosityWords,
+    scene: &mut Scene,
+) -> Result<(), Complaint> {
+    if scene.viscosity.is_some() {
+        return Err(binder.complain(path, "artificial viscosity appears twice"));
+    }
+    let coefficient = |key: &str, text: &NumberText| {
+        let path = path.then(key);
+        let value = binder.number(&path, text)?;
+        if value >= 0.0 {
+            return Ok(value);
+        }
+        let message = format!("a coefficient of viscosity is {}", shown(value));
+        Err(binder.complain(&path, &message).with_label("expected zero or a positive number"))
+    };
+    let linear = coefficient("linear", &words.linear)?;
+    let quadratic = coefficient("quadratic", &words.quadratic)?;
+    scene.viscosity = Some([linear, quadratic]);
+    Ok(())
+}
+
+/// Refuses the FEM, which has no artificial viscosity.
+pub(crate) fn check(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+) -> Result<(), Complaint> {
+    if scene.viscosity.is_none() {
+        return Ok(());
+    }
+    fem_lacks(binder, words, "artificial viscosity")
+}

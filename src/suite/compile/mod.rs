@@ -1,0 +1,16 @@
+//! From the grammar to the model: every number computed, every name resolved, the truth checked.
+
+pub(crate) mod check;
+pub(crate) mod coordinates;
+pub(crate) mod evaluator;
+pub(crate) mod expect;
+pub(crate) mod internal_force;
+pub(crate) mod interval;
+pub(crate) mod load;
+pub(crate) mod path;
+pub(crate) mod run;
+pub(crate) mod scene;
+pub(crate) mod stability;
+pub(crate) mod suite;
+pub(crate) mod truth;
+pub(crate) mod wording;

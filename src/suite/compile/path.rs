@@ -1,0 +1,26 @@
+//! Where a value stands in a file.
+
+use crate::suite::yaml::Step;
+
+/// The way to a value in a file.
+#[derive(Debug, Clone)]
+pub(crate) struct Path(Vec<Step>);
+
+impl Path {
+    /// The value of a key of the whole file.
+    pub(crate) fn top(key: &str) -> Self {
+        Self(vec![Step::from(key)])
+    }
+
+    /// One step further down.
+    pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
+        let mut longer = self.0.clone();
+        longer.push(step.into());
+        Self(longer)
+    }
+
+    /// The way, step by step.
+    pub(crate) fn steps(&self) -> &[Step] {
+        &self.0
+    }
+}

@@ -1,0 +1,239 @@
+//! Lists become cases: the product of everything that a suite gives as a list.
+
+use super::methods::methods;
+use crate::{
+    mpm::{FrameName, MassName, combine, combine_bodies},
+    suite::{
+        compile::{
+            evaluator::Binder,
+            expect::cases,
+            path::Path,
+            scene::boundary::Hold,
+            truth::{conservation_only, law},
+            wording::shown,
+        },
+        grammar::{ConvergenceWords, EquationName, MethodWords},
+        model::{Against, Case, ConvergencePlan, SceneFace, method::Method},
+        yaml::{Complaint, NumberText, OneOrMany},
+    },
+    verify::Axis,
+};
+
+/// Most cases that a suite may unfold into.
+const MOST_CASES: usize = 1000;
+
+/// The ends of the runs: how names write them, and value (s).
+pub(crate) fn until(
+    binder: &Binder<'_>,
+    words: &OneOrMany<NumberText>,
+) -> Result<Vec<(String, f64)>, Complaint> {
+    let path = Path::top("run").then("until");
+    let mut ends: Vec<(String, f64)> = Vec::new();
+    for (i, text) in words.as_slice().iter().enumerate() {
+        let path = binder.alternative(&path, i);
+        let until = binder.positive(&path, text, "the end of the run")?;
+        let text = shown(until);
+        if ends.iter().any(|(known, _)| *known == text) {
+            let message = format!("the end {text} s appears twice");
+            return Err(binder.complain(&path, &message).with_label("the second time"));
+        }
+        ends.push((text, until));
+    }
+    Ok(ends)
+}
+
+/// All cases of a suite with what is expected of each.
+pub(crate) fn cases(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    plan: &ConvergencePlan,
+    until: &[(String, f64)],
+) -> Result<Vec<Case>, Complaint> {
+    let mut drafts = Vec::new();
+    for (i, method) in words.methods.iter().enumerate() {
+        let path = Path::top("methods").then(i);
+        possible(binder, &path, method, plan)?;
+        few(binder, &path, drafts.len(), method, until.len())?;
+        for (name, method) in methods(method, own_law(plan)) {
+            if let Method::Mpm { basis, transfer, mass, frame, start, .. } = method {
+                let contact = plan.scene.contact.is_some();
+                let mut known = combine(basis, transfer, mass, frame);
+                if plan.scene.bodies.len() > 1 {
+                    let meeting = || combine_bodies(transfer, mass, frame, start, contact);
+                    known = known.and_then(|()| meeting());
+                }
+                known.map_err(|reason| {
+                    let help = "give what goes together an entry of `methods` of its own";
+                    binder.complain(&path, &reason).with_help(help)
+                })?;
+            }
+            for draft in runs(&name, method, plan, until) {
+                if drafts.iter().any(|known: &Draft| known.name == draft.name) {
+                    let message = format!("the case `{}` appears twice", draft.name);
+                    let complaint = binder.complain(&path, &message);
+                    return Err(complaint.with_label("the second time"));
+                }
+                drafts.push(draft);
+            }
+        }
+    }
+    if drafts.is_empty() {
+        let path = Path::top("methods");
+        return Err(binder.complain(&path, "a suite without methods has no case"));
+    }
+    let named: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
+    let expectations = cases::expectations(binder, &words.expect, plan, &named)?;
+    let with = |(draft, (expectation, expectation_in_full)): (Draft, _)| Case {
+        name: draft.name,
+        method: draft.method,
+        until: draft.until,
+        against: draft.against,
+        expectation,
+        expectation_in_full,
+    };
+    Ok(drafts.into_iter().zip(expectations).map(with).collect())
+}
+
+/// A case before anything is expected of it.
+struct Draft {
+    name: String,
+    method: Method,
+    until: f64,
+    against: Against,
+}
+
+/// One method, for every end of the run and every truth. A part enters the name only where there
+/// is a choice.
+fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f64)]) -> Vec<Draft> {
+    let truths = [
+        plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
+        plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
+        plan.same_method_dt.map(|_| (Against::SameMethod, "-vs-shorter-steps")),
+    ];
+    let mut truths: Vec<_> = truths.into_iter().flatten().collect();
+    if conservation_only::is_truthless(plan) {
+        truths.push((Against::Nothing, ""));
+    }
+    let mut drafts = Vec::new();
+    for (text, until_value) in until {
+        for (against, suffix) in &truths {
+            let mut name = name.to_owned();
+            if until.len() > 1 {
+                name += &format!("-until-{text}");
+            }
+            if truths.len() > 1 {
+                name += suffix;
+            }
+            drafts.push(Draft { name, method, until: *until_value, against: *against });
+        }
+    }
+    drafts
+}
+
+/// Refuses a product of lists that is too long, before it is unfolded.
+fn few(
+    binder: &Binder<'_>,
+    path: &Path,
+    already: usize,
+    words: &MethodWords,
+    ends: usize,
+) -> Result<(), Complaint> {
+    let optional = |length: Option<usize>| length.unwrap_or(1);
+    let lengths = match words {
+        MethodWords::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
+            basis.as_slice().len(),
+            transfer.as_slice().len(),
+            scheme.as_slice().len(),
+            optional(start.as_ref().map(|list| list.as_slice().len())),
+            optional(mass.as_ref().map(|list| list.as_slice().len())),
+            optional(frame.as_ref().map(|list| list.as_slice().len())),
+        ],
+        MethodWords::Heat { basis } => vec![basis.as_slice().len()],
+        MethodWords::Fem { element, mass, law, start, sampling } => vec![
+            element.as_slice().len(),
+            mass.as_slice().len(),
+            optional(law.as_ref().map(|list| list.as_slice().len())),
+            optional(start.as_ref().map(|list| list.as_slice().len())),
+            optional(sampling.as_ref().map(|list| list.as_slice().len())),
+        ],
+    };
+    let more = lengths.into_iter().fold(ends, usize::saturating_mul);
+    if already.saturating_add(more) <= MOST_CASES {
+        return Ok(());
+    }
+    let message = format!("these lists unfold into {more} cases");
+    let label = format!("expected at most {MOST_CASES} in a suite");
+    Err(binder.complain(path, &message).with_label(&label))
+}
+
+/// Refuses combinations that mean nothing before anything runs.
+fn possible(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &MethodWords,
+    plan: &ConvergencePlan,
+) -> Result<(), Complaint> {
+    match words {
+        MethodWords::Fem { .. } if plan.scene.dimension() != 1 => {
+            let d = plan.scene.dimension();
+            Err(binder.complain(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
+        }
+        MethodWords::Fem { .. } if !plan.scene.bodies.is_empty() => {
+            Err(binder.complain(path, "the reference FEM is one bar, and the scene lists bodies"))
+        }
+        MethodWords::Mpm { mass: Some(mass), .. }
+            if mass.as_slice().contains(&MassName::Consistent) && driven(plan) =>
+        {
+            let message = "the consistent mass matrix is solved for walls at rest, and a face is \
+                           driven";
+            Err(binder.complain(&path.then("mpm").then("mass"), message))
+        }
+        MethodWords::Mpm { mass: Some(mass), .. }
+            if mass.as_slice().contains(&MassName::Consistent) && rubs(plan) =>
+        {
+            let message = "friction is measured by what a held node would do, of which a consistent \
+                           mass matrix has no row";
+            Err(binder.complain(&path.then("mpm").then("mass"), message))
+        }
+        MethodWords::Mpm { frame: Some(frame), .. }
+            if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
+        {
+            let message = "a total-Lagrangian body stays in its reference place, and the periodic \
+                           grid is not as long";
+            Err(binder.complain(&path.then("mpm").then("frame"), message))
+        }
+        MethodWords::Fem { .. } if plan.refine.axis == Axis::Particles => {
+            Err(binder.complain(path, "particles per cell are refined, and an FEM has none"))
+        }
+        MethodWords::Mpm { .. } | MethodWords::Heat { .. } if !plan.refine.has_particles() => {
+            Err(binder
+                .complain(path, "MPM needs particles, and `refine` says no `ppc`")
+                .with_help("add `ppc: 4` to `refine`"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn driven(plan: &ConvergencePlan) -> bool {
+    plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Velocity(_)))
+}
+
+fn rubs(plan: &ConvergencePlan) -> bool {
+    plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Friction(_)))
+}
+
+/// Whether a period of the grid is not that of the body's reference place.
+fn stretched(plan: &ConvergencePlan) -> bool {
+    let scene = &plan.scene;
+    let apart = |face: &SceneFace| {
+        let length = scene.to[face.axis] - scene.from[face.axis];
+        (scene.period(face.axis) - length).abs() > 1e-12 * length
+    };
+    scene.faces.iter().any(|face| matches!(face.hold, Hold::Periodic) && apart(face))
+}
+
+/// The law of an FEM case that names none: that of the scene's material. Where there is none, such
+/// a case has been refused (`law::check`).
+fn own_law(plan: &ConvergencePlan) -> EquationName {
+    law::own(&plan.scene.material).unwrap_or(EquationName::SmallStrain)
+}

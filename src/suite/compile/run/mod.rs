@@ -1,0 +1,7 @@
+//! The run: refinement plan, time steps, methods, and the cases that they make.
+
+pub(crate) mod cases;
+pub(crate) mod methods;
+pub(crate) mod refine;
+pub(crate) mod step_rule;
+pub(crate) mod steps;

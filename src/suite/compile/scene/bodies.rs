@@ -1,0 +1,183 @@
+//! Several bodies in a scene, from words.
+//!
+//! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the loads
+//! are those of the scene: they act on every body.
+
+use super::boundary::Hold;
+use crate::{
+    mpm::MaterialWords,
+    suite::{
+        compile::{evaluator::Binder, path::Path, wording::shown},
+        grammar::{BodyWords, LoadWords, OneBodyWords, SceneWords},
+        model::Scene,
+        yaml::{Complaint, NumberText},
+    },
+};
+
+impl Scene {
+    /// The bodies: this one, or several.
+    pub fn each(&self) -> &[Self] {
+        if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
+    }
+}
+
+/// Most bodies of a scene.
+const MOST: usize = 100;
+
+/// The words of one body, and where they stand.
+pub(crate) struct Listed<'w> {
+    /// The map that holds them.
+    pub(crate) at: Path,
+    pub(crate) body: &'w BodyWords,
+    pub(crate) material: &'w MaterialWords<NumberText>,
+    pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
+}
+
+/// The bodies that a scene lists: one or several.
+pub(crate) fn listed<'w>(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &'w SceneWords,
+) -> Result<Vec<Listed<'w>>, Complaint> {
+    if let Some(bodies) = &words.bodies {
+        refuse_beside(binder, path, words)?;
+        let at = path.then("bodies");
+        if bodies.is_empty() || bodies.len() > MOST {
+            let complaint = binder.complain(&at, &format!("a scene of {} bodies", bodies.len()));
+            return Err(complaint.with_label(&format!("expected 1 to {MOST}")));
+        }
+        let one = |(i, one): (usize, &'w OneBodyWords)| {
+            let OneBodyWords { body, material, initial_velocity } = one;
+            let (at, initial_velocity) = (at.then(i), initial_velocity.as_ref());
+            Listed { at, body, material, initial_velocity }
+        };
+        return Ok(bodies.iter().enumerate().map(one).collect());
+    }
+    let missing = |key: &str| {
+        let complaint = binder.complain_key(path, &format!("a scene without `{key}`"));
+        complaint.with_help("add `body` and `material`, or a list of `bodies` with one of each")
+    };
+    let body = words.body.as_ref().ok_or_else(|| missing("body"))?;
+    let material = words.material.as_ref().ok_or_else(|| missing("material"))?;
+    let (at, initial_velocity) = (path.clone(), words.initial_velocity.as_ref());
+    Ok(vec![Listed { at, body, material, initial_velocity }])
+}
+
+/// What a scene cannot say of all bodies at once.
+fn refuse_beside(binder: &Binder<'_>, path: &Path, words: &SceneWords) -> Result<(), Complaint> {
+    let alone = [
+        ("body", words.body.is_some()),
+        ("material", words.material.is_some()),
+        ("initial_velocity", words.initial_velocity.is_some()),
+        ("initial_displacement", words.initial_displacement.is_some()),
+        ("sets", !words.sets.as_slice().is_empty()),
+    ];
+    if let Some((key, _)) = alone.iter().find(|(_, stated)| *stated) {
+        let message = format!("`{key}` speaks of one body, and the scene has several");
+        return Err(binder.complain_key(&path.then(*key), &message));
+    }
+    for (i, load) in words.loads.iter().enumerate() {
+        let name = load.effect().name();
+        let acts = match load {
+            LoadWords::Traction { .. } | LoadWords::Pressure { .. } => "acts on a face of",
+            LoadWords::Heat { .. } | LoadWords::ThermalExpansion { .. } => "is that of",
+            _ => continue,
+        };
+        let message = format!("`{name}` {acts} one body, and the scene has several");
+        return Err(binder.complain_key(&path.then("loads").then(i).then(name), &message));
+    }
+    Ok(())
+}
+
+/// The coefficient of friction between bodies, if they have contact.
+pub(crate) fn contact(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+) -> Result<Option<f64>, Complaint> {
+    let Some(contact) = &words.contact else { return Ok(None) };
+    let path = path.then("contact").then("friction");
+    let coefficient = binder.number(&path, &contact.friction)?;
+    if coefficient >= 0.0 {
+        return Ok(Some(coefficient));
+    }
+    let message = format!("the coefficient of friction is {}", shown(coefficient));
+    Err(binder.complain(&path, &message).with_label("expected zero or a positive number"))
+}
+
+/// The scene of all `bodies`: the first one's, if they are not a list.
+pub(crate) fn together(
+    binder: &Binder<'_>,
+    path: &Path,
+    mut bodies: Vec<Scene>,
+    several: bool,
+    contact: Option<f64>,
+) -> Result<Scene, Complaint> {
+    let Some(first) = bodies.first() else {
+        return Err(binder.complain(path, "a scene without a body"));
+    };
+    let mut scene = Scene { contact, ..first.clone() };
+    if !several {
+        return Ok(scene);
+    }
+    (scene.round, scene.quadrilateral) = (None, None);
+    for body in &bodies {
+        for axis in 0..scene.from.len() {
+            scene.from[axis] = scene.from[axis].min(body.from[axis]);
+            scene.to[axis] = scene.to[axis].max(body.to[axis]);
+        }
+    }
+    apart(binder, path, &bodies)?;
+    for body in &mut bodies {
+        inner_faces_are_free(body, &scene);
+    }
+    scene.bodies = bodies;
+    Ok(scene)
+}
+
+/// Walls hold the faces of a body that lie on those of the box around all bodies.
+fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
+    for face in &mut body.faces {
+        let axis = face.axis;
+        let at_wall = if face.high {
+            body.to[axis] == scene.to[axis]
+        } else {
+            body.from[axis] == scene.from[axis]
+        };
+        if !at_wall {
+            face.hold = Hold::Free;
+        }
+    }
+    if body.round.is_some() {
+        body.faces.clear();
+    }
+}
+
+/// No two bodies have a place in common.
+fn apart(binder: &Binder<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Complaint> {
+    for (i, body) in bodies.iter().enumerate() {
+        if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
+            let message = format!("body {} and body {} have places in common", k + 1, i + 1);
+            let at = path.then("bodies").then(i).then("body");
+            return Err(binder.complain_key(&at, &message));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the boxes around two bodies overlap, and the bodies within; a ring counts as a disk.
+fn overlap(one: &Scene, other: &Scene) -> bool {
+    let boxes = (0..one.from.len())
+        .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);
+    let far = |from: &[f64], to: &[f64], centre: &[f64]| {
+        let ends = from.iter().zip(to).zip(centre);
+        ends.fold(0.0, |all, ((from, to), c)| libm::hypot(all, c.clamp(*from, *to) - c))
+    };
+    boxes
+        && match (&one.round, &other.round) {
+            (None, None) => true,
+            (Some(a), Some(b)) => far(&b.centre, &b.centre, &a.centre) < a.outer + b.outer,
+            (Some(round), None) => far(&other.from, &other.to, &round.centre) < round.outer,
+            (None, Some(round)) => far(&one.from, &one.to, &round.centre) < round.outer,
+        }
+}

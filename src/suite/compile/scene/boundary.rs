@@ -1,0 +1,132 @@
+//! What holds the faces of the body, from words.
+
+use crate::{
+    exact::formula::Formula,
+    suite::{
+        compile::{
+            evaluator::Binder,
+            path::Path,
+            wording::{shown, suggestion},
+        },
+        grammar::{BoundaryWords, SceneWords},
+        yaml::{Complaint, NumberText},
+    },
+};
+
+/// Names of the faces: low and high, axis by axis.
+pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+
+/// What holds a face.
+#[derive(Debug, Clone)]
+pub enum Hold {
+    /// Nothing: it may carry a traction.
+    Free,
+    /// It does not move.
+    Fixed,
+    /// It does not move along its normal, and slides freely along itself.
+    Roller,
+    /// The wall presses on it, does not pull, and resists sliding by this coefficient of friction.
+    Friction(f64),
+    /// It has a given velocity (m/s), formulas of the coordinates and t.
+    Velocity(Vec<Formula>),
+    /// It is one and the same with the opposite face.
+    Periodic,
+    /// The whole body is at rest.
+    AtRest,
+}
+
+impl Hold {
+    /// Whether nothing holds the face.
+    pub fn is_free(&self) -> bool {
+        matches!(self, Self::Free)
+    }
+
+    /// Whether nodes on the face are held.
+    pub fn is_held(&self) -> bool {
+        !matches!(self, Self::Free | Self::Periodic)
+    }
+
+    /// In words that follow "the left face".
+    pub fn verb(&self) -> &'static str {
+        match self {
+            Self::Free => "is free",
+            Self::Fixed => "is fixed",
+            Self::Roller => "is a roller",
+            Self::Friction(_) => "has friction",
+            Self::Velocity(_) => "has a given velocity",
+            Self::Periodic => "is periodic",
+            Self::AtRest => "is at rest",
+        }
+    }
+}
+
+/// What holds each of the faces, in their order; `variables` are the coordinates and t.
+pub(crate) fn holds(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+    variables: &[&str],
+) -> Result<Vec<Hold>, Complaint> {
+    let dimension = variables.len() - 1;
+    let path = path.then("boundary");
+    let mut holds = vec![Hold::Free; 2 * dimension];
+    for (name, words) in words.boundary.as_slice() {
+        let at = path.then(name.as_str());
+        let face = face(binder, &at, name, dimension, true)?;
+        holds[face] = match words {
+            BoundaryWords::Fixed => Hold::Fixed,
+            BoundaryWords::Roller => Hold::Roller,
+            BoundaryWords::Friction(text) => friction(binder, &at.then("friction"), text)?,
+            BoundaryWords::Periodic => Hold::Periodic,
+            BoundaryWords::Velocity(texts) => {
+                let at = at.then("velocity");
+                Hold::Velocity(binder.vector(&at, texts, dimension, variables)?)
+            }
+        };
+    }
+    both_ends(binder, &path, &holds)?;
+    Ok(holds)
+}
+
+fn friction(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<Hold, Complaint> {
+    let coefficient = binder.number(path, text)?;
+    if coefficient >= 0.0 {
+        return Ok(Hold::Friction(coefficient));
+    }
+    let message = format!("the coefficient of friction is {}", shown(coefficient));
+    Err(binder.complain(path, &message).with_label("expected zero or a positive number"))
+}
+
+/// A face can only be periodic together with the opposite one.
+fn both_ends(binder: &Binder<'_>, path: &Path, holds: &[Hold]) -> Result<(), Complaint> {
+    for (i, hold) in holds.iter().enumerate() {
+        let (name, other) = (FACES[i], FACES[i ^ 1]);
+        if matches!(hold, Hold::Periodic) && !matches!(holds[i ^ 1], Hold::Periodic) {
+            let verb = holds[i ^ 1].verb();
+            let message = format!("the {name} face is periodic, and the {other} face {verb}");
+            let complaint = binder.complain(&path.then(name), &message);
+            return Err(complaint.with_label(&format!("expected `{other}: periodic` as well")));
+        }
+    }
+    Ok(())
+}
+
+/// Number of the face that a suite calls `name`; the name is a key or a value of the file.
+pub(crate) fn face(
+    binder: &Binder<'_>,
+    path: &Path,
+    name: &str,
+    dimension: usize,
+    is_key: bool,
+) -> Result<usize, Complaint> {
+    let known = &FACES[..2 * dimension];
+    known.iter().position(|face| *face == name).ok_or_else(|| {
+        let message = format!("a body of dimension {dimension} has no face `{name}`");
+        let complaint = if is_key {
+            binder.complain_key(path, &message)
+        } else {
+            binder.complain(path, &message)
+        };
+        complaint.with_help(&suggestion("faces", name, known))
+    })
+}

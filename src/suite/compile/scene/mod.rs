@@ -1,0 +1,11 @@
+//! The scene: bodies, materials, boundaries and sets.
+
+pub(crate) mod bodies;
+pub(crate) mod body;
+pub(crate) mod boundary;
+pub(crate) mod lengths;
+pub(crate) mod material;
+pub(crate) mod quadrilateral;
+pub(crate) mod rest;
+pub(crate) mod scene;
+pub(crate) mod sets;

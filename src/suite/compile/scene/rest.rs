@@ -1,0 +1,140 @@
+//! Bodies at rest: of a `rigid` material, in which nothing happens but what `heat` makes of it.
+//!
+//! No stage of mechanics runs and no column of it is kept, so that every word about motion is
+//! refused.
+
+use super::boundary::Hold;
+use crate::{
+    exact::heat::Conduction,
+    suite::{
+        compile::{
+            evaluator::Binder,
+            load::{heat, heat::Rest},
+            path::Path,
+            truth::exact,
+        },
+        grammar::{ConvergenceWords, ExactWords, LoadWords, MethodWords, SceneWords},
+        model::{Scene, SceneFace},
+        yaml::Complaint,
+    },
+    verify::Quantity,
+};
+
+/// Lets every face be at rest that has no opposite one to be one with, and refuses words that hold or
+/// move the body. `path` is that of the scene.
+pub(crate) fn settle(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &SceneWords,
+    faces: &mut [SceneFace],
+) -> Result<(), Complaint> {
+    let idle = |at: &Path, message: &str| {
+        let complaint = binder.complain_key(at, message);
+        Err(complaint.with_help("a `rigid` body is at rest: remove this, or choose a material"))
+    };
+    for face in faces {
+        match face.hold {
+            Hold::Free => face.hold = Hold::AtRest,
+            Hold::Periodic => {}
+            _ => {
+                let message = format!("the {} face {}", face.name, face.hold.verb());
+                return idle(&path.then("boundary").then(face.name), &message);
+            }
+        }
+    }
+    for (key, stated) in [
+        ("initial_displacement", words.initial_displacement.is_some()),
+        ("initial_velocity", words.initial_velocity.is_some()),
+        ("sets", !words.sets.as_slice().is_empty()),
+    ] {
+        if stated {
+            return idle(&path.then(key), &format!("`{key}` of a body that does not move"));
+        }
+    }
+    let moves = |load: &LoadWords| !matches!(load, LoadWords::Heat(_));
+    match words.loads.iter().position(moves) {
+        Some(i) => idle(&path.then("loads").then(i), "a load on a body that does not move"),
+        None => Ok(()),
+    }
+}
+
+/// The heat problem of a body at rest, checked; none where the body moves.
+pub(crate) fn conduction(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Conduction>, Complaint> {
+    methods(binder, words, scene)?;
+    heat::methods(binder, words, scene)?;
+    if !scene.is_at_rest() {
+        return Ok(None);
+    }
+    judged(binder, words)?;
+    let (path, temperature, tolerance, manufactured) = match (&words.exact, &words.manufactured) {
+        (Some(exact), None) => {
+            ("exact", exact.temperature.as_ref(), exact.tolerance.as_ref(), false)
+        }
+        (None, Some(made)) => ("manufactured", made.temperature.as_ref(), None, true),
+        _ => {
+            let at = Path::top("scene").then("material");
+            let message = "a body at rest has one truth: a temperature, `exact` or `manufactured`";
+            return Err(binder.complain(&at, message));
+        }
+    };
+    let path = Path::top(path);
+    let tolerance = exact::tolerance(binder, &path, tolerance)?;
+    let rest = Rest { motion: None, manufactured, until, tolerance };
+    let problem = heat::problem(binder, &path, temperature, scene, rest)?;
+    let Some(found) = &problem else {
+        let at = Path::top("scene").then("material");
+        let complaint = binder.complain(&at, "nothing happens to a body at rest");
+        return Err(complaint.with_help("add `heat` to `loads`, or choose a material"));
+    };
+    heat::check(binder, &path, found)?;
+    Ok(problem)
+}
+
+/// Bodies at rest have methods of their own.
+fn methods(binder: &Binder<'_>, words: &ConvergenceWords, scene: &Scene) -> Result<(), Complaint> {
+    let at_rest = scene.is_at_rest();
+    let fits = |method: &MethodWords| matches!(method, MethodWords::Heat { .. }) == at_rest;
+    let Some(i) = words.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
+    let name = scene.material.name();
+    let (message, help) = if at_rest {
+        (format!("a `{name}` body does not move"), "its method is `heat: {basis: linear}`")
+    } else {
+        (format!("a `{name}` body moves"), "`heat` is the method of a `rigid` one; this is `mpm`")
+    };
+    Err(binder.complain(&Path::top("methods").then(i), &message).with_help(help))
+}
+
+/// Refuses what is judged, observed, expected or stated of a motion.
+fn judged(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+    if words.judge.of != Quantity::Temperature {
+        let message = "nothing moves, and what is judged belongs to a motion";
+        let complaint = binder.complain(&Path::top("scene").then("material"), message);
+        return Err(complaint.with_help("add `judge: {of: temperature}`"));
+    }
+    let moves = |exact: &ExactWords| {
+        [("equation", exact.equation.is_some()), ("displacement", exact.displacement.is_some())]
+    };
+    let exact = words.exact.as_ref().map(moves).into_iter().flatten();
+    let made =
+        words.manufactured.as_ref().map(|made| ("displacement", made.displacement.is_some()));
+    let stated = exact
+        .map(|(key, stated)| (Path::top("exact").then(key), stated))
+        .chain(made.map(|(key, stated)| (Path::top("manufactured").then(key), stated)))
+        .chain([
+            (Path::top("equilibrium"), words.equilibrium.is_some()),
+            (Path::top("reference"), words.reference.is_some()),
+            (Path::top("observe"), words.observe.is_some()),
+        ]);
+    match stated.into_iter().find(|(_, stated)| *stated) {
+        Some((at, _)) => {
+            let complaint = binder.complain_key(&at, "this speaks of a motion, and nothing moves");
+            Err(complaint.with_help("remove it, or choose another material than `rigid`"))
+        }
+        None => Ok(()),
+    }
+}

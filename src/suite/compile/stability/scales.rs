@@ -1,0 +1,72 @@
+//! What a run is measured with, from words.
+
+use crate::{
+    suite::{
+        compile::{evaluator::Binder, path::Path, wording::shown},
+        grammar::StabilityWords,
+        model::Scene,
+        yaml::{Complaint, NumberText},
+    },
+    verify::{RunFigure, Scales},
+};
+
+/// Energy, over that at the start, up to which a run is stable: what the exchange between velocities
+/// and stresses makes of a random start just below the limit of a leapfrog, with room to spare.
+const STABLE_BELOW: f64 = 1e3;
+
+/// Energy beyond which a run is unstable.
+const UNSTABLE_ABOVE: f64 = 1e8;
+
+/// What the runs of `scene` are measured with.
+pub(crate) fn scales(
+    binder: &Binder<'_>,
+    words: &StabilityWords,
+    scene: &Scene,
+) -> Result<Scales, Complaint> {
+    let modulus = scene.each().iter().map(|body| body.material.wave_modulus()).fold(0.0, f64::max);
+    let path = Path::top("run");
+    let bound = |key: &str, text: &Option<NumberText>, default: f64| {
+        let at = path.then(key);
+        text.as_ref().map_or(Ok(default), |text| binder.positive(&at, text, "the bound"))
+    };
+    let stable_below = bound("stable_below", &words.run.stable_below, STABLE_BELOW)?;
+    let unstable_above = bound("unstable_above", &words.run.unstable_above, UNSTABLE_ABOVE)?;
+    if !(stable_below <= unstable_above) {
+        let message = format!(
+            "a run is stable below {} and unstable above {}",
+            shown(stable_below),
+            shown(unstable_above)
+        );
+        return Err(binder.complain_key(&path, &message));
+    }
+    let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
+    let centred = scene.faces.iter().all(|face| !face.hold.is_held());
+    let null_space = of_null_space(binder, words, scene)?;
+    Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
+}
+
+/// Whether a figure asks for what the grid cannot see of a body: bodies that meet share what they see.
+fn of_null_space(
+    binder: &Binder<'_>,
+    words: &StabilityWords,
+    scene: &Scene,
+) -> Result<bool, Complaint> {
+    let shown = words.show.iter().enumerate();
+    let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
+    let expected = words.expect.iter().enumerate().flat_map(|(i, entry)| {
+        let path = Path::top("expect").then(i).then("figures");
+        let named = entry.figures.as_slice().iter().filter_map(|(name, _)| {
+            RunFigure::ALL.iter().copied().find(|figure| figure.name() == name)
+        });
+        named.map(move |figure| (path.then(figure.name()), figure))
+    });
+    let Some((path, figure)) = shown.chain(expected).find(|(_, f)| f.is_of_null_space()) else {
+        return Ok(false);
+    };
+    if scene.bodies.is_empty() {
+        return Ok(true);
+    }
+    let name = figure.name();
+    let message = format!("`{name}` is a figure of one body, and the scene has several");
+    Err(binder.complain(&path, &message))
+}

@@ -1,0 +1,68 @@
+//! Suites without a truth: no error is taken, and expectations bound only what a run keeps.
+
+use crate::{
+    exact::Truth,
+    suite::{
+        compile::{evaluator::Binder, path::Path},
+        grammar::{ConvergenceWords, ExpectWords},
+        model::ConvergencePlan,
+        yaml::Complaint,
+    },
+    verify::{Judgement, LevelOutcome, Verdict},
+};
+
+/// The truth of which nothing is known.
+pub(crate) struct Unknown;
+
+impl Truth for Unknown {
+    fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+        into.fill(f64::NAN);
+    }
+
+    fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+        into.fill(f64::NAN);
+    }
+}
+
+/// Whether a suite compares with nothing.
+pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
+    !plan.has_formulas() && plan.reference.is_none()
+}
+
+/// Refuses a suite without a truth that asks for something which takes one.
+pub(crate) fn check(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+    let asked = |words: &ExpectWords| {
+        let ExpectWords { order, verdict, finest_pair, floor, drift, energy_rate, .. } = words;
+        let ExpectWords { error_below, error_above, observed_within, rest_below, .. } = words;
+        let bounds = [error_below, error_above, observed_within, rest_below];
+        let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();
+        let kept = drift.is_some() || energy_rate.is_some();
+        judged || floor.is_some() || bounds.iter().any(|b| b.is_some()) || !kept
+    };
+    let full = |words: &ExpectWords| words.full.as_deref().is_some_and(asked);
+    if words.expect.iter().any(|words| asked(words) || full(words)) {
+        let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
+                       `reference`";
+        let complaint = binder.complain_key(&Path::top("suite"), message);
+        return Err(complaint
+            .with_help("without one, expectations may bound a `drift` or an `energy_rate` only"));
+    }
+    if words.observe.is_some() {
+        let message = "a place is observed against a truth, and the suite has none";
+        return Err(binder.complain_key(&Path::top("observe"), message));
+    }
+    Ok(())
+}
+
+/// What can be said of levels that were compared with nothing, if all ran to their end.
+pub(crate) fn judgement(levels: &[LevelOutcome]) -> Option<Judgement> {
+    let sound = levels.iter().all(|level| level.run.failure.is_none());
+    sound.then(|| Judgement {
+        verdict: Verdict::TooFewLevels,
+        order: None,
+        window: None,
+        pairwise: vec![None; levels.len()],
+        levels: Vec::new(),
+        reason: "nothing is compared".to_owned(),
+    })
+}

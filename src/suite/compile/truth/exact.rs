@@ -1,0 +1,258 @@
+//! The exact solution of a suite, checked before it is used.
+
+use super::{equilibrium, interface, law};
+use crate::{
+    exact::{Condition, Equation, Face, Motion, Problem, Violation},
+    suite::{
+        compile::{
+            coordinates::coordinates_and_time,
+            evaluator::Binder,
+            load::{heat, heat::Rest},
+            path::Path,
+            scene::{boundary::Hold, quadrilateral::refuse_truth},
+        },
+        grammar::{ConvergenceWords, EquationName, ExactWords},
+        model::{Scene, SceneFace},
+        yaml::{Complaint, NumberText},
+    },
+};
+
+/// Largest relative residual of a closed form: what rounding leaves of second derivatives.
+const TOLERANCE: f64 = 1e-8;
+
+/// Longest formula of a solution, which is evaluated some 30000 times with all its derivatives
+/// before anything runs.
+const MOST_OPERATIONS: u64 = 5000;
+
+/// The problem that a suite's formulas solve, if it has formulas.
+///
+/// # Errors
+/// A complaint at the formula that says which condition it violates, where and by how much.
+pub(crate) fn exact(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Problem>, Complaint> {
+    if scene.each().iter().any(|body| body.quadrilateral.is_some()) {
+        refuse_truth(binder, words)?;
+    }
+    if !scene.bodies.is_empty() {
+        interface::refuse(binder, words)?;
+    }
+    if let Some(state) = &words.equilibrium {
+        equilibrium::refuse(binder, words, state, scene)?;
+        let path = Path::top("equilibrium");
+        let problem = Problem {
+            at_rest: true,
+            follows_motion: false,
+            ..solution(binder, &path, state, (scene, true), until)?
+        };
+        check(binder, &path, &problem)?;
+        return Ok(Some(problem));
+    }
+    let Some(exact) = &words.exact else { return manufactured(binder, words, scene, until) };
+    let path = Path::top("exact");
+    if words.manufactured.is_some() {
+        let message = "a solution is either exact or manufactured";
+        return Err(binder.complain_key(&Path::top("manufactured"), message));
+    }
+    let problem = solution(binder, &path, exact, (scene, false), until)?;
+    if scene.bodies.is_empty() {
+        check(binder, &path, &problem)?;
+        return Ok(Some(problem));
+    }
+    let each = scene.bodies.iter().map(|body| solution(binder, &path, exact, (body, false), until));
+    let each = each.collect::<Result<Vec<Problem>, _>>()?;
+    interface::check(
+        binder,
+        scene,
+        each,
+        |problem| check(binder, &path, problem),
+        |violation| no_solution(binder, &path, &violation),
+    )?;
+    Ok(Some(problem))
+}
+
+/// The scene's problem with the formulas at `path`, not yet checked.
+fn solution(
+    binder: &Binder<'_>,
+    path: &Path,
+    words: &ExactWords,
+    (scene, at_rest): (&Scene, bool),
+    until: f64,
+) -> Result<Problem, Complaint> {
+    let tolerance = tolerance(binder, path, words.tolerance.as_ref())?;
+    let (Some(name), Some(texts)) = (words.equation, &words.displacement) else {
+        let message = "a body that moves needs an `equation` and a `displacement`";
+        return Err(binder.complain_key(path, message));
+    };
+    let equation = equation(binder, &path.then("equation"), name, (scene, at_rest))?;
+    let motion = motion(binder, path, texts, scene.dimension())?;
+    let motion_in_heat = scene.is_finite().then(|| motion.clone());
+    let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
+    let heat = heat::problem(binder, path, words.temperature.as_ref(), scene, rest)?;
+    Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
+}
+
+/// The equation that a formula is checked against, which must be that of the scene's material.
+fn equation(
+    binder: &Binder<'_>,
+    path: &Path,
+    name: EquationName,
+    (scene, at_rest): (&Scene, bool),
+) -> Result<Equation, Complaint> {
+    if law::named(&scene.material) == Some(name) {
+        let known = law::solvable(scene, at_rest);
+        return known.map_err(|(message, help)| binder.complain(path, message).with_help(help));
+    }
+    let (message, help) = if name == EquationName::LogStrain {
+        (
+            "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only"
+                .to_owned(),
+            "give other equations a `reference`",
+        )
+    } else {
+        (
+            format!(
+                "`{}` is not the problem of a `{}` material",
+                name.name(),
+                scene.material.name()
+            ),
+            "a linear elastic material has `small_strain`, others have the equation of their name",
+        )
+    };
+    Err(binder.complain(path, &message).with_help(help))
+}
+
+/// The problem whose body force follows from the motion that the suite states.
+fn manufactured(
+    binder: &Binder<'_>,
+    words: &ConvergenceWords,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Problem>, Complaint> {
+    let Some(made) = &words.manufactured else { return Ok(None) };
+    let path = Path::top("manufactured");
+    let equation = law::manufactured(&scene.material).map_err(|reason| {
+        let message = "a force is manufactured for a `neo_hookean` or `hencky` material";
+        binder.complain_key(&path, message).with_help(reason)
+    })?;
+    for (key, what, stated) in [
+        ("initial_displacement", "displacement", &scene.initial_displacement),
+        ("initial_velocity", "velocity", &scene.initial_velocity),
+    ] {
+        if !stated.is_empty() {
+            let message = format!("the initial {what} follows from the motion");
+            let at = Path::top("scene").then(key);
+            return Err(binder.complain_key(&at, &message).with_help("remove it"));
+        }
+    }
+    if scene.body_force.is_some() {
+        let message = "the body force follows from the motion, and the scene states one besides";
+        let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
+                    have the force checked";
+        return Err(binder.complain_key(&path, message).with_help(help));
+    }
+    let Some(texts) = &made.displacement else {
+        let message = "a body that moves needs a `displacement`";
+        return Err(binder.complain_key(&path, message));
+    };
+    let motion = motion(binder, &path, texts, scene.dimension())?;
+    let rest =
+        Rest { motion: Some(motion.clone()), manufactured: true, until, tolerance: TOLERANCE };
+    let heat = heat::problem(binder, &path, made.temperature.as_ref(), scene, rest)?;
+    let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
+    check(binder, &path, &problem)?;
+    Ok(Some(problem))
+}
+
+/// The scene as a continuum problem, with the motion that is to solve it.
+fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
+    Problem {
+        from: scene.from.clone(),
+        to: scene.to.clone(),
+        round: scene.round.clone(),
+        density: scene.density,
+        equation,
+        gravity: scene.gravity.clone().unwrap_or_default(),
+        body_force: scene.body_force.clone().unwrap_or_default(),
+        damping: scene.damping.clone(),
+        local_damping: scene.local_damping,
+        heat: None,
+        expansion: scene.expansion,
+        at_rest: false,
+        manufactured: false,
+        faces: scene.faces.iter().map(|words| face(scene, words)).collect(),
+        regions: scene.sets.clone(),
+        follows_motion: law::manufactured(&scene.material).is_ok(),
+        initial_displacement: scene.initial_displacement.clone(),
+        initial_velocity: scene.initial_velocity.clone(),
+        until,
+        motion,
+        tolerance: TOLERANCE,
+    }
+}
+
+fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Complaint> {
+    if let Some(problem) = &problem.heat {
+        heat::check(binder, path, problem)?;
+    }
+    problem.check().map_err(|violation| no_solution(binder, path, &violation))
+}
+
+fn no_solution(binder: &Binder<'_>, path: &Path, violation: &Violation) -> Complaint {
+    let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
+    complaint
+        .with_label("this is not a solution of the problem that the scene states")
+        .with_help("correct the formula, or the scene: loads, boundary, initial state")
+}
+
+fn motion(
+    binder: &Binder<'_>,
+    path: &Path,
+    displacement: &[NumberText],
+    dimension: usize,
+) -> Result<Motion, Complaint> {
+    let variables = coordinates_and_time(dimension);
+    let path = path.then("displacement");
+    let components = binder.vector(&path, displacement, dimension, &variables)?;
+    for (i, component) in components.iter().enumerate() {
+        let operations = component.operations();
+        if operations > MOST_OPERATIONS {
+            let message = format!("this formula takes {operations} operations");
+            let label = format!("expected at most {MOST_OPERATIONS}: shorten its sums");
+            return Err(binder.complain(&path.then(i), &message).with_label(&label));
+        }
+    }
+    Ok(Motion::new(components))
+}
+
+pub(crate) fn tolerance(
+    binder: &Binder<'_>,
+    path: &Path,
+    text: Option<&NumberText>,
+) -> Result<f64, Complaint> {
+    let Some(text) = text else { return Ok(TOLERANCE) };
+    let path = path.then("tolerance");
+    let tolerance = binder.positive(&path, text, "the tolerance")?;
+    if tolerance <= 1e-2 {
+        return Ok(tolerance);
+    }
+    let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
+    Err(binder.complain(&path, &message).with_label("expected at most 1e-2"))
+}
+
+fn face(scene: &Scene, face: &SceneFace) -> Face {
+    let condition = match (&face.hold, &face.traction, &face.pressure) {
+        (Hold::Fixed | Hold::AtRest, ..) => Condition::Fixed,
+        (Hold::Roller, ..) => Condition::Roller,
+        (Hold::Friction(coefficient), ..) => Condition::Friction(*coefficient),
+        (Hold::Velocity(value), ..) => Condition::Velocity(value.clone()),
+        (Hold::Periodic, ..) => Condition::Periodic(scene.period(face.axis)),
+        (Hold::Free, Some(value), _) => Condition::Traction(value.clone()),
+        (Hold::Free, None, Some(value)) => Condition::Pressure(value.clone()),
+        (Hold::Free, None, None) => Condition::Free,
+    };
+    Face { name: face.name, axis: face.axis, high: face.high, condition }
+}

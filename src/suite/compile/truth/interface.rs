@@ -1,0 +1,107 @@
+//! The exact solution of several bodies: that of each, and what holds where they meet.
+//!
+//! Boxes meet face to face: the high face of one and the low face of the next along an axis, of the same
+//! extent, touching or with a gap between them. No condition is known for other faces and for rims.
+
+use crate::{
+    exact::{Condition, Problem, Violation, meets},
+    suite::{
+        compile::{evaluator::Binder, path::Path},
+        grammar::ConvergenceWords,
+        model::Scene,
+        yaml::Complaint,
+    },
+};
+
+/// Refuses truths that are those of one body.
+///
+/// # Errors
+/// A complaint about the first such truth.
+pub(crate) fn refuse(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+    let of_one = [
+        ("manufactured", words.manufactured.is_some()),
+        ("equilibrium", words.equilibrium.is_some()),
+        ("reference", words.has_fem_reference()),
+    ];
+    let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
+    let message = format!("`{key}` speaks of one body, and the scene has several");
+    let complaint = binder.complain_key(&Path::top(key), &message);
+    Err(complaint.with_help("state a solution under `exact`, or bound what the run keeps"))
+}
+
+/// Checks the `problems` of all bodies of a scene, each by `check`, and the faces where they meet.
+///
+/// # Errors
+/// A complaint of `check`, or what `complain` makes of a violation; and one about bodies for which no
+/// condition is known.
+pub(crate) fn check(
+    binder: &Binder<'_>,
+    scene: &Scene,
+    mut problems: Vec<Problem>,
+    check: impl Fn(&Problem) -> Result<(), Complaint>,
+    complain: impl Fn(Violation) -> Complaint,
+) -> Result<(), Complaint> {
+    let at = Path::top("scene").then("bodies");
+    if let Some(i) = problems.iter().position(|problem| problem.round.is_some()) {
+        let message = "a solution is known of boxes that meet face to face";
+        return Err(binder.complain_key(&at.then(i).then("body"), message));
+    }
+    let pairs = pairs(&problems);
+    for &(i, k, axis) in &pairs {
+        let apart = problems[i].to[axis] != problems[k].from[axis];
+        if apart && scene.contact.is_none() {
+            let message = "bodies that share one velocity field and do not touch have no solution \
+                           without h in it";
+            return Err(binder.complain_key(&at.then(k).then("body"), message));
+        }
+        problems[i].faces[2 * axis + 1].condition = Condition::Met;
+        problems[k].faces[2 * axis].condition = Condition::Met;
+    }
+    refuse_other_touch(binder, &at, &problems, &pairs)?;
+    problems.iter().try_for_each(check)?;
+    for (i, k, axis) in pairs {
+        meets(&problems[i], &problems[k], axis, scene.contact).map_err(&complain)?;
+    }
+    Ok(())
+}
+
+/// The bodies that follow each other along an axis with nothing between them: both, and the axis.
+fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
+    let mut pairs = Vec::new();
+    let d = problems.first().map_or(0, Problem::dimension);
+    for axis in 0..d {
+        let same = |a: &Problem, b: &Problem| {
+            (0..d).all(|i| i == axis || (a.from[i] == b.from[i] && a.to[i] == b.to[i]))
+        };
+        for (i, one) in problems.iter().enumerate() {
+            let after = problems
+                .iter()
+                .enumerate()
+                .filter(|(_, other)| same(one, other) && other.from[axis] >= one.to[axis]);
+            let next = after.min_by(|(_, a), (_, b)| a.from[axis].total_cmp(&b.from[axis]));
+            pairs.extend(next.map(|(k, _)| (i, k, axis)));
+        }
+    }
+    pairs
+}
+
+/// Bodies that touch otherwise than with whole faces.
+fn refuse_other_touch(
+    binder: &Binder<'_>,
+    at: &Path,
+    problems: &[Problem],
+    pairs: &[(usize, usize, usize)],
+) -> Result<(), Complaint> {
+    for (i, one) in problems.iter().enumerate() {
+        for (k, other) in problems.iter().enumerate() {
+            let known = pairs.iter().any(|(a, b, _)| (*a, *b) == (i, k) || (*a, *b) == (k, i));
+            let touch = (0..one.dimension())
+                .all(|axis| one.from[axis] <= other.to[axis] && other.from[axis] <= one.to[axis]);
+            if i < k && touch && !known {
+                let message = "a solution is known of boxes that meet with whole faces";
+                return Err(binder.complain_key(&at.then(k).then("body"), message));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! The truth: exact solutions, references, and what is conserved.
+
+pub(crate) mod conservation_only;
+pub(crate) mod equilibrium;
+pub(crate) mod exact;
+pub(crate) mod interface;
+pub(crate) mod law;

@@ -1,9 +1,0 @@
-//! The variables of formulas of place and time.
-
-/// Names of the coordinates in formulas.
-pub(super) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
-
-/// The coordinates of `dimension` dimensions, followed by t.
-pub(super) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
-    COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
-}

@@ -1,0 +1,16 @@
+//! The words of bounds on what a run keeps.
+
+use crate::suite::yaml::NumberText;
+use serde::Deserialize;
+
+/// Bounds on the relative drift of sums over the body.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DriftWords {
+    pub(crate) mass: Option<NumberText>,
+    pub(crate) momentum: Option<NumberText>,
+    pub(crate) angular_momentum: Option<NumberText>,
+    pub(crate) kinetic_energy: Option<NumberText>,
+    pub(crate) kinetic_energy_gain: Option<NumberText>,
+    pub(crate) energy: Option<NumberText>,
+}

@@ -1,0 +1,28 @@
+//! What kind of study a suite is.
+
+use serde::Deserialize;
+
+/// What every suite has, whatever it studies.
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Head {
+    #[serde(default = "StudyName::default_study")]
+    pub(crate) study: StudyName,
+}
+
+/// Kinds of study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum StudyName {
+    /// Errors over a refinement plan.
+    Convergence,
+    /// Internal force on a node while a particle moves through it.
+    InternalForce,
+    /// Whether runs stay bounded, and up to which value of a parameter.
+    Stability,
+}
+
+impl StudyName {
+    fn default_study() -> Self {
+        Self::Convergence
+    }
+}

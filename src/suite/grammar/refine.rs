@@ -1,0 +1,25 @@
+//! The words of a refinement plan.
+
+use super::StepWords;
+use crate::suite::yaml::{NumberText, OneOrMany};
+use serde::Deserialize;
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RunWords {
+    pub(crate) until: OneOrMany<NumberText>,
+    /// Absent where `refine` lists time steps.
+    pub(crate) dt: Option<StepWords>,
+    pub(crate) instants: Option<NumberText>,
+}
+
+/// What is a list is refined, from coarse to fine.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RefineWords {
+    pub(crate) cells: OneOrMany<NumberText>,
+    pub(crate) dt: Option<OneOrMany<NumberText>>,
+    pub(crate) ppc: Option<OneOrMany<NumberText>>,
+    /// Finer levels of the list, for full runs only.
+    pub(crate) full: Option<OneOrMany<NumberText>>,
+}

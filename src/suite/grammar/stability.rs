@@ -1,0 +1,105 @@
+//! The words of a stability study.
+
+use super::{MethodWords, SceneWords, StepWords, StudyName};
+use crate::{
+    suite::yaml::{NumberText, OneOrMany, Ordered},
+    verify::Stability,
+};
+use serde::Deserialize;
+
+/// A stability study.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StabilityWords {
+    pub(crate) suite: String,
+    #[serde(rename = "study")]
+    pub(crate) _study: StudyName,
+    pub(crate) title: String,
+    pub(crate) source: String,
+    #[serde(default)]
+    pub(crate) about: String,
+    #[serde(default)]
+    pub(crate) parameters: Ordered<NumberText>,
+    #[serde(default)]
+    pub(crate) functions: Ordered<String>,
+    pub(crate) scene: SceneWords,
+    pub(crate) particles: ParticleWords,
+    pub(crate) run: StabilityRunWords,
+    /// One parameter, and the values that it takes.
+    pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
+    pub(crate) critical: Option<CriticalWords>,
+    /// Figures that the report shows.
+    #[serde(default)]
+    pub(crate) show: Vec<crate::verify::RunFigure>,
+    pub(crate) methods: Vec<MethodWords>,
+    pub(crate) expect: Vec<StabilityExpectWords>,
+}
+
+/// How the body is filled.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ParticleWords {
+    pub(crate) cells: NumberText,
+    pub(crate) ppc: NumberText,
+    /// What every particle is moved by (m), before anything starts.
+    pub(crate) shift: Option<Vec<NumberText>>,
+    /// Places (m) of further particles, each with the volume of the others.
+    #[serde(default)]
+    pub(crate) extra: Vec<Vec<NumberText>>,
+}
+
+/// How it is run.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StabilityRunWords {
+    pub(crate) dt: StepWords,
+    /// Another length of a step, which takes turns with `dt`.
+    pub(crate) alternate: Option<NumberText>,
+    /// Steps of one length before it is the turn of the other.
+    pub(crate) every: Option<NumberText>,
+    pub(crate) steps: NumberText,
+    /// Steps of a full run, where that takes more.
+    pub(crate) full_steps: Option<NumberText>,
+    /// Whether particles stay where they are.
+    #[serde(default)]
+    pub(crate) frozen: bool,
+    /// Size of random perturbations of the state at the start.
+    pub(crate) perturb: Option<NumberText>,
+    pub(crate) stable_below: Option<NumberText>,
+    pub(crate) unstable_above: Option<NumberText>,
+}
+
+/// The parameter whose limit is sought, and where.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CriticalWords {
+    pub(crate) parameter: String,
+    pub(crate) from: NumberText,
+    pub(crate) to: NumberText,
+}
+
+/// An expectation of a stability study.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StabilityExpectWords {
+    pub(crate) case: Option<OneOrMany<String>>,
+    /// Of every row, or one for each.
+    pub(crate) verdict: Option<OneOrMany<Stability>>,
+    /// The limit that is sought.
+    pub(crate) critical: Option<FigureWords>,
+    #[serde(default)]
+    pub(crate) figures: Ordered<FigureWords>,
+    pub(crate) because: String,
+}
+
+/// What a figure must be.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FigureWords {
+    /// A closed form, of the parameters.
+    pub(crate) is: Option<NumberText>,
+    /// Largest deviation from it: a share of it, or of one if it is smaller.
+    pub(crate) within: Option<NumberText>,
+    pub(crate) above: Option<NumberText>,
+    pub(crate) below: Option<NumberText>,
+}

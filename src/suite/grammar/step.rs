@@ -1,0 +1,71 @@
+//! The words of a time step: a length, or a rule for it (`auto`, `{courant: 0.5}`).
+
+use crate::suite::yaml::NumberText;
+use serde::de::{
+    Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor,
+    value::MapAccessDeserializer,
+};
+use std::fmt;
+
+/// Length of a step.
+#[derive(Debug, Clone)]
+pub(crate) enum StepWords {
+    /// A number (s), or a formula.
+    Length(NumberText),
+    /// The share of the longest safe step.
+    Courant(NumberText),
+    /// A share that leaves room for what happens on the way.
+    Auto,
+}
+
+/// `{courant: 0.5}`.
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Rule {
+    courant: NumberText,
+}
+
+impl<'de> Deserialize<'de> for StepWords {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(LengthOrRule)
+    }
+}
+
+struct LengthOrRule;
+
+fn length<'de, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<StepWords, E> {
+    NumberText::deserialize(value.into_deserializer()).map(StepWords::Length)
+}
+
+impl<'de> Visitor<'de> for LengthOrRule {
+    type Value = StepWords;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a time step, `auto`, or `{courant: ...}`")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<StepWords, E> {
+        if text == "auto" { Ok(StepWords::Auto) } else { length(text) }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StepWords, A::Error> {
+        Rule::deserialize(MapAccessDeserializer::new(map))
+            .map(|rule| StepWords::Courant(rule.courant))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<StepWords, E> {
+        length(value)
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<StepWords, E> {
+        length(value)
+    }
+
+    fn visit_u128<E: Error>(self, value: u128) -> Result<StepWords, E> {
+        length(value)
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<StepWords, E> {
+        length(value)
+    }
+}

@@ -1,0 +1,110 @@
+//! The methods that a suite can put to the test.
+
+use crate::{
+    fem::{Element, Mass, Sampling},
+    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
+    subject::Start,
+    suite::grammar::EquationName,
+};
+
+/// A subject, by the names of its parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The reference MPM.
+    Mpm {
+        /// Basis functions.
+        basis: BasisName,
+        /// Velocity transfer.
+        transfer: TransferChoice,
+        /// Time scheme.
+        scheme: SchemeName,
+        /// Treatment of the initial velocity.
+        start: Start,
+        /// Mass matrix.
+        mass: MassName,
+        /// Configuration in which the basis lives.
+        frame: FrameName,
+    },
+    /// The reference MPM of a body at rest: heat, and no stage of mechanics.
+    Heat {
+        /// Basis functions.
+        basis: BasisName,
+    },
+    /// The reference FEM.
+    Fem {
+        /// Shape functions.
+        element: Element,
+        /// Mass matrix.
+        mass: Mass,
+        /// Law between stress and strain.
+        law: EquationName,
+        /// Treatment of the initial velocity.
+        start: Start,
+        /// Where the error is taken.
+        sampling: Sampling,
+    },
+}
+
+impl Method {
+    /// `mpm` or `fem`.
+    pub fn subject(&self) -> &'static str {
+        match self {
+            Self::Mpm { .. } | Self::Heat { .. } => "mpm",
+            Self::Fem { .. } => "fem",
+        }
+    }
+
+    /// The order of the displacement error that theory gives the method on a smooth solution:
+    /// p + 1 for a basis of degree p, but no more than 2 with the lumped mass matrix of MPM; 2p for
+    /// the nodal values of elements that superconverge (Strang & Fix 1973, section 1.6).
+    pub fn formal_order(&self) -> f64 {
+        match self {
+            Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
+            Self::Mpm { basis, .. } | Self::Heat { basis } => basis.formal_order().min(2.0),
+            Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
+            Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
+        }
+    }
+
+    /// What makes the method, as rows of name and value.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let owned = |rows: Vec<(&str, &str)>| -> Vec<(String, String)> {
+            rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
+        };
+        match self {
+            Self::Mpm { basis, transfer, scheme, start, mass, frame } => {
+                let mass = match mass {
+                    MassName::Lumped => "lumped (row sum)",
+                    MassName::Consistent => "consistent",
+                };
+                let transfer = transfer.name();
+                let mut rows = vec![
+                    ("basis", basis.name()),
+                    ("transfer", transfer.as_str()),
+                    ("scheme", scheme.name()),
+                    ("mass matrix", mass),
+                    ("walls", "nodes on a fixed face are held"),
+                    ("start", start.name()),
+                ];
+                // The usual frame goes without saying.
+                if *frame == FrameName::Total {
+                    rows.push(("frame", frame.name()));
+                }
+                owned(rows)
+            }
+            Self::Heat { basis } => owned(vec![
+                ("basis", basis.name()),
+                ("temperature", "increments, shown with its slope"),
+                ("capacity matrix", "lumped (row sum)"),
+                ("in time", "forward Euler"),
+            ]),
+            Self::Fem { element, mass, law, start, sampling } => owned(vec![
+                ("element", element.name()),
+                ("mass matrix", mass.name()),
+                ("law", law.name()),
+                ("start", start.name()),
+                ("error taken", sampling.name()),
+            ]),
+        }
+    }
+}

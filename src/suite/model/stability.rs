@@ -1,0 +1,48 @@
+//! A stability study whose every word has been checked.
+
+use super::method::Method;
+use crate::{
+    suite::{grammar::StabilityWords, yaml::Source},
+    verify::{RunFigure, StabilityExpectation},
+};
+
+/// A stability study.
+#[derive(Debug, Clone)]
+pub struct StabilityPlan {
+    /// What is read once more for every value of the parameters.
+    pub(crate) recipe: Recipe,
+    /// The parameter that is swept.
+    pub swept: String,
+    /// Its values, one for each row.
+    pub values: Vec<f64>,
+    /// The parameter whose limit is sought, and the range.
+    pub sought: Option<(String, f64, f64)>,
+    /// Whether particles stay where they are.
+    pub frozen: bool,
+    /// Figures that tables show.
+    pub figures: Vec<RunFigure>,
+    /// The cases, in the order of the product.
+    pub cases: Vec<StabilityCase>,
+}
+
+/// A suite that can be read with other values of its parameters.
+#[derive(Debug, Clone)]
+pub(crate) struct Recipe {
+    pub(crate) source: Source,
+    pub(crate) words: StabilityWords,
+}
+
+/// One case of a stability study.
+#[derive(Debug, Clone)]
+pub struct StabilityCase {
+    /// Its name, unique in the suite.
+    pub name: String,
+    /// The method.
+    pub method: Method,
+    /// What is expected of each row.
+    pub expected: Vec<StabilityExpectation>,
+    /// The same in one line.
+    pub summary: String,
+    /// The reason for expecting it.
+    pub because: String,
+}

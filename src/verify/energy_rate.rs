@@ -1,0 +1,90 @@
+//! How fast the energy of a long run grows or decays, with a confidence interval.
+//!
+//! The energy of a body that swings goes up and down with the period of the swing, so neighbouring
+//! instants are no independent observations, and the interval of a line through all of them would be
+//! a lie. The run is cut into ten parts of equal length instead, ln E is averaged over each (the
+//! method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3), and a line
+//! put through the ten means. Its slope is the rate, d ln E/dt (1/s), and the interval is that of
+//! Student's t. What is claimed: if the parts are long beside a period, and what the line leaves of the
+//! means is independent noise, the interval holds the rate with a probability of 95 %. A drift that is
+//! no straight line counts as noise, and widens it.
+
+use super::order::fit::{Interval, Line, Point};
+use crate::subject::Totals;
+
+/// Parts of a run.
+const PARTS: usize = 10;
+
+/// Least instants in a part.
+const LEAST: usize = 5;
+
+/// The rate of the energy (1/s) of a run, seen at equally spaced instants; `None` if there are fewer
+/// than fifty, or if the energy is not known or not positive throughout.
+pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
+    let each = account.len() / PARTS;
+    if each < LEAST {
+        return None;
+    }
+    // What does not fill a part is left out at the beginning.
+    let seen = &account[account.len() - PARTS * each..];
+    let means = seen.chunks_exact(each).enumerate().map(|(level, part)| {
+        let logarithm = |(t, totals): &(f64, Totals)| {
+            let energy = totals.energy().filter(|energy| *energy > 0.0)?;
+            Some((*t, libm::log(energy)))
+        };
+        let (t, y): (Vec<f64>, Vec<f64>) =
+            part.iter().map(logarithm).collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        let mean = |all: Vec<f64>| all.iter().sum::<f64>() / each as f64;
+        Some(Point { level, x: mean(t), y: mean(y) })
+    });
+    let rate = Line::through(&means.collect::<Option<Vec<_>>>()?)?.order();
+    (rate.low + rate.high).is_finite().then_some(rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::{assert_abs_diff_eq, assert_relative_eq};
+    use rstest::rstest;
+
+    /// `n` instants of an energy, all kinetic at some times and all stored at others.
+    fn account(n: usize, energy: impl Fn(f64) -> f64) -> Vec<(f64, Totals)> {
+        let at = |i: usize| {
+            let (t, share) = (i as f64, (i % 3) as f64 / 2.0);
+            let (kinetic_energy, stored) = (energy(t) * share, energy(t) * (1.0 - share));
+            (t, Totals { kinetic_energy, strain_energy: Some(stored), ..Totals::default() })
+        };
+        (0..n).map(at).collect()
+    }
+
+    #[rstest]
+    #[case::kept(0.0)]
+    #[case::lost(-0.01)]
+    #[case::made(3e-5)]
+    fn an_exponential_has_its_rate(#[case] rate: f64) {
+        let found = energy_rate(&account(203, |t| 7.0 * libm::exp(rate * t))).unwrap();
+        assert_abs_diff_eq!(found.value, rate, epsilon = 1e-12);
+        assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
+    }
+
+    /// A swing of a tenth, twenty instants long, moves the rate by next to nothing where parts hold whole
+    /// swings, and widens the interval where they do not.
+    #[test]
+    fn a_swing_is_no_drift() {
+        let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);
+        let whole = energy_rate(&account(1000, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
+        assert_relative_eq!(whole.value, -1e-4, max_relative = 1e-9);
+        let torn = energy_rate(&account(1130, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
+        assert!(torn.low < -1e-4 && -1e-4 < torn.high && torn.half_width() > 1e-7, "{torn:?}");
+    }
+
+    #[test]
+    fn without_enough_to_see_there_is_no_rate() {
+        assert_eq!(energy_rate(&account(49, |_| 1.0)), None);
+        assert_eq!(energy_rate(&account(100, |t| 50.0 - t)), None);
+        assert_eq!(energy_rate(&account(100, |t| if t > 98.0 { f64::NAN } else { 1.0 })), None);
+        let mut silent = account(100, |_| 1.0);
+        silent[40].1.strain_energy = None;
+        assert_eq!(energy_rate(&silent), None);
+    }
+}

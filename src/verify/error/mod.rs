@@ -1,0 +1,10 @@
+//! The error of one level: quantities, norms, and the run that yields them.
+
+pub(crate) mod checkpoint_store;
+pub(crate) mod clock;
+pub(crate) mod error_scale;
+pub(crate) mod norm;
+pub(crate) mod observer;
+pub(crate) mod quantity;
+pub(crate) mod run;
+pub(crate) mod run_result;

@@ -1,0 +1,299 @@
+//! One subject on one level, held against the truth.
+
+use super::{
+    checkpoint_store::{Keeper, Nobody, keep_if_due, resumed},
+    clock::Clock,
+    norm::{Norms, larger},
+    observer::{History, displacement_at},
+    quantity::{Quantity, errors_of},
+    run_result::Run,
+};
+use crate::{
+    exact::Truth,
+    subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals},
+    verify::{
+        conservation::{Balance, Drift},
+        energy_rate::energy_rate,
+    },
+};
+
+/// What is compared in a run, besides the displacement.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Comparison<'a> {
+    /// The quantity that is judged.
+    pub of: Quantity,
+    /// Place to be observed (m).
+    pub observe: Option<&'a [f64]>,
+    /// The truth is a state of rest, and errors are taken at the end only: a speed (m/s) that
+    /// the remaining ones are compared with.
+    pub at_rest: Option<f64>,
+}
+
+/// The share of a run, at its end, in which a body must be at rest. An instant would not do: a
+/// body that swings stands still when it turns.
+const LAST: f64 = 0.1;
+
+/// Steps `subject` through `clock` and takes its error against `truth` at every instant, at the
+/// subject's own reference labels; watches the label nearest to the observed place.
+pub fn run(
+    subject: &mut dyn Subject,
+    truth: &dyn Truth,
+    clock: &Clock,
+    comparison: &Comparison<'_>,
+) -> Run {
+    let watch = Watch::new(subject, truth, comparison);
+    go(subject, watch, clock, 0, &mut Nobody)
+}
+
+/// The same run of a subject that `make` makes, from where `keeper` has something that was left of it.
+///
+/// # Errors
+/// Those of `make`.
+pub fn resume<E>(
+    make: impl FnMut() -> Result<Box<dyn Subject>, E>,
+    truth: &dyn Truth,
+    clock: &Clock,
+    comparison: &Comparison<'_>,
+    keeper: &mut dyn Keeper,
+) -> Result<Run, E> {
+    let watch = |subject: &dyn Subject| Watch::new(subject, truth, comparison);
+    let (mut subject, watch, done) = resumed(make, watch, clock.steps, keeper)?;
+    Ok(go(subject.as_mut(), watch, clock, done, keeper))
+}
+
+fn go(
+    subject: &mut dyn Subject,
+    mut watch: Watch<'_>,
+    clock: &Clock,
+    done: u64,
+    keeper: &mut dyn Keeper,
+) -> Run {
+    for step in done + 1..=clock.steps {
+        if let Err(failure) = subject.step(clock.dt()) {
+            return watch.failed(subject, step, clock.time(step), &failure);
+        }
+        watch.look(subject, clock, step);
+        keep_if_due(keeper, (step, clock.steps), &mut watch, subject);
+    }
+    watch.finished(subject, clock)
+}
+
+/// The state of the comparison while a subject runs.
+struct Watch<'a> {
+    truth: &'a dyn Truth,
+    comparison: &'a Comparison<'a>,
+    samples: Samples,
+    errors: Norms,
+    max_rms: f64,
+    at_end: Norms,
+    largest: Norms,
+    balance: Option<Balance>,
+    account: Vec<(f64, Totals)>,
+    unrest: Option<f64>,
+    history: Option<(usize, History)>,
+}
+
+impl<'a> Watch<'a> {
+    fn new(subject: &dyn Subject, truth: &'a dyn Truth, comparison: &'a Comparison<'a>) -> Self {
+        let mut samples = Samples::default();
+        subject.sample(&mut samples);
+        let history = comparison.observe.map(|place| {
+            let (at, mut history) = History::start(&samples, place);
+            history.record(at, &samples, truth, 0.0);
+            (at, history)
+        });
+        Self {
+            truth,
+            comparison,
+            samples,
+            errors: Norms::NONE,
+            max_rms: 0.0,
+            at_end: Norms::NONE,
+            largest: Norms::ZERO,
+            balance: subject.totals().map(Balance::start),
+            account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
+            unrest: comparison.at_rest.map(|_| 0.0),
+            history,
+        }
+    }
+
+    fn look(&mut self, subject: &dyn Subject, clock: &Clock, step: u64) {
+        if !clock.is_instant(step) {
+            return;
+        }
+        subject.sample(&mut self.samples);
+        let t = clock.time(step);
+        if let Some(balance) = &mut self.balance {
+            let totals = subject.totals();
+            balance.look(totals.as_ref());
+            self.account.extend(totals.map(|totals| (t, totals)));
+        }
+        if let Some((at, history)) = &mut self.history {
+            history.record(*at, &self.samples, self.truth, t);
+        }
+        if let Some(speed) = self.comparison.at_rest {
+            if t >= (1.0 - LAST) * clock.until {
+                let unrest = larger(self.unrest.unwrap_or(0.0), fastest(&self.samples) / speed);
+                self.unrest = Some(unrest);
+            }
+            if step < clock.steps {
+                return;
+            }
+        }
+        self.errors = errors(&self.samples, self.truth, t);
+        self.max_rms = larger(self.max_rms, self.errors.rms);
+        self.at_end = match self.comparison.of {
+            Quantity::Displacement => self.errors,
+            other => errors_of(other, &self.samples, self.truth, t),
+        };
+        self.largest = self.largest.larger(self.at_end);
+    }
+
+    fn finished(self, subject: &dyn Subject, clock: &Clock) -> Run {
+        let place = self.comparison.observe;
+        let displacement = place.and_then(|place| displacement_at(&self.samples, place));
+        let distance = |(place, u): (&[f64], &Vec<f64>)| {
+            let mut exact = vec![0.0; u.len()];
+            self.truth.displacement(place, clock.until, &mut exact);
+            u.iter().zip(&exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
+        };
+        Run {
+            errors: self.errors,
+            max_rms: self.max_rms,
+            at_end: self.at_end,
+            largest: self.largest,
+            drift: self.balance.as_ref().map(Balance::drift),
+            energy_rate: energy_rate(&self.account),
+            account: self.account,
+            census: subject.census(),
+            steps: clock.steps,
+            failure: None,
+            observed_error: place.zip(displacement.as_ref()).map(distance),
+            displacement,
+            unrest: self.unrest,
+            history: self.history.map(|(_, history)| history),
+        }
+    }
+
+    /// A run that broke has no error, only a reason.
+    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> Run {
+        Run {
+            errors: Norms::NONE,
+            max_rms: f64::NAN,
+            at_end: Norms::NONE,
+            largest: Norms::NONE,
+            drift: self.balance.map(|_| Drift::NONE),
+            energy_rate: None,
+            account: self.account,
+            census: subject.census(),
+            steps: step,
+            failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
+            history: None,
+            displacement: None,
+            observed_error: None,
+            unrest: self.unrest.map(|_| f64::NAN),
+        }
+    }
+}
+
+/// What is seen at an instant is seen anew at the next one, and the last step ends at one.
+impl Memory for Watch<'_> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            truth: _,
+            comparison: _,
+            samples: _,
+            errors,
+            max_rms,
+            at_end,
+            largest,
+            balance,
+            account,
+            unrest,
+            history,
+        } = self;
+        for norms in [errors, at_end, largest] {
+            checkpoint.visit(norms);
+        }
+        checkpoint.visit(max_rms);
+        if let Some(balance) = balance {
+            checkpoint.visit(balance);
+        }
+        checkpoint.visit(account);
+        checkpoint.visit(unrest);
+        if let Some((_, history)) = history {
+            checkpoint.visit(&mut history.velocity);
+        }
+    }
+}
+
+/// Largest speed (m/s) of a label; NaN if any is.
+fn fastest(samples: &Samples) -> f64 {
+    let speed = |v: &[f64]| v.iter().fold(0.0, |all, v| libm::hypot(all, *v));
+    samples.velocity.chunks_exact(samples.dimension.max(1)).map(speed).fold(0.0, larger)
+}
+
+/// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.
+pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
+    errors_of(Quantity::Displacement, samples, truth, t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subject::Census;
+    use approx::assert_relative_eq;
+
+    /// One label whose speed goes up and down while its displacement fades.
+    struct Swing(f64);
+
+    impl Subject for Swing {
+        fn step(&mut self, dt: f64) -> Result<(), Failure> {
+            self.0 += dt;
+            Ok(())
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            samples.clear();
+            samples.dimension = 1;
+            samples.label.push(0.0);
+            samples.weight.push(1.0);
+            samples.displacement.push(1.0 / (1.0 + self.0));
+            samples.velocity.push(libm::cos(self.0));
+        }
+
+        fn census(&self) -> Census {
+            let (particles, crossings, left_domain) = (None, None, None);
+            Census { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
+        }
+    }
+
+    struct Rest;
+
+    impl Truth for Rest {
+        fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+
+        fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+    }
+
+    /// It ends where cos t = 0, and errors of the way there do not count.
+    #[test]
+    fn a_body_that_turns_is_not_at_rest() {
+        let until = 2.5 * std::f64::consts::PI;
+        let clock = Clock::new(until, until / 100.0, 100).unwrap();
+        let comparison = Comparison { at_rest: Some(2.0), ..Comparison::default() };
+        let found = run(&mut Swing(0.0), &Rest, &clock, &comparison);
+        assert_relative_eq!(
+            found.unrest.unwrap(),
+            libm::cos(0.9 * until) / 2.0,
+            max_relative = 1e-9
+        );
+        assert_relative_eq!(found.max_rms, 1.0 / (1.0 + until), max_relative = 1e-12);
+        let moving = run(&mut Swing(0.0), &Rest, &clock, &Comparison::default());
+        assert_eq!((moving.unrest, moving.max_rms > 0.9), (None, true));
+    }
+}

@@ -1,0 +1,41 @@
+//! What one run has shown: all that is judged, reported and kept of it.
+
+use super::{norm::Norms, observer::History};
+use crate::{
+    subject::{Census, Totals},
+    verify::{conservation::Drift, order::fit::Interval},
+};
+use serde::{Deserialize, Serialize};
+
+/// What a run has shown.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// Errors of the displacement at the end (m); all NaN if the run failed.
+    pub errors: Norms,
+    /// Largest RMS error over the instants (m); NaN if the run failed.
+    pub max_rms: f64,
+    /// Errors of the compared quantity at the end; all NaN if the run failed.
+    pub at_end: Norms,
+    /// The largest of each over the instants; all NaN if the run failed.
+    pub largest: Norms,
+    /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
+    pub drift: Option<Drift>,
+    /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
+    pub account: Vec<(f64, Totals)>,
+    /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
+    pub energy_rate: Option<Interval>,
+    /// Counters at the end, or at the failure.
+    pub census: Census,
+    /// Steps taken.
+    pub steps: u64,
+    /// Why and when the run ended early.
+    pub failure: Option<String>,
+    /// The observed label, if one was asked for and the run came to its end.
+    pub history: Option<History>,
+    /// Displacement at the observed place at the end (m), if it could be interpolated.
+    pub displacement: Option<Vec<f64>>,
+    /// Its distance (m) from the exact one.
+    pub observed_error: Option<f64>,
+    /// Largest speed towards the end, over [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
+    pub unrest: Option<f64>,
+}

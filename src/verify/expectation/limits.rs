@@ -1,0 +1,256 @@
+//! Bounds on figures, for expectations that name no order: one level is enough for them.
+
+use crate::verify::{
+    conservation::{Conserved, Drift},
+    order::format_number::figures,
+};
+
+/// Bounds, themselves allowed. Every one that is given must hold.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Limits {
+    /// Largest judged error of any level that counts.
+    pub error_below: Option<f64>,
+    /// Smallest judged error of any level that counts.
+    pub error_above: Option<f64>,
+    /// Largest distance (m) of the observed place from where it should be, at the end, on the
+    /// finest level.
+    pub observed_within: Option<f64>,
+    /// Largest speed towards the end of any level that counts, over the wave speed.
+    pub rest_below: Option<f64>,
+    /// Largest relative drifts on any level that counts.
+    pub drift: Vec<(Conserved, f64)>,
+    /// What must hold the whole confidence interval of the rate of the energy (1/s) on every level
+    /// that counts.
+    pub energy_rate: Option<(f64, f64)>,
+}
+
+/// What limits speak of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Smallest and largest judged error of the levels that count; `None` if none counts.
+    pub errors: Option<(f64, f64)>,
+    /// Distance (m) of the observed place from where it should be; `None` if nothing was observed.
+    pub observed: Option<f64>,
+    /// Largest speed towards the end of the levels that count, over the wave speed; `None` if the
+    /// truth is no state of rest.
+    pub unrest: Option<f64>,
+    /// Largest drifts of the levels that count; `None` if the subject gives no totals.
+    pub drift: Option<Drift>,
+    /// The confidence intervals of the rate of the energy (1/s) on the levels that count, together;
+    /// `None` if one level has none.
+    pub energy_rate: Option<(f64, f64)>,
+}
+
+/// One bound on a figure beside what was measured.
+struct Check {
+    what: &'static str,
+    limit: f64,
+    got: Option<f64>,
+    /// Whether the limit is the least instead of the most.
+    least: bool,
+}
+
+impl Check {
+    /// Written so that NaN never holds.
+    fn holds(&self) -> bool {
+        self.got.is_some_and(|got| if self.least { got >= self.limit } else { got <= self.limit })
+    }
+
+    fn bound(&self) -> String {
+        let most = if self.least { "at least" } else { "at most" };
+        format!("{} {most} {:e}", self.what, self.limit)
+    }
+
+    fn got(&self) -> String {
+        self.got.map_or("none".to_owned(), figures)
+    }
+}
+
+impl Limits {
+    /// Whether nothing is limited.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The sums whose drift is limited.
+    pub fn drifts(&self) -> Vec<Conserved> {
+        self.drift.iter().map(|(sum, _)| *sum).collect()
+    }
+
+    /// What did not hold, in words.
+    pub(crate) fn unmet(&self, measured: &Measured) -> Vec<String> {
+        let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
+        let mut unmet: Vec<String> = broken
+            .map(|check| format!("expected {}, got {}", check.bound(), check.got()))
+            .collect();
+        for (sum, limit) in &self.drift {
+            let drift = measured.drift.map(|drift| drift.of(*sum));
+            if !drift.is_some_and(|drift| drift <= *limit) {
+                let (sum, got) = (sum.words(), drift.map_or("none".to_owned(), rounding));
+                unmet.push(format!("expected drift of {sum} at most {limit:e}, got {got}"));
+            }
+        }
+        if let Some((low, high)) = self.energy_rate {
+            let got = measured.energy_rate;
+            if !got.is_some_and(|(least, most)| low <= least && most <= high) {
+                let got = got.map_or("none".to_owned(), rates);
+                unmet.push(format!("expected {}, got {got}", rate_within((low, high))));
+            }
+        }
+        unmet
+    }
+
+    /// The limits, in words.
+    pub(crate) fn summary(&self) -> Vec<String> {
+        let mut parts: Vec<String> = self.checks(None).iter().map(Check::bound).collect();
+        let mut grouped: Vec<(f64, Vec<String>)> = Vec::new();
+        for (sum, limit) in &self.drift {
+            match grouped.iter_mut().find(|(known, _)| known == limit) {
+                Some((_, sums)) => sums.push(sum.words()),
+                None => grouped.push((*limit, vec![sum.words()])),
+            }
+        }
+        parts.extend(
+            grouped
+                .into_iter()
+                .map(|(limit, sums)| format!("drift of {} at most {limit:e}", sums.join(", "))),
+        );
+        parts.extend(self.energy_rate.map(rate_within));
+        parts
+    }
+
+    /// What was measured, in words; empty if nothing is limited.
+    pub fn found(&self, measured: &Measured) -> String {
+        let said = |check: &Check| format!("{} {}", check.what, check.got());
+        let mut parts: Vec<String> = self.checks(Some(measured)).iter().map(said).collect();
+        let drift = |sum: &Conserved| measured.drift.map_or(f64::NAN, |drift| drift.of(*sum));
+        let said =
+            |(sum, _): &(Conserved, f64)| format!("{} {}", sum.words(), rounding(drift(sum)));
+        let drifts: Vec<String> = self.drift.iter().map(said).collect();
+        if !drifts.is_empty() {
+            parts.push(format!("drift of {}", drifts.join(", ")));
+        }
+        if self.energy_rate.is_some() {
+            let got = measured.energy_rate.map_or("none".to_owned(), rates);
+            parts.push(format!("rate of energy {got} 1/s"));
+        }
+        parts.join("; ")
+    }
+
+    fn checks(&self, measured: Option<&Measured>) -> Vec<Check> {
+        let errors = measured.and_then(|measured| measured.errors);
+        let observed = measured.and_then(|measured| measured.observed);
+        let unrest = measured.and_then(|measured| measured.unrest);
+        let (least, most) = (errors.map(|(least, _)| least), errors.map(|(_, most)| most));
+        let figures = [
+            ("largest error", self.error_below, most, false),
+            ("smallest error", self.error_above, least, true),
+            ("error at the observed place (m)", self.observed_within, observed, false),
+            ("speed at rest over the wave speed", self.rest_below, unrest, false),
+        ];
+        let check = |(what, limit, got, least): (_, Option<f64>, _, _)| {
+            Some(Check { what, limit: limit?, got, least })
+        };
+        figures.into_iter().filter_map(check).collect()
+    }
+}
+
+fn rate_within(bounds: (f64, f64)) -> String {
+    format!("rate of energy within {} 1/s", rates(bounds))
+}
+
+fn rates((low, high): (f64, f64)) -> String {
+    format!("[{}, {}]", figures(low), figures(high))
+}
+
+/// Of a drift one digit says enough: it is rounding, or far too much.
+fn rounding(drift: f64) -> String {
+    format!("{drift:.0e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{subject::Totals, verify::conservation::Balance};
+    use rstest::rstest;
+
+    const NAN: f64 = f64::NAN;
+
+    fn measured() -> Measured {
+        let still = Balance::start(Totals::default()).drift();
+        Measured {
+            errors: Some((1e-3, 1e-2)),
+            observed: Some(1e-4),
+            unrest: Some(1e-7),
+            drift: Some(still),
+            energy_rate: Some((-2e-5, 1e-5)),
+        }
+    }
+
+    fn limits() -> Limits {
+        Limits {
+            error_below: Some(1e-2),
+            error_above: Some(1e-3),
+            observed_within: Some(1e-3),
+            rest_below: Some(1e-6),
+            drift: vec![(Conserved::Mass, 1e-13), (Conserved::Momentum, 0.0)],
+            energy_rate: Some((-2e-5, 1e-5)),
+        }
+    }
+
+    #[rstest]
+    #[case::all_hold(measured(), 0)]
+    #[case::too_large(Measured { errors: Some((1e-3, 1.1e-2)), ..measured() }, 1)]
+    #[case::too_small(Measured { errors: Some((0.9e-3, 1e-2)), ..measured() }, 1)]
+    #[case::no_level_counts(Measured { errors: None, ..measured() }, 2)]
+    #[case::nan_errors(Measured { errors: Some((NAN, NAN)), ..measured() }, 2)]
+    #[case::far_off(Measured { observed: Some(2e-3), ..measured() }, 1)]
+    #[case::observed_nan(Measured { observed: Some(NAN), ..measured() }, 1)]
+    #[case::still_moving(Measured { unrest: Some(2e-6), ..measured() }, 1)]
+    #[case::unrest_nan(Measured { unrest: Some(NAN), ..measured() }, 1)]
+    #[case::not_observed(Measured { observed: None, ..measured() }, 1)]
+    #[case::failed(Measured { drift: Some(Drift::NONE), ..measured() }, 2)]
+    #[case::no_totals(Measured { drift: None, ..measured() }, 2)]
+    #[case::energy_lost(Measured { energy_rate: Some((-2.1e-5, 0.0)), ..measured() }, 1)]
+    #[case::energy_made(Measured { energy_rate: Some((0.0, 1.1e-5)), ..measured() }, 1)]
+    #[case::energy_nan(Measured { energy_rate: Some((NAN, 0.0)), ..measured() }, 1)]
+    #[case::energy_unknown(Measured { energy_rate: None, ..measured() }, 1)]
+    fn every_limit_must_hold(#[case] measured: Measured, #[case] unmet: usize) {
+        let found = limits().unmet(&measured);
+        assert_eq!(found.len(), unmet, "{found:?}");
+    }
+
+    #[test]
+    fn sums_with_one_limit_are_named_together() {
+        let mut limits = limits();
+        assert_eq!(
+            limits.summary()[4..],
+            [
+                "drift of mass at most 1e-13",
+                "drift of momentum at most 0e0",
+                "rate of energy within [-2e-5, 1e-5] 1/s"
+            ]
+        );
+        limits.energy_rate = None;
+        limits.drift[1].1 = 1e-13;
+        assert_eq!(limits.summary()[4..], ["drift of mass, momentum at most 1e-13"]);
+        assert!(limits.found(&measured()).ends_with("; drift of mass 0e0, momentum 0e0"));
+    }
+
+    #[test]
+    fn what_is_not_limited_may_be_anything() {
+        let nothing =
+            Measured { errors: None, observed: None, unrest: None, drift: None, energy_rate: None };
+        assert!(Limits::default().unmet(&nothing).is_empty());
+        assert!(Limits::default().is_empty() && !limits().is_empty());
+    }
+
+    #[test]
+    fn limits_and_findings_in_words() {
+        let errors = Limits { error_below: Some(1e-11), ..Limits::default() };
+        assert_eq!(errors.summary(), ["largest error at most 1e-11"]);
+        assert_eq!(errors.found(&measured()), "largest error 0.01");
+        let nan = Measured { errors: Some((NAN, NAN)), ..measured() };
+        assert_eq!(errors.unmet(&nan), ["expected largest error at most 1e-11, got NaN"]);
+    }
+}

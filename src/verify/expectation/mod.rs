@@ -1,0 +1,176 @@
+//! What a suite expects of a case, and whether it came so.
+
+pub(crate) mod limits;
+
+use super::{
+    expectation::limits::{Limits, Measured},
+    verdict::{floor::FloorCause, name::Verdict},
+};
+
+/// Bounds, both included.
+pub type Bounds = (f64, f64);
+
+/// An expectation, as binding when it names a failure as when it names an order. Every part that
+/// is present must hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expectation {
+    /// The verdict that must come out; none is asked of a case that only limits bind.
+    pub verdict: Option<Verdict>,
+    /// Bounds that must hold the whole confidence interval of the observed order.
+    pub order: Option<Bounds>,
+    /// Bounds on the order between the two finest levels.
+    pub finest_pair: Option<Bounds>,
+    /// Whether particles must (`true`) or must not change their cell on the finest level.
+    pub crossings: Option<bool>,
+    /// Bounds on figures.
+    pub limits: Limits,
+    /// Whose error the finest level must show.
+    pub floor: Option<FloorCause>,
+    /// The reason, in one line.
+    pub because: String,
+}
+
+/// What was seen of a case, as far as expectations speak of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// The judge's verdict.
+    pub verdict: Verdict,
+    /// Confidence interval of the observed order.
+    pub order: Option<Bounds>,
+    /// Order between the two finest levels.
+    pub finest_pair: Option<f64>,
+    /// Crossings on the finest level.
+    pub crossings: Option<u64>,
+    /// What limits speak of.
+    pub measured: Measured,
+    /// Whose error the finest level shows, if that was asked and could be told.
+    pub floor: Option<FloorCause>,
+}
+
+impl Expectation {
+    /// Everything that did not come as expected, in words; empty if all did.
+    pub fn unmet(&self, seen: &Seen) -> Vec<String> {
+        let mut unmet = Vec::new();
+        match self.verdict {
+            Some(verdict) if seen.verdict != verdict => {
+                unmet.push(format!("expected the verdict `{verdict}`, got `{}`", seen.verdict));
+            }
+            None if seen.verdict == Verdict::Failed => {
+                unmet.push("expected every level to run to its end".to_owned());
+            }
+            _ => {}
+        }
+        if let Some(bounds) = self.order {
+            let inside =
+                seen.order.is_some_and(|(low, high)| within(low, bounds) && within(high, bounds));
+            if !inside {
+                let got = seen.order.map_or("none".to_owned(), show);
+                unmet.push(format!("expected the order within {}, got {got}", show(bounds)));
+            }
+        }
+        if let Some(bounds) = self.finest_pair
+            && !seen.finest_pair.is_some_and(|order| within(order, bounds))
+        {
+            let got = seen.finest_pair.map_or("none".to_owned(), |order| format!("{order:.2}"));
+            let wanted = show(bounds);
+            unmet.push(format!("expected the finest pair's order within {wanted}, got {got}"));
+        }
+        if let Some(some) = self.crossings
+            && seen.crossings.map(|n| n > 0) != Some(some)
+        {
+            let wanted = if some { "some" } else { "no" };
+            let got = seen.crossings.map_or("none counted".to_owned(), |n| n.to_string());
+            unmet.push(format!("expected {wanted} crossings on the finest level, got {got}"));
+        }
+        unmet.extend(self.limits.unmet(&seen.measured));
+        if let Some(cause) = self.floor
+            && seen.floor != Some(cause)
+        {
+            let got = seen.floor.map_or("not told", FloorCause::name);
+            unmet.push(format!("expected the floor of `{}`, got `{got}`", cause.name()));
+        }
+        unmet
+    }
+
+    /// The expectation in one line, for reports.
+    pub fn summary(&self) -> String {
+        let mut parts: Vec<String> = self.verdict.iter().map(Verdict::to_string).collect();
+        parts.extend(self.order.map(|b| format!("order within {}", show(b))));
+        parts.extend(self.finest_pair.map(|b| format!("finest pair within {}", show(b))));
+        parts.extend(self.crossings.map(|some| {
+            format!("{} crossings on the finest level", if some { "some" } else { "no" })
+        }));
+        parts.extend(self.limits.summary());
+        parts.extend(self.floor.map(|cause| format!("floor of {}", cause.name())));
+        parts.join(", ")
+    }
+}
+
+/// Written so that NaN is never within.
+fn within(value: f64, (low, high): Bounds) -> bool {
+    low <= value && value <= high
+}
+
+fn show((low, high): Bounds) -> String {
+    format!("[{low:.2}, {high:.2}]")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    const SEEN: Seen = Seen {
+        verdict: Verdict::Converging,
+        order: Some((1.95, 2.05)),
+        finest_pair: Some(1.99),
+        crossings: Some(0),
+        measured: Measured {
+            errors: Some((1e-6, 1e-3)),
+            observed: None,
+            unrest: None,
+            drift: None,
+            energy_rate: None,
+        },
+        floor: Some(FloorCause::Time),
+    };
+
+    fn expectation() -> Expectation {
+        Expectation {
+            verdict: Some(Verdict::Converging),
+            order: Some((1.9, 2.1)),
+            finest_pair: Some((1.9, 2.1)),
+            crossings: Some(false),
+            limits: Limits { error_below: Some(1e-2), ..Limits::default() },
+            floor: Some(FloorCause::Time),
+            because: "second-order scheme".to_owned(),
+        }
+    }
+
+    #[rstest]
+    #[case::all_met(SEEN, 0)]
+    #[case::verdict(Seen { verdict: Verdict::Divergent, ..SEEN }, 1)]
+    #[case::interval_sticks_out_below(Seen { order: Some((1.8, 2.05)), ..SEEN }, 1)]
+    #[case::interval_sticks_out_above(Seen { order: Some((1.95, 60.0)), ..SEEN }, 1)]
+    #[case::no_order(Seen { order: None, ..SEEN }, 1)]
+    #[case::nan_order(Seen { order: Some((f64::NAN, f64::NAN)), ..SEEN }, 1)]
+    #[case::nan_pair(Seen { finest_pair: Some(f64::NAN), ..SEEN }, 1)]
+    #[case::crossings(Seen { crossings: Some(3), ..SEEN }, 1)]
+    #[case::crossings_not_counted(Seen { crossings: None, ..SEEN }, 1)]
+    #[case::limit(Seen { measured: Measured { errors: None, ..SEEN.measured }, ..SEEN }, 1)]
+    #[case::floor(Seen { floor: Some(FloorCause::Nothing), ..SEEN }, 1)]
+    #[case::floor_not_told(Seen { floor: None, ..SEEN }, 1)]
+    fn every_part_must_hold(#[case] seen: Seen, #[case] unmet: usize) {
+        assert_eq!(expectation().unmet(&seen).len(), unmet, "{:?}", expectation().unmet(&seen));
+    }
+
+    #[test]
+    fn a_verdict_that_is_not_asked_for_may_be_any_but_a_failure() {
+        let bounded =
+            Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
+        assert!(bounded.unmet(&Seen { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
+        assert_eq!(bounded.unmet(&Seen { verdict: Verdict::Failed, ..SEEN }).len(), 1);
+        let summary = "no crossings on the finest level, largest error at most 1e-2, floor of time";
+        assert_eq!(bounded.summary(), summary);
+    }
+}

@@ -1,0 +1,87 @@
+//! What a series of errors is expected to show.
+
+use super::{axis::Axis, format_number::figures};
+
+/// An order that theory gives, and the range in which the observed one must lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claim {
+    /// The order of the method in theory.
+    pub formal_order: f64,
+    /// The range of the observed order; `formal_order` -+ [`Claim::TOLERANCE`] if not given.
+    pub expected: Option<(f64, f64)>,
+    /// What is refined: names the spacing in sentences, changes no figure.
+    pub axis: Axis,
+}
+
+impl Claim {
+    /// How far the observed order may lie from the formal one if no range is given: a fifth of
+    /// the gap between two methods whose orders differ by a half.
+    pub const TOLERANCE: f64 = 0.1;
+
+    /// The widest range that still says something: a wider one could not tell neighbouring
+    /// integer orders apart.
+    pub const WIDEST: f64 = 1.0;
+
+    /// The formal order, with the usual tolerance.
+    pub const fn formal(order: f64) -> Self {
+        Self { formal_order: order, expected: None, axis: Axis::Space }
+    }
+
+    /// The formal order, with a range of its own.
+    pub const fn within(order: f64, low: f64, high: f64) -> Self {
+        Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
+    }
+
+    /// The same claim for another axis of refinement.
+    #[must_use]
+    pub const fn over(self, axis: Axis) -> Self {
+        Self { axis, ..self }
+    }
+
+    /// The expected range.
+    pub fn range(&self) -> (f64, f64) {
+        let formal = self.formal_order;
+        let usual = (formal - Self::TOLERANCE, formal + Self::TOLERANCE);
+        self.expected.unwrap_or(usual)
+    }
+
+    /// Why this claim cannot be tested, if it cannot: no finite positive range, or one so wide
+    /// that it would let nearly everything pass.
+    pub(crate) fn complaint(&self) -> Option<String> {
+        let (low, high) = self.range();
+        let orders = [self.formal_order, low, high];
+        let positive = orders.iter().all(|p| p.is_finite() && *p > 0.0);
+        let (from, to) = (figures(low), figures(high));
+        if !(positive && low <= high) {
+            return Some(format!("[{from}, {to}] is not a range of orders"));
+        }
+        let telling = high - low <= Self::WIDEST * (1.0 + f64::EPSILON);
+        (!telling)
+            .then(|| format!("the expected range [{from}, {to}] is too wide to test anything"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(Claim::formal(2.0))]
+    #[case(Claim::within(2.0, 1.6, 2.6))]
+    #[case(Claim::within(2.0, 2.0, 2.0))]
+    fn testable(#[case] claim: Claim) {
+        assert_eq!(claim.complaint(), None);
+    }
+
+    #[rstest]
+    #[case(Claim::formal(f64::NAN), "[NaN, NaN] is not a range of orders")]
+    #[case(Claim::formal(0.0), "[-0.1, 0.1] is not a range of orders")]
+    #[case(Claim::within(2.0, 2.1, 1.9), "[2.1, 1.9] is not a range of orders")]
+    #[case(Claim::within(2.0, 1.0, f64::INFINITY), "[1, inf] is not a range of orders")]
+    #[case(Claim::within(60.0, 10.0, 110.0), "too wide to test anything")]
+    fn not_testable(#[case] claim: Claim, #[case] expected: &str) {
+        let complaint = claim.complaint().unwrap();
+        assert!(complaint.contains(expected), "{complaint}");
+    }
+}

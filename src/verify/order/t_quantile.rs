@@ -1,0 +1,98 @@
+//! The quantile of Student's t that a 95 % confidence interval needs.
+//!
+//! Abramowitz & Stegun (1964), 26.7.3 and 26.7.4: with `theta = atan(t / sqrt(nu))`, the
+//! probability `A(t|nu)` that a variable of `nu` degrees of freedom lies in `[-t, t]` is
+//!
+//! ```text
+//! nu odd:   2/pi (theta + sin theta (cos theta + 2/3 cos^3 theta + ...
+//!                 + (2 4 ... (nu-3)) / (3 5 ... (nu-2)) cos^(nu-2) theta))
+//! nu even:  sin theta (1 + 1/2 cos^2 theta + ...
+//!                 + (1 3 ... (nu-3)) / (2 4 ... (nu-2)) cos^(nu-2) theta)
+//! ```
+//!
+//! a finite sum, inverted here by bisection in `theta`.
+
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+
+/// The probability that a confidence interval contains the true value.
+pub(crate) const CONFIDENCE: f64 = 0.95;
+
+/// Halvings of `[0, pi/2]` until neighbouring doubles are reached.
+const HALVINGS: usize = 60;
+
+/// The `t` with `A(t|nu) = 0.95`; NaN for `nu = 0`, which has no distribution.
+pub fn two_sided_95(degrees_of_freedom: usize) -> f64 {
+    if degrees_of_freedom == 0 {
+        return f64::NAN;
+    }
+    let (mut low, mut high) = (0.0, FRAC_PI_2);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if probability_within(middle, degrees_of_freedom) < CONFIDENCE {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    (degrees_of_freedom as f64).sqrt() * libm::tan(0.5 * (low + high))
+}
+
+/// `A(t|nu)` as a function of `theta`.
+fn probability_within(theta: f64, nu: usize) -> f64 {
+    let (sin, cos) = libm::sincos(theta);
+    if nu.is_multiple_of(2) {
+        sin * cosine_sum(1.0, 2, cos, nu)
+    } else if nu == 1 {
+        FRAC_2_PI * theta
+    } else {
+        FRAC_2_PI * (theta + sin * cosine_sum(cos, 3, cos, nu))
+    }
+}
+
+/// The sum in brackets, from its first term to the one in `cos^(nu-2)`; each term is the one
+/// before times `cos^2 (k-1)/k`, with `k` going up in steps of two from `second` to `nu - 2`.
+fn cosine_sum(first: f64, second: usize, cos: f64, nu: usize) -> f64 {
+    let mut term = first;
+    let mut sum = first;
+    for k in (second..=nu - 2).step_by(2) {
+        term *= cos * cos * (k - 1) as f64 / k as f64;
+        sum += term;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+    use rstest::rstest;
+
+    /// Published tables, to the digits they print.
+    #[rstest]
+    #[case(1, 12.7062, 5e-5)]
+    #[case(2, 4.30265, 5e-6)]
+    #[case(3, 3.18245, 5e-6)]
+    #[case(4, 2.77645, 5e-6)]
+    #[case(5, 2.57058, 5e-6)]
+    #[case(10, 2.22814, 5e-6)]
+    #[case(30, 2.04227, 5e-6)]
+    #[case(120, 1.97993, 5e-6)]
+    fn published_values(#[case] nu: usize, #[case] t: f64, #[case] rounding: f64) {
+        assert_abs_diff_eq!(two_sided_95(nu), t, epsilon = rounding);
+    }
+
+    /// `tan(0.95 pi/2)` for one degree of freedom, `0.95 sqrt(2 / (1 - 0.95^2))` for two.
+    #[test]
+    fn closed_forms() {
+        let one = libm::tan(0.95 * FRAC_PI_2);
+        assert_abs_diff_eq!(two_sided_95(1), one, epsilon = 1e-12);
+        let two = 0.95 * (2.0 / (1.0 - 0.95 * 0.95_f64)).sqrt();
+        assert_abs_diff_eq!(two_sided_95(2), two, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn tends_to_the_normal_quantile_and_does_not_exist_for_zero() {
+        assert_abs_diff_eq!(two_sided_95(100_000), 1.959_964, epsilon = 5e-5);
+        assert!(two_sided_95(0).is_nan());
+    }
+}

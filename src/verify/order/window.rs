@@ -1,0 +1,169 @@
+//! Which levels are asymptotic: the window over which an order is fitted.
+//!
+//! All usable levels count unless there is strong evidence against the outer ones. A shorter
+//! window replaces a longer one only if
+//!
+//! - an F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
+//!   the line through the kept ones. The risk of a wrong rejection is [`SELECTION_RISK`] for all
+//!   shorter windows together, small against the 5 % that the confidence interval leaves, so that
+//!   choosing does not spoil the interval;
+//! - the dropped levels look like a range and not like an accident: all depart by more than
+//!   [`MATERIAL`] to the same side, the outermost most. An outlier amid good levels is therefore
+//!   kept, and shows as a wide interval;
+//! - levels are dropped at the fine end only where the error stops falling (a floor). Whoever
+//!   drops them owes the reader the verdict `at floor`.
+//!
+//! The longest such window wins, the finer of two equally long ones; then it is put to the same
+//! test, until none is better.
+
+use std::ops::Range;
+
+use super::{
+    f_test,
+    fit::{Line, Point},
+};
+
+/// Fewest levels of which an order is claimed: two degrees of freedom remain to contradict it.
+pub(crate) const FEWEST_LEVELS: usize = 4;
+
+/// The risk that pure noise makes the window shorter, over all candidates of one step: a tenth of
+/// the 5 % of the confidence interval.
+const SELECTION_RISK: f64 = 0.005;
+
+/// The least departure, in `ln error`, for which a level is dropped: 5 %. Keeps round-off from
+/// choosing the window of noise-free data, where any departure is statistically significant.
+const MATERIAL: f64 = 0.05;
+
+/// An order below this is no fall: over a halving of `h` the error changes by less than 15 %.
+pub(crate) const FLAT_ORDER: f64 = 0.2;
+
+/// Where the error falls by less than this fraction of the order before (and of the formal
+/// order), it has stopped following the line.
+const FLOOR_FRACTION: f64 = 0.5;
+
+/// A contiguous run of points and the line through it.
+#[derive(Clone, Debug)]
+pub(crate) struct Window {
+    pub(crate) range: Range<usize>,
+    pub(crate) line: Line,
+}
+
+impl Window {
+    fn over(points: &[Point], range: Range<usize>) -> Option<Self> {
+        let line = Line::through(&points[range.clone()])?;
+        Some(Self { range, line })
+    }
+
+    /// Whether the error leaves the line at the fine end for a floor.
+    pub(crate) fn meets_floor(&self, points: &[Point], formal_order: f64) -> bool {
+        let end = self.range.end;
+        let above = points[end..].iter().all(|p| self.line.departure(p) > 0.0);
+        let limit = FLOOR_FRACTION * self.line.slope.min(formal_order);
+        end < points.len()
+            && above
+            && Line::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
+    }
+
+    /// Whether what lies outside may be dropped, were there evidence to do so.
+    fn may_drop_rest(&self, points: &[Point], formal_order: f64) -> bool {
+        let Range { start, end } = self.range;
+        let departures =
+            |rest: &[Point]| -> Vec<f64> { rest.iter().map(|p| self.line.departure(p)).collect() };
+        let mut coarse = departures(&points[..start]);
+        coarse.reverse();
+        let fine = departures(&points[end..]);
+        self.line.slope > FLAT_ORDER
+            && is_departing(&coarse)
+            && is_departing(&fine)
+            && (fine.is_empty() || self.meets_floor(points, formal_order))
+    }
+
+    /// Whether the F-test rejects, at the level `risk`, that what `shorter` drops lies on its line.
+    fn is_rejected_by(&self, shorter: &Self, risk: f64) -> bool {
+        let dropped = self.range.len() - shorter.range.len();
+        let freedom = shorter.range.len() - 2;
+        f_test::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
+    }
+
+    /// The longest shorter window for which there is strong evidence.
+    fn improved(&self, points: &[Point], formal_order: f64) -> Option<Self> {
+        let candidates = shorter_ranges(&self.range);
+        let risk = SELECTION_RISK / candidates.len() as f64;
+        candidates.into_iter().filter_map(|range| Self::over(points, range)).find(|shorter| {
+            self.is_rejected_by(shorter, risk) && shorter.may_drop_rest(points, formal_order)
+        })
+    }
+}
+
+/// The asymptotic window among the points before `end`, where a floor begins if one is known
+/// to; None if there are too few, or no line through them.
+pub(crate) fn asymptotic(points: &[Point], end: usize, formal_order: f64) -> Option<Window> {
+    if end < FEWEST_LEVELS {
+        return None;
+    }
+    let mut window = Window::over(points, 0..end)?;
+    while let Some(better) = window.improved(points, formal_order) {
+        window = better;
+    }
+    Some(window)
+}
+
+/// Contiguous parts with enough levels, the longest first, of equal ones the finer first.
+fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
+    (FEWEST_LEVELS..range.len())
+        .rev()
+        .flat_map(|length| {
+            let starts = (range.start..=range.end - length).rev();
+            starts.map(move |start| start..start + length)
+        })
+        .collect()
+}
+
+/// Whether departures, from the window outwards, are all material, to one side, the last largest.
+fn is_departing(outward: &[f64]) -> bool {
+    let Some(last) = outward.last() else {
+        return true;
+    };
+    outward
+        .iter()
+        .all(|d| d.abs() > MATERIAL && d.abs() <= last.abs() && (*d > 0.0) == (*last > 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    fn points(orders: &[f64]) -> Vec<Point> {
+        let mut y = 0.0;
+        let mut points = vec![Point { level: 0, x: 0.0, y }];
+        for (k, order) in orders.iter().enumerate() {
+            y -= order;
+            let level = k + 1;
+            points.push(Point { level, x: -(level as f64), y });
+        }
+        points
+    }
+
+    #[rstest]
+    #[case::straight(&[2.0, 2.0, 2.0, 2.0, 2.0], 0..6)]
+    #[case::first_pair_superconvergent(&[4.0, 2.0, 2.0, 2.0], 1..5)]
+    #[case::coarse_end_flat(&[0.0, 1.0, 2.0, 2.0, 2.0], 2..6)]
+    #[case::floor(&[2.0, 2.0, 2.0, 0.5, 0.0], 0..4)]
+    #[case::both_ends(&[4.0, 2.0, 2.0, 2.0, 0.5, 0.0], 1..5)]
+    #[case::outlier_kept(&[2.0, 2.0, 0.4, 3.6, 2.0, 2.0, 2.0], 0..8)]
+    #[case::second_is_outlier(&[0.4, 3.6, 2.0, 2.0, 2.0, 2.0], 0..7)]
+    #[case::last_but_one_is_outlier(&[2.0, 2.0, 2.0, 2.0, 0.4, 3.6], 0..7)]
+    #[case::superconvergent_fine_end_kept(&[2.0, 2.0, 2.0, 2.0, 4.0], 0..6)]
+    #[case::too_short_to_drop(&[4.0, 2.0, 2.0], 0..4)]
+    fn windows(#[case] orders: &[f64], #[case] expected: Range<usize>) {
+        let points = points(orders);
+        let window = asymptotic(&points, points.len(), 2.0).unwrap();
+        assert_eq!(window.range, expected);
+    }
+
+    #[test]
+    fn three_levels_have_no_window() {
+        assert!(asymptotic(&points(&[2.0, 2.0]), 3, 2.0).is_none());
+    }
+}

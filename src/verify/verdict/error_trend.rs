@@ -1,0 +1,159 @@
+//! Shapes of a series that rule out an order, told by ratios of errors only: no absolute number
+//! enters, so that neither the unit of the error nor that of `h` matters.
+
+use std::f64::consts::LN_2;
+
+use crate::verify::order::{
+    fit::{Line, Point},
+    window::{FEWEST_LEVELS, FLAT_ORDER},
+};
+
+/// A divergence must at least double the error: what grows less may be the noise of a floor.
+const LEAST_GROWTH: f64 = LN_2;
+
+/// The errors on a floor lie within a factor of two, as round-off noise of -+ 30 % does.
+const FLOOR_BAND: f64 = LN_2;
+
+/// A floor must cost something: over its levels the formal order would have halved the error.
+const LEAST_LOSS: f64 = LN_2;
+
+/// Fewest levels of a floor, or of a divergence: two successive pairs.
+const FEWEST_OF_TREND: usize = 3;
+
+/// Before a floor the error must have fallen with at least this order: well above a flat one.
+const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
+
+/// An oscillation swings by more than the noise of a floor does: on average by a factor of 1.5.
+const LEAST_SWING: f64 = 1.5;
+
+/// An oscillation has no convincing trend: rises make up for at least a third of the falls, or
+/// falls for a third of the rises.
+const BALANCE: f64 = 1.0 / 3.0;
+
+/// Turns that make an oscillation: a single outlier turns the series twice.
+const TURNS: usize = 3;
+
+/// From which point on the error grows, if it does at the fine end.
+///
+/// From the first, if the line through all points rises with an order below -0.2 and its
+/// confidence interval excludes zero. Otherwise the part judged begins at the smallest error. It
+/// must have at least three levels, grow at least twofold, and either end above the first error
+/// of the series by that factor, or rise over its last two pairs, or have a rising line as above.
+pub(crate) fn divergence(points: &[Point]) -> Option<usize> {
+    if points.len() < FEWEST_LEVELS {
+        return None;
+    }
+    if line_rises(points) {
+        return Some(0);
+    }
+    let start = lowest(points)?;
+    let part = &points[start..];
+    let (first, last) = (points.first()?, points.last()?);
+    let grows = part.len() >= FEWEST_OF_TREND && last.y - part[0].y >= LEAST_GROWTH;
+    (grows && (last.y - first.y >= LEAST_GROWTH || rises_twice(part) || line_rises(part)))
+        .then_some(start)
+}
+
+fn lowest(points: &[Point]) -> Option<usize> {
+    (0..points.len()).min_by(|&a, &b| points[a].y.total_cmp(&points[b].y))
+}
+
+fn rises_twice(part: &[Point]) -> bool {
+    part.windows(2).rev().take(2).all(|pair| pair[1].y > pair[0].y)
+}
+
+fn line_rises(part: &[Point]) -> bool {
+    Line::through(part)
+        .map(|line| line.order())
+        .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
+}
+
+/// From which point on the error is flat, if it is at the fine end: the longest tail whose errors
+/// lie in a band of a factor of two with an order of less than 0.2, after a part that fell (or
+/// from the first level on). None if the formal order would not have shown there either.
+pub(crate) fn flat_tail(points: &[Point], formal_order: f64) -> Option<usize> {
+    let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
+    starts.into_iter().find(|&start| {
+        let tail = &points[start..];
+        let run = tail[0].x - tail[tail.len() - 1].x;
+        spread(tail) <= FLOOR_BAND
+            && formal_order * run >= LEAST_LOSS
+            && slope(tail).is_some_and(|order| order.abs() <= FLAT_ORDER)
+            && (start == 0 || slope(&points[..=start]).is_some_and(|order| order >= LEAST_FALL))
+    })
+}
+
+fn slope(points: &[Point]) -> Option<f64> {
+    Line::through(points).map(|line| line.slope)
+}
+
+fn spread(points: &[Point]) -> f64 {
+    let ys = || points.iter().map(|p| p.y);
+    ys().fold(f64::NEG_INFINITY, f64::max) - ys().fold(f64::INFINITY, f64::min)
+}
+
+/// Whether the error goes up and down by much and without a convincing trend.
+pub(crate) fn oscillates(points: &[Point]) -> bool {
+    let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].y - pair[0].y).collect();
+    let turns = steps.windows(2).filter(|s| s[0] * s[1] < 0.0).count();
+    let rises: f64 = steps.iter().filter(|s| **s > 0.0).sum();
+    let falls: f64 = -steps.iter().filter(|s| **s < 0.0).sum::<f64>();
+    let swing = (rises + falls) / steps.len() as f64;
+    points.len() >= FEWEST_LEVELS
+        && turns >= TURNS.min(steps.len() - 1)
+        && swing >= libm::log(LEAST_SWING)
+        && rises.min(falls) >= BALANCE * rises.max(falls)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    fn points(errors: &[f64]) -> Vec<Point> {
+        let place = |(level, error): (usize, &f64)| Point {
+            level,
+            x: -LN_2 * level as f64,
+            y: libm::log(*error),
+        };
+        errors.iter().enumerate().map(place).collect()
+    }
+
+    #[rstest]
+    #[case::growing(&[1.0, 2.0, 4.0, 8.0], Some(0))]
+    #[case::growing_slowly(&[1.0, 1.2, 1.44, 1.7], Some(0))]
+    #[case::falls_then_grows(&[9.0, 3.0, 1.0, 2.0, 4.0], Some(2))]
+    #[case::grows_then_stays(&[1.0, 2.0, 4.0, 4.0, 4.0], Some(0))]
+    #[case::one_rise(&[9.0, 3.0, 1.0, 4.0], None)]
+    #[case::small_rise(&[9.0, 3.0, 1.0, 1.2, 1.4], None)]
+    #[case::low_outlier(&[9.0, 3.0, 0.01, 0.3, 0.1], None)]
+    #[case::falling(&[8.0, 4.0, 2.0, 1.0], None)]
+    #[case::three_levels(&[1.0, 2.0, 4.0], None)]
+    fn divergences(#[case] errors: &[f64], #[case] start: Option<usize>) {
+        assert_eq!(divergence(&points(errors)), start);
+    }
+
+    #[rstest]
+    #[case::flat(&[1.0, 1.1, 0.9, 1.0], Some(0))]
+    #[case::after_a_fall(&[16.0, 4.0, 1.0, 1.1, 0.9], Some(2))]
+    #[case::one_flat_pair(&[64.0, 16.0, 4.0, 4.0], None)]
+    #[case::slow_fall(&[4.0, 3.0, 2.2, 1.6], None)]
+    #[case::wide(&[1.0, 3.0, 1.0, 3.0], None)]
+    #[case::after_a_rise(&[1.0, 3.0, 3.0, 3.0], None)]
+    #[case::two_levels(&[1.0, 1.0], None)]
+    fn flat_tails(#[case] errors: &[f64], #[case] start: Option<usize>) {
+        assert_eq!(flat_tail(&points(errors), 2.0), start);
+    }
+
+    #[rstest]
+    #[case::even(&[1.0, 2.0, 1.0, 2.0, 1.0], true)]
+    #[case::four_levels(&[2.0, 1.0, 2.0, 1.0], true)]
+    #[case::with_a_slight_trend(&[1.0, 0.1, 0.5, 0.05, 0.25, 0.025], true)]
+    #[case::with_a_clear_trend(&[1.0, 0.1, 0.12, 0.01, 0.012], false)]
+    #[case::noise_of_a_floor(&[1.0, 1.2, 0.9, 1.1, 0.8], false)]
+    #[case::one_outlier(&[1.0, 0.5, 1.25, 0.125, 0.0625], false)]
+    #[case::growing(&[1.0, 2.0, 4.0, 8.0], false)]
+    fn oscillations(#[case] errors: &[f64], #[case] expected: bool) {
+        assert_eq!(oscillates(&points(errors)), expected);
+    }
+}

@@ -1,0 +1,148 @@
+//! Whose error a floor is: what happens to it when another axis is refined.
+//!
+//! The shape of a series tells that the error has stopped falling, not why. So the finest level is run
+//! again with the spacing of another axis halved, one axis at a time. (An error is a sum of terms in h,
+//! in dt and in what else there is; refining one spacing leaves the others' terms: Roy 2005, J. Comput.
+//! Phys. 205, 131.)
+
+use crate::{
+    named::named,
+    verify::order::{axis::Axis, format_number::figures},
+};
+
+/// An axis is named if halving its spacing takes at least a quarter off the error. With order one
+/// that is an axis which makes half of the error, with order two a third.
+const LEAST_FALL: f64 = 0.25;
+
+named! {
+    /// Whose error a floor is.
+    pub enum FloorCause {
+        /// That of the time step.
+        Time = "time",
+        /// That of the cells.
+        Space = "space",
+        /// That of the particles.
+        Particles = "particles",
+        /// No axis that was tried: an error of the model, of the method, of the reference, or
+        /// round-off.
+        Nothing = "none",
+    }
+}
+
+/// The finest level again, with the spacing of one axis halved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe {
+    /// The axis.
+    pub axis: Axis,
+    /// The error with the spacing halved, or why there is none.
+    pub error: Result<f64, String>,
+}
+
+/// What was tried on the finest level of a series.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Floor {
+    /// The error there.
+    pub error: f64,
+    /// One probe for each axis that was tried.
+    pub probes: Vec<Probe>,
+}
+
+impl Floor {
+    /// Whose error it is: of the axes that lower it enough the one that lowers it most;
+    /// [`FloorCause::Nothing`] only if every probe came to its end.
+    pub fn cause(&self) -> Option<FloorCause> {
+        let errors =
+            self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));
+        let falls = |error: f64| self.error > 0.0 && error <= (1.0 - LEAST_FALL) * self.error;
+        let most =
+            errors.filter(|(_, error)| falls(*error)).min_by(|(_, a), (_, b)| a.total_cmp(b));
+        match most {
+            Some((probe, _)) => Some(match probe.axis {
+                Axis::Time => FloorCause::Time,
+                Axis::Space => FloorCause::Space,
+                Axis::Particles => FloorCause::Particles,
+            }),
+            None => self.told().then_some(FloorCause::Nothing),
+        }
+    }
+
+    /// Whether every probe has a figure.
+    fn told(&self) -> bool {
+        let told = |probe: &Probe| probe.error.as_ref().is_ok_and(|error| error.is_finite());
+        !self.probes.is_empty() && self.probes.iter().all(told)
+    }
+
+    /// The finding with its figures.
+    pub fn sentence(&self) -> String {
+        let of = |axis: Axis| format!("the error is that of the {}", axis.noun());
+        let finding = match self.cause() {
+            Some(FloorCause::Time) => of(Axis::Time),
+            Some(FloorCause::Space) => of(Axis::Space),
+            Some(FloorCause::Particles) => of(Axis::Particles),
+            Some(FloorCause::Nothing) => "no other axis lowers the error by a quarter".to_owned(),
+            None => "it cannot be told whose the error is".to_owned(),
+        };
+        let probe = |(k, probe): (usize, &Probe)| {
+            let halved = format!("half the {}", probe.axis.noun());
+            let from =
+                if k == 0 { format!("from {} ", figures(self.error)) } else { String::new() };
+            match &probe.error {
+                Ok(error) if k == 0 => format!("{halved} takes it {from}to {}", figures(*error)),
+                Ok(error) => format!("{halved} to {}", figures(*error)),
+                Err(reason) => format!("{halved} fails ({reason})"),
+            }
+        };
+        // Probes that failed come last, so that the figures stand together.
+        let (told, failed): (Vec<_>, Vec<_>) =
+            self.probes.iter().partition(|probe| probe.error.is_ok());
+        let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();
+        format!("on the finest level {finding}: {}", probes.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    fn floor(error: f64, probes: &[(Axis, Result<f64, &str>)]) -> Floor {
+        let probe = |(axis, error): &(Axis, Result<f64, &str>)| Probe {
+            axis: *axis,
+            error: error.map_err(str::to_owned),
+        };
+        Floor { error, probes: probes.iter().map(probe).collect() }
+    }
+
+    use Axis::{Particles, Space, Time};
+
+    #[rstest]
+    #[case::first_order(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))], Some(FloorCause::Time))]
+    #[case::the_larger_fall(1.0, &[(Time, Ok(0.7)), (Space, Ok(0.3))], Some(FloorCause::Space))]
+    #[case::no_fall(1.0, &[(Time, Ok(0.8)), (Particles, Ok(1.2))], Some(FloorCause::Nothing))]
+    #[case::one_broke(1.0, &[(Time, Ok(0.9)), (Particles, Err("J"))], None)]
+    #[case::one_broke_the_other_tells(1.0, &[(Time, Err("J")), (Particles, Ok(0.1))], Some(FloorCause::Particles))]
+    #[case::not_a_number(1.0, &[(Time, Ok(f64::NAN))], None)]
+    #[case::from_nan(f64::NAN, &[(Time, Ok(0.1))], Some(FloorCause::Nothing))]
+    #[case::nothing_to_lower(0.0, &[(Time, Ok(0.0))], Some(FloorCause::Nothing))]
+    #[case::nothing_tried(1.0, &[], None)]
+    fn causes(
+        #[case] error: f64,
+        #[case] probes: &[(Axis, Result<f64, &str>)],
+        #[case] cause: Option<FloorCause>,
+    ) {
+        assert_eq!(floor(error, probes).cause(), cause);
+    }
+
+    #[test]
+    fn sentences() {
+        assert_eq!(
+            floor(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))]).sentence(),
+            "on the finest level the error is that of the time step: half the time step takes it \
+             from 1 to 0.5, half the particle spacing to 1"
+        );
+        assert_eq!(
+            floor(1.0, &[(Space, Err("J"))]).sentence(),
+            "on the finest level it cannot be told whose the error is: half the cell size fails (J)"
+        );
+    }
+}

@@ -1,0 +1,220 @@
+//! From levels to a verdict: the questions, in the order in which they are asked.
+//!
+//! 1. Is every level sound, and the claim testable? Else `failed`.
+//! 2. Are there four usable levels? Else `too few levels`.
+//! 3. Does the error go up and down, grow, or rest on a floor? `oscillatory`, `divergent`,
+//!    `at floor`, by the shapes of [`error_trend`](super::error_trend) and, for an exact zero, as such.
+//! 4. Which levels are asymptotic? The [`window`]; if it leaves out levels at the fine end, the
+//!    verdict is `at floor`.
+//! 5. Has the order settled there? A wide interval or a drift is `pre-asymptotic`.
+//! 6. `too good` or `too low` if the order itself is out of the expected range; `converging` if
+//!    the whole interval is inside; `pre-asymptotic` if only the order is.
+//!
+//! Levels that are not usable take part in the first question only.
+
+use std::ops::Range;
+
+use super::{error_trend, name::Verdict, reason::Reason};
+use crate::verify::order::{
+    fit::{Interval, Line, Point},
+    hypothesis::Claim,
+    level::{Level, arrange},
+    pairwise::pairwise,
+    window,
+    window::{FEWEST_LEVELS, Window},
+};
+
+/// The order of a window has settled if its interval is no wider than this to each side: half of
+/// the gap between orders that differ by a half.
+const SETTLED: f64 = 0.25;
+
+/// High orders settle relatively: the same interval about the order 2, as a fraction.
+const SETTLED_FRACTION: f64 = SETTLED / 2.0;
+
+/// A drift counts if the order changes along the window by more than the width of the usual
+/// expected range,
+const DRIFT: f64 = 2.0 * Claim::TOLERANCE;
+
+/// and if noise would show it only once in a thousand series.
+const DRIFT_RISK: f64 = 0.001;
+
+/// Fewest levels of which an order before a floor is reported (not claimed).
+const FEWEST_BEFORE_FLOOR: usize = 3;
+
+/// A verdict with the figures that led to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The observed order over the window, with its 95 % confidence interval: of the asymptotic
+    /// levels, of those before the floor, or of those that diverge. None where there is none.
+    pub order: Option<Interval>,
+    /// The levels that the order was fitted to, as indices into `levels`.
+    pub window: Option<Vec<usize>>,
+    /// The order between level `k - 1` and level `k`, usable or not.
+    pub pairwise: Vec<Option<f64>>,
+    /// The levels from coarse to fine, identical ones merged.
+    pub levels: Vec<Level>,
+    /// One line that says why.
+    pub reason: String,
+}
+
+/// Judges the errors of a refinement study against a claimed order.
+pub fn judge(levels: &[Level], claim: &Claim) -> Judgement {
+    let (levels, complaint) = arrange(levels, claim.axis);
+    let finding = match complaint.or_else(|| claim.complaint()) {
+        Some(complaint) => Finding::without_order(Verdict::Failed, Reason::Failed(complaint)),
+        None => Series::new(&levels).finding(claim),
+    };
+    let window = finding.window.as_deref();
+    Judgement {
+        verdict: finding.verdict,
+        order: finding.line.map(|line| line.order()),
+        window: window.map(|points| points.iter().map(|p| p.level).collect()),
+        pairwise: pairwise(&levels),
+        reason: finding.reason.sentence(&levels, claim.axis, window, finding.line.as_ref()),
+        levels,
+    }
+}
+
+/// A verdict whose window is still one of points.
+struct Finding {
+    verdict: Verdict,
+    reason: Reason,
+    window: Option<Vec<Point>>,
+    line: Option<Line>,
+}
+
+impl Finding {
+    fn without_order(verdict: Verdict, reason: Reason) -> Self {
+        Self { verdict, reason, window: None, line: None }
+    }
+
+    fn over(verdict: Verdict, reason: Reason, points: &[Point], line: Option<Line>) -> Self {
+        Self { verdict, reason, window: line.map(|_| points.to_vec()), line }
+    }
+}
+
+/// The usable levels.
+struct Series {
+    /// Those with a non-zero error, on logarithmic axes.
+    points: Vec<Point>,
+    /// The indices of those with an exact zero.
+    zeros: Vec<usize>,
+}
+
+impl Series {
+    fn new(levels: &[Level]) -> Self {
+        let usable = || levels.iter().enumerate().filter(|(_, level)| level.usable);
+        let (nonzero, zero): (Vec<_>, Vec<_>) = usable().partition(|(_, level)| level.error > 0.0);
+        let point = |(k, level): (usize, &Level)| Point {
+            level: k,
+            x: libm::log(level.h),
+            y: libm::log(level.error),
+        };
+        Self {
+            points: nonzero.into_iter().map(point).collect(),
+            zeros: zero.into_iter().map(|(k, _)| k).collect(),
+        }
+    }
+
+    fn finding(&self, claim: &Claim) -> Finding {
+        let usable = self.points.len() + self.zeros.len();
+        if usable < FEWEST_LEVELS {
+            let reason = Reason::TooFew { usable };
+            return Finding::without_order(Verdict::TooFewLevels, reason);
+        }
+        self.oscillatory()
+            .or_else(|| self.divergent())
+            .or_else(|| self.zero(claim))
+            .or_else(|| self.flat(claim))
+            .unwrap_or_else(|| self.asymptotic(claim))
+    }
+
+    fn oscillatory(&self) -> Option<Finding> {
+        (self.zeros.is_empty() && error_trend::oscillates(&self.points))
+            .then(|| Finding::without_order(Verdict::Oscillatory, Reason::Oscillatory))
+    }
+
+    /// Asked only if the finest error is not zero.
+    fn divergent(&self) -> Option<Finding> {
+        let finest = self.points.last()?.level;
+        let start = error_trend::divergence(&self.points)?;
+        let part = &self.points[start..];
+        (self.zeros.iter().all(|&zero| zero < finest)).then(|| {
+            let reason = Reason::Divergent { from: part[0].level, to: finest };
+            Finding::over(Verdict::Divergent, reason, part, Line::through(part))
+        })
+    }
+
+    /// An exact zero is an error at or below round-off.
+    fn zero(&self, claim: &Claim) -> Option<Finding> {
+        let from = *self.zeros.first()?;
+        let end = self.points.partition_point(|p| p.level < from);
+        let flat = error_trend::flat_tail(&self.points[..end], claim.formal_order);
+        Some(self.before_floor(from, flat.unwrap_or(end), claim))
+    }
+
+    fn flat(&self, claim: &Claim) -> Option<Finding> {
+        let start = error_trend::flat_tail(&self.points, claim.formal_order)?;
+        Some(self.before_floor(self.points[start].level, start, claim))
+    }
+
+    /// At a floor that begins with the level `from`; the order is that of the asymptotic part of
+    /// the points before `end`.
+    fn before_floor(&self, from: usize, end: usize, claim: &Claim) -> Finding {
+        let window = window::asymptotic(&self.points, end, claim.formal_order);
+        self.floor(from, window.map_or(0..end, |window| window.range))
+    }
+
+    fn floor(&self, from: usize, range: Range<usize>) -> Finding {
+        let points = &self.points[range];
+        let enough = points.len() >= FEWEST_BEFORE_FLOOR;
+        let line = Line::through(points).filter(|_| enough);
+        Finding::over(Verdict::AtFloor, Reason::Floor { from }, points, line)
+    }
+
+    fn asymptotic(&self, claim: &Claim) -> Finding {
+        let Some(window) = window::asymptotic(&self.points, self.points.len(), claim.formal_order)
+        else {
+            let complaint = "the spacings cannot be told apart".into();
+            return Finding::without_order(Verdict::Failed, Reason::Failed(complaint));
+        };
+        if window.meets_floor(&self.points, claim.formal_order) {
+            let from = self.points[window.range.end].level;
+            return self.floor(from, window.range);
+        }
+        let points = &self.points[window.range.clone()];
+        let (verdict, reason) = settled(&window, points, claim);
+        Finding::over(verdict, reason, points, Some(window.line))
+    }
+}
+
+/// The last two questions.
+fn settled(window: &Window, points: &[Point], claim: &Claim) -> (Verdict, Reason) {
+    let order = window.line.order();
+    let range @ (low, high) = claim.range();
+    let narrow = order.half_width() <= SETTLED.max(SETTLED_FRACTION * order.value);
+    if !narrow {
+        return (Verdict::PreAsymptotic, Reason::Wide);
+    }
+    if let Some(change) = drift(window, points) {
+        return (Verdict::PreAsymptotic, Reason::Drift { change });
+    }
+    let verdict = if order.low >= low && order.high <= high {
+        Verdict::Converging
+    } else if order.value > high {
+        Verdict::TooGood
+    } else if order.value < low {
+        Verdict::TooLow
+    } else {
+        Verdict::PreAsymptotic
+    };
+    (verdict, Reason::Against { verdict, range })
+}
+
+/// The change of the order along the window, if it is significant and material.
+fn drift(window: &Window, points: &[Point]) -> Option<f64> {
+    let drift = window.line.drift(points)?;
+    (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)
+}

@@ -1,0 +1,7 @@
+//! The verdict: from levels and their orders to one word, with the reason.
+
+pub(crate) mod error_trend;
+pub(crate) mod floor;
+pub(crate) mod judge;
+pub(crate) mod name;
+pub(crate) mod reason;

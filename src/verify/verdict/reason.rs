@@ -1,0 +1,108 @@
+//! The one line that says why, for a reader who has only the figures.
+
+use super::name::Verdict;
+use crate::verify::order::{
+    axis::Axis,
+    fit::{Line, Point},
+    format_number::{figures, order},
+    level::Level,
+    window::FEWEST_LEVELS,
+};
+
+/// What led to a verdict; levels by index.
+pub(crate) enum Reason {
+    Failed(String),
+    TooFew { usable: usize },
+    Oscillatory,
+    Divergent { from: usize, to: usize },
+    Floor { from: usize },
+    Wide,
+    Drift { change: f64 },
+    Against { verdict: Verdict, range: (f64, f64) },
+}
+
+impl Reason {
+    /// The sentence, ended by the order over the window if there is one.
+    pub(crate) fn sentence(
+        &self,
+        levels: &[Level],
+        axis: Axis,
+        window: Option<&[Point]>,
+        line: Option<&Line>,
+    ) -> String {
+        let order = window.zip(line).map(|(points, line)| order_over(levels, axis, points, line));
+        let cause = self.cause(levels, axis);
+        match (self, order) {
+            (Self::Floor { .. }, Some(order)) => format!("{cause}; before that {order}"),
+            (Self::Floor { .. }, None) => format!("{cause}; no order before that"),
+            (Self::Against { .. }, Some(order)) => format!("{order}, {cause}"),
+            (_, Some(order)) => format!("{cause}: {order}"),
+            (_, None) => cause,
+        }
+    }
+
+    fn cause(&self, levels: &[Level], axis: Axis) -> String {
+        match self {
+            Self::Failed(complaint) => complaint.clone(),
+            Self::TooFew { usable } => {
+                format!("{usable} usable levels, a claim needs {FEWEST_LEVELS}")
+            }
+            Self::Oscillatory => oscillation(levels),
+            Self::Divergent { from, to } => {
+                let (from, to) = (place(&levels[*from], axis), place(&levels[*to], axis));
+                format!("the error grows from {from} to {to}")
+            }
+            Self::Floor { from } => floor(&levels[*from..], axis),
+            Self::Wide => "the order has not settled".into(),
+            Self::Drift { change } => {
+                format!("the order drifts by {change:.3} along the window")
+            }
+            Self::Against { verdict, range } => against(*verdict, *range),
+        }
+    }
+}
+
+/// `order 2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`
+fn order_over(levels: &[Level], axis: Axis, points: &[Point], line: &Line) -> String {
+    let ends = [points.first(), points.last()];
+    let [coarse, fine] = ends.map(|p| p.map_or(f64::NAN, |p| levels[p.level].h));
+    let (order, count) = (order(&line.order()), points.len());
+    let (coarse, fine) = (figures(coarse), figures(fine));
+    format!("order {order} over {count} levels, {} = {coarse} ... {fine}", axis.symbol())
+}
+
+/// `0.25 at h = 0.5`
+fn place(level: &Level, axis: Axis) -> String {
+    format!("{} at {} = {}", figures(level.error), axis.symbol(), figures(level.h))
+}
+
+fn oscillation(levels: &[Level]) -> String {
+    let usable = levels.iter().filter(|level| level.usable);
+    let errors: Vec<String> = usable.map(|level| figures(level.error)).collect();
+    format!("the error goes up and down without a trend: {}", errors.join(", "))
+}
+
+/// What the errors do from the first level of the floor on.
+fn floor(levels: &[Level], axis: Axis) -> String {
+    let errors = || levels.iter().filter(|level| level.usable).map(|level| level.error);
+    let low = errors().fold(f64::INFINITY, f64::min);
+    let high = errors().fold(0.0, f64::max);
+    let h = levels.first().map_or(f64::NAN, |level| level.h);
+    let name = axis.symbol();
+    let (h, low, high) = (figures(h), figures(low), figures(high));
+    if low == high {
+        format!("the error stays at {low} from {name} = {h} on")
+    } else {
+        format!("the error stays between {low} and {high} from {name} = {h} on")
+    }
+}
+
+fn against(verdict: Verdict, (low, high): (f64, f64)) -> String {
+    let (low, high) = (figures(low), figures(high));
+    match verdict {
+        Verdict::Converging => format!("within the expected [{low}, {high}]"),
+        Verdict::TooGood => format!("above the expected [{low}, {high}]"),
+        Verdict::TooLow => format!("below the expected [{low}, {high}]"),
+        _ => format!("but the interval sticks out of the expected [{low}, {high}]"),
+    }
+}
