@@ -12,7 +12,10 @@ mod random;
 mod yardstick;
 
 use mpm_verify::{
-    mpm::{Affine, BasisName, Grid, Kernel, Maps, Matrix, Particles, Shown, Takes, Vector, kernel},
+    mpm::{
+        Affine, BasisName, G2pRequest, Grid, Kernel, Matrix, P2gRequest, ParticleField, Particles,
+        Vector, kernel,
+    },
     verify::Timing,
 };
 use one_thread::one_thread;
@@ -115,8 +118,8 @@ macro_rules! apic {
         let (mut mass, mut momentum) = (vec![0.0; grid.nodes()], vec![[0.0; D]; grid.nodes()]);
         let mut plain = || $plain::p2g(H, n, &x, &v, &rows_of_b, &m, &mut mass, &mut momentum);
         let mut ours = || {
-            let shown = Shown { v: &particles.v, affine: Some(Affine::Moment(&b)) };
-            let maps = Maps { mass: true, momentum: Some(shown), force: None };
+            let shown = ParticleField { v: &particles.v, affine: Some(Affine::Moment(&b)) };
+            let maps = P2gRequest { mass: true, momentum: Some(shown), force: None };
             kernel.p2g(black_box(&particles), &maps, &mut grid);
         };
         plain();
@@ -133,7 +136,7 @@ macro_rules! apic {
         let mut plain = || $plain::g2p(H, n, &x, &velocity, &mut new_v, &mut new_b);
         let mut ours = || {
             let (mix, value, moment) = (Some((0.0, 1.0)), Some(&mut *ours_v), Some(&mut *b));
-            let takes = Takes { mix, value, moment, ..Takes::default() };
+            let takes = G2pRequest { mix, value, moment, ..G2pRequest::default() };
             kernel.g2p_all(black_box(&grid), &particles, takes);
         };
         plain();
@@ -153,8 +156,8 @@ fn flip(count: f64) {
     let (mut mass, mut momentum) = (vec![0.0; grid.nodes()], vec![0.0; grid.nodes()]);
     let mut plain = || linear_1d::p2g(H, &x, &v, &m, &mut mass, &mut momentum);
     let mut ours = || {
-        let shown = Shown { v: &particles.v, affine: None };
-        let maps = Maps { mass: true, momentum: Some(shown), force: None };
+        let shown = ParticleField { v: &particles.v, affine: None };
+        let maps = P2gRequest { mass: true, momentum: Some(shown), force: None };
         kernel.p2g(black_box(&particles), &maps, &mut grid);
     };
     plain();
@@ -173,7 +176,7 @@ fn flip(count: f64) {
     let mut plain = || linear_1d::g2p((H, 0.125), &x, fields, &mut new_v, &mut carried);
     let mut ours = || {
         let (value, carried) = (Some(&mut *ours_v), Some((0.125, &mut *ours_carried)));
-        let takes = Takes { change: Some(0.125), value, carried, ..Takes::default() };
+        let takes = G2pRequest { change: Some(0.125), value, carried, ..G2pRequest::default() };
         kernel.g2p_all(black_box(&grid), &particles, takes);
     };
     plain();

@@ -13,8 +13,8 @@ use mpm_verify::{
     fem,
     fem::{Bar, Element, Mass, Sampling},
     mpm::{
-        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Conductor, Damping, Driven,
-        EffectName, Fixed, Friction, Gravity, Grid, Heat, LocalDamping, MaterialPlan, Matrix,
+        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Driven, EffectName,
+        Fixed, Friction, Gravity, Grid, Heat, HeatSolver, LocalDamping, MaterialPlan, Matrix,
         Particles, Placement, Prescribed, Pressure, Roller, ScalarField, SchemeName, SetForce,
         Setup, Side, Solver, Thermal, ThermalExpansion, ThermalFace, Traction, TransferName,
         Vector, VelocityField,
@@ -270,7 +270,7 @@ fn conductor_holds_its_memory<const D: usize>() {
         let Setup { kernel, grid, mut particles, .. } =
             free_body::<D>((basis, TransferName::Flip), SchemeName::Musl);
         let heat = heat(&mut particles, (&grid, basis));
-        let mut body = Conductor::new(kernel, grid, particles, vec![Box::new(heat)]).unwrap();
+        let mut body = HeatSolver::new(kernel, grid, particles, vec![Box::new(heat)]).unwrap();
         holds_its_memory(&format!("{D}-D {basis:?}"), &mut body, DT);
     }
 }

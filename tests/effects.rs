@@ -12,14 +12,14 @@ use common::{DT, H, free_body, in_dimension, methods};
 use interrupted::goes_on;
 use mpm_verify::{
     mpm::{
-        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Conductor, Counted, Damping,
-        Driven, Effect, EffectName, Fixed, Friction, Gravity, Grid, Heat, HeatSource, LocalDamping,
-        NeoHookean, Particles, Placement, Prescribed, Pressure, Roller, SchemeName, SetForce,
-        Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
+        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Driven,
+        Effect, EffectName, Fixed, Friction, Gravity, Grid, Heat, HeatSolver, HeatSource,
+        LocalDamping, NeoHookean, Particles, Placement, Prescribed, Pressure, Roller, SchemeName,
+        SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
     },
     study::describe::profiles,
     subject::{Column, Holder, Profile, Subject},
-    suite::{Hold, StudyPlan, Suite, embedded},
+    suite::{BoundaryCondition, StudyPlan, Suite, embedded},
 };
 use rstest::rstest;
 use std::sync::Arc;
@@ -231,11 +231,11 @@ fn lists(suite: &str, effect: EffectName) -> bool {
 fn has_wall(suite: &str, name: &str) -> bool {
     let StudyPlan::Convergence(plan) = load(suite).study else { return false };
     plan.scene.faces.iter().any(|face| match face.hold {
-        Hold::Free | Hold::Periodic | Hold::AtRest => false,
-        Hold::Fixed => name == "fixed",
-        Hold::Roller => name == "roller",
-        Hold::Velocity(_) => name == "velocity",
-        Hold::Friction(_) => name == "friction",
+        BoundaryCondition::Free | BoundaryCondition::Periodic | BoundaryCondition::AtRest => false,
+        BoundaryCondition::Fixed => name == "fixed",
+        BoundaryCondition::Roller => name == "roller",
+        BoundaryCondition::Velocity(_) => name == "velocity",
+        BoundaryCondition::Friction(_) => name == "friction",
     })
 }
 
@@ -374,7 +374,7 @@ fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
         let heat =
             Heat::new((0.1, 1.0), &mut particles, |x| (libm::sin(9.0 * x[0]), Vector::zeros()));
         let source: HeatSource<2> = Box::new(|t, _, into| into.fill(t));
-        Conductor::new(kernel, grid, particles, vec![Box::new(heat.with_source(source))]).unwrap()
+        HeatSolver::new(kernel, grid, particles, vec![Box::new(heat.with_source(source))]).unwrap()
     };
     assert!(goes_on(make, DT, "heat alone"));
 }
@@ -396,7 +396,7 @@ fn the_passes_of_a_step_make_up_its_transfers() {
         tally.take();
         (0..3).for_each(|_| solver.step(DT).unwrap());
         let visited: u64 = tally.take().iter().map(|(_, visited)| visited).sum();
-        assert_eq!(visited * support, solver.census().transfers, "{method:?}");
+        assert_eq!(visited * support, solver.counters().transfers, "{method:?}");
     }
 }
 

@@ -5,13 +5,13 @@ use mpm_verify::{
     report::drift,
     study::Runner,
     suite::{Suite, embedded, yaml::Source},
-    verify::{Claim, Level, Norms, Verdict, judge},
+    verify::{Level, Norms, OrderHypothesis, Verdict, judge},
 };
 use rstest::rstest;
 
 const H: [f64; 5] = [0.16, 0.08, 0.04, 0.02, 0.01];
 
-fn verdict(errors: &[f64], claim: Claim) -> Verdict {
+fn verdict(errors: &[f64], claim: OrderHypothesis) -> Verdict {
     let levels: Vec<Level> = H.iter().zip(errors).map(|(h, e)| Level::new(*h, *e)).collect();
     judge(&levels, &claim).verdict
 }
@@ -41,7 +41,7 @@ fn unmet(expect: &str) -> Vec<String> {
 #[test]
 fn p01_a_growing_error_is_divergent_and_its_order_negative() {
     let levels: Vec<Level> = H.iter().zip(power(-2.0)).map(|(h, e)| Level::new(*h, e)).collect();
-    let found = judge(&levels, &Claim::formal(2.0));
+    let found = judge(&levels, &OrderHypothesis::formal(2.0));
     assert_eq!(found.verdict, Verdict::Divergent);
     assert!(found.order.is_some_and(|order| order.value < 0.0));
     assert!(found.pairwise.iter().flatten().all(|order| *order < 0.0));
@@ -54,7 +54,11 @@ fn p02_what_is_not_finite_fails(#[case] bad: f64) {
     for place in 0..H.len() {
         let mut errors = power(2.0);
         errors[place] = bad;
-        assert_eq!(verdict(&errors, Claim::formal(2.0)), Verdict::Failed, "at level {place}");
+        assert_eq!(
+            verdict(&errors, OrderHypothesis::formal(2.0)),
+            Verdict::Failed,
+            "at level {place}"
+        );
     }
 }
 
@@ -68,14 +72,14 @@ fn p03_p09_the_order_of_this_run_is_judged_and_no_stored_one() {
 
 #[test]
 fn p04_an_order_of_sixty_is_too_good() {
-    assert_eq!(verdict(&power(60.0), Claim::formal(2.0)), Verdict::TooGood);
+    assert_eq!(verdict(&power(60.0), OrderHypothesis::formal(2.0)), Verdict::TooGood);
 }
 
 #[test]
 fn p05_the_true_ratio_of_h_is_used() {
     let h = [5.0, 2.5, 1.25, 0.625, 5.0 / 12.0, 0.3125];
     let levels: Vec<Level> = h.iter().map(|h| Level::new(*h, h * h)).collect();
-    let found = judge(&levels, &Claim::formal(2.0));
+    let found = judge(&levels, &OrderHypothesis::formal(2.0));
     assert_eq!(found.verdict, Verdict::Converging);
     assert!(found.pairwise.iter().flatten().all(|order| (order - 2.0).abs() <= 1e-12));
 }
@@ -94,15 +98,15 @@ fn p06_an_all_zero_field_does_not_pass() {
     let zero = text
         .replace(r#"["v0/omega*sin(pi*X/(2*L))*sin(omega*t)"]"#, r#"["0*v0*omega"]"#)
         .replace(r#"["v0*sin(pi*X/(2*L))"]"#, "[0]");
-    let complaint = load(&zero).expect_err("a solution that is zero proves nothing");
-    assert!(complaint.contains("not zero everywhere"), "{complaint}");
+    let diagnostic = load(&zero).expect_err("a solution that is zero proves nothing");
+    assert!(diagnostic.contains("not zero everywhere"), "{diagnostic}");
 }
 
 #[test]
 fn p07_points_between_the_ends_count() {
     let mut errors = power(2.0);
     errors[2] *= 5.0;
-    assert_ne!(verdict(&errors, Claim::formal(2.0)), Verdict::Converging);
+    assert_ne!(verdict(&errors, OrderHypothesis::formal(2.0)), Verdict::Converging);
 }
 
 /// For any three errors the order fitted to them makes the asymptotic-range ratio one. Here the
@@ -115,7 +119,7 @@ fn p08_no_ratio_that_is_one_by_construction() {
     let ratio =
         index(errors[2], errors[3]) / (libm::pow(2.0, fitted) * index(errors[3], errors[4]));
     assert!((ratio - 1.0).abs() <= 1e-12, "one by construction");
-    assert_eq!(verdict(&errors, Claim::formal(2.0)), Verdict::TooLow);
+    assert_eq!(verdict(&errors, OrderHypothesis::formal(2.0)), Verdict::TooLow);
 }
 
 #[test]
@@ -127,7 +131,7 @@ fn p10_the_confidence_interval_follows_the_scatter() {
             .zip(signs)
             .map(|(h, sign)| Level::new(*h, h * h * libm::exp(sign * scatter)))
             .collect();
-        judge(&levels, &Claim::formal(2.0)).order.map(|order| order.high - order.low)
+        judge(&levels, &OrderHypothesis::formal(2.0)).order.map(|order| order.high - order.low)
     };
     let (narrow, wide) = (width(0.01).unwrap(), width(0.05).unwrap());
     assert!((wide / narrow - 5.0).abs() <= 1e-6, "{narrow} {wide}");
@@ -149,8 +153,8 @@ fn p11_every_suite_of_the_repository_is_sound_and_runs() {
 #[test]
 fn p12_a_method_that_does_not_exist_is_refused() {
     let text = include_str!("../verification/vibrating-bar-small-amplitude.yaml");
-    let complaint = load(&text.replace("basis: linear", "basis: quintic")).unwrap_err();
-    assert!(complaint.contains("quintic"), "{complaint}");
+    let diagnostic = load(&text.replace("basis: linear", "basis: quintic")).unwrap_err();
+    assert!(diagnostic.contains("quintic"), "{diagnostic}");
 }
 
 #[rstest]
@@ -162,8 +166,8 @@ fn p13_a_force_that_is_missing_or_has_the_wrong_sign_is_found(
 ) {
     let text = include_str!("../verification/fem-oedometer.yaml");
     assert!(text.contains(right));
-    let complaint = load(&text.replace(right, wrong)).unwrap_err();
-    assert!(complaint.contains("equation of motion"), "{complaint}");
+    let diagnostic = load(&text.replace(right, wrong)).unwrap_err();
+    assert!(diagnostic.contains("equation of motion"), "{diagnostic}");
 }
 
 #[test]

@@ -56,7 +56,7 @@ fn step<const D: usize>(bencher: &mut Bencher, id: &str, scene: Scene) {
     let (method, grid, particles) = Method::<D>::new(scene.method, scene.order, scene.count);
     let mut solver = checked_solver(id, DT, method, grid, particles);
     bencher.iter(|| solver.step(black_box(DT)).expect("a later step succeeds"));
-    assert_eq!(solver.census().crossings, Some(0), "{id}: the order of particles must last");
+    assert_eq!(solver.counters().crossings, Some(0), "{id}: the order of particles must last");
 }
 
 fn bench<const D: usize>(criterion: &mut Criterion, scene: Scene, threads: &[usize]) {

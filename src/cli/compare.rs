@@ -10,7 +10,7 @@ use mpm_verify::{
         compare,
         compare::{Document, Unreadable},
     },
-    suite::yaml::Complaint,
+    suite::yaml::Diagnostic,
 };
 use std::{fs, ops::Range, path::Path};
 
@@ -25,8 +25,8 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
     let (old, new) = match (document(&args.old), document(&args.new)) {
         (Ok(old), Ok(new)) => (old, new),
         (old, new) => {
-            for complaint in [old.err(), new.err()].into_iter().flatten() {
-                output::complain(&complaint.to_string());
+            for diagnostic in [old.err(), new.err()].into_iter().flatten() {
+                output::complain(&diagnostic.to_string());
             }
             return BAD_INPUT;
         }
@@ -39,20 +39,20 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
     if found.is_worse() { FAILED } else { PASSED }
 }
 
-fn document(path: &Path) -> Result<Document, Complaint> {
+fn document(path: &Path) -> Result<Document, Diagnostic> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|error| {
         let message = format!("this file cannot be read: {error}");
-        Complaint::about(&file, &message)
+        Diagnostic::about(&file, &message)
     })?;
     Document::read(&text).map_err(|unreadable| {
         let Unreadable { message, place } = unreadable;
-        let complaint = match place {
-            Some(place) => Complaint::at(&file, &text, bytes(&text, place), &message),
-            None => Complaint::about(&file, &message),
+        let diagnostic = match place {
+            Some(place) => Diagnostic::at(&file, &text, bytes(&text, place), &message),
+            None => Diagnostic::about(&file, &message),
         };
         let help = "expected the document that `mpm-verify run --format json` prints";
-        complaint.with_help(help)
+        diagnostic.with_help(help)
     })
 }
 

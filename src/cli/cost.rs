@@ -10,7 +10,7 @@ use mpm_verify::{
     report,
     study::cost::{Over, bid, price, variants},
     suite::{Extent, StudyPlan, Suite},
-    verify::{Bid, Priced},
+    verify::{Bid, TimedSuite},
 };
 use std::{fs, path::Path};
 
@@ -29,8 +29,8 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
         Some(budget) => bids(&suites, budget, args),
         None => prices(&suites, args),
     };
-    for complaint in refused.iter().filter_map(|refused| refused.as_ref().err()) {
-        output::complain(&complaint.to_string());
+    for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
+        output::complain(&diagnostic.to_string());
     }
     if refused.is_empty() { found } else { BAD_INPUT }
 }
@@ -62,7 +62,7 @@ fn bids(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
 /// Errors and seconds of every level of each convergence suite; others have no error to pay for.
 fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
     let over: Vec<Over> = args.over.iter().map(|what| varied(*what)).collect();
-    let mut all: Vec<Priced> = Vec::new();
+    let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = PASSED;
     for suite in suites.iter().filter(|suite| matches!(suite.study, StudyPlan::Convergence(_))) {
         let priced = one(suite, &over, args);
@@ -81,7 +81,7 @@ fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
     code
 }
 
-fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> Priced {
+fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> TimedSuite {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let variants = variants(suite, over);
     let levels: usize = std::iter::once(suite)
@@ -112,7 +112,7 @@ fn varied(what: Vary) -> Over {
     }
 }
 
-fn draw(folder: &Path, priced: &Priced) -> Result<(), String> {
+fn draw(folder: &Path, priced: &TimedSuite) -> Result<(), String> {
     let (suite, title) = (&priced.outcome.suite, &priced.outcome.title);
     let seconds = "seconds of the steps, one thread";
     let transfers = "particle-node transfers";

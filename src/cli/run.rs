@@ -8,7 +8,7 @@ use super::{
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
-    study::{Kept, Runner},
+    study::{ResultCache, Runner},
     suite::{Extent, Suite, yaml::Source},
     verify::SuiteOutcome,
 };
@@ -64,15 +64,15 @@ pub(super) fn run(args: &RunArgs) -> u8 {
     let show = |file| page::write(file, &sources, &outcomes, refused.len());
     let shown = args.html.as_deref().map_or(Ok(()), show);
     let written = written.and(shown);
-    for complaint in refused.iter().filter_map(|refused| refused.as_ref().err()) {
-        output::complain(&complaint.to_string());
+    for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
+        output::complain(&diagnostic.to_string());
     }
     if let Err(message) = &written {
         output::complain(message);
     }
-    let unkept = kept.as_ref().and_then(Kept::complaint);
-    if let Some(complaint) = &unkept {
-        output::complain(&format!("error: --resume {complaint}"));
+    let unkept = kept.as_ref().and_then(ResultCache::diagnostic);
+    if let Some(diagnostic) = &unkept {
+        output::complain(&format!("error: --resume {diagnostic}"));
     }
     if !refused.is_empty() || written.is_err() || unkept.is_some() {
         BAD_INPUT
@@ -107,14 +107,19 @@ fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
     bar
 }
 
-fn one(suite: &Suite, args: &RunArgs, kept: Option<&Kept>, bar: &ProgressBar) -> SuiteOutcome {
+fn one(
+    suite: &Suite,
+    args: &RunArgs,
+    kept: Option<&ResultCache>,
+    bar: &ProgressBar,
+) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
     let runner = Runner::over(suite, extent(args)).keeping(kept);
     for warning in runner.warnings() {
         bar.suspend(|| output::complain(&format!("warning: {warning}")));
     }
     let outcome = runner.run(&|| bar.inc(1));
-    for line in kept.map(Kept::take_told).unwrap_or_default() {
+    for line in kept.map(ResultCache::take_lines).unwrap_or_default() {
         bar.suspend(|| output::complain(&format!("note: {line}")));
     }
     if args.format == Format::Text && !args.brief {
@@ -129,8 +134,8 @@ fn prepare(folder: &Path) -> Result<(), String> {
 }
 
 /// Opens the folder of `--resume`.
-fn open(folder: &Path, args: &RunArgs) -> Result<Kept, String> {
-    let kept = Kept::open(folder)
+fn open(folder: &Path, args: &RunArgs) -> Result<ResultCache, String> {
+    let kept = ResultCache::open(folder)
         .map_err(|error| format!("error: --resume {}: {error}", folder.display()))?;
     let Some(every) = args.checkpoint_every else { return Ok(kept) };
     let every = Duration::try_from_secs_f64(every)

@@ -2,7 +2,7 @@
 
 use mpm_verify::suite::{
     Suite, embedded,
-    yaml::{Complaint, Source},
+    yaml::{Diagnostic, Source},
 };
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -13,12 +13,12 @@ const FOLDER: &str = "verification";
 /// The suites that `targets` name, each loaded or with the complaint that says why not.
 ///
 /// With no target: all of `verification/`, or the embedded suites where there is no such folder.
-pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Complaint>> {
+pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
 /// The same, each with the file that it came from.
-pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Complaint>> {
+pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
     } else {
@@ -29,7 +29,7 @@ pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), C
     sources.into_par_iter().map(|source| source.and_then(load)).collect()
 }
 
-type Sources = Vec<Result<Source, Complaint>>;
+type Sources = Vec<Result<Source, Diagnostic>>;
 
 fn everything() -> Sources {
     let folder = Path::new(FOLDER);
@@ -56,14 +56,14 @@ fn sources(target: &Path) -> Sources {
     vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))]
 }
 
-fn unknown(name: &str) -> Complaint {
-    let complaint = Complaint::about(name, &format!("there is no suite called `{name}`"));
+fn unknown(name: &str) -> Diagnostic {
+    let diagnostic = Diagnostic::about(name, &format!("there is no suite called `{name}`"));
     let near = |known: &&str| strsim::jaro_winkler(known, name) > 0.8;
     if let Some(known) = embedded::names().find(near) {
-        return complaint.with_help(&format!("did you mean `{known}`?"));
+        return diagnostic.with_help(&format!("did you mean `{known}`?"));
     }
     let known = embedded::names().count();
-    complaint.with_help(&format!("`mpm-verify list` shows the {known} that are built in"))
+    diagnostic.with_help(&format!("`mpm-verify list` shows the {known} that are built in"))
 }
 
 /// Every `.yaml` file of a folder, sorted by name.
@@ -73,7 +73,7 @@ fn files_in(folder: &Path) -> Sources {
         Ok(entries) => entries,
         Err(error) => {
             let message = format!("this folder cannot be read: {error}");
-            return vec![Err(Complaint::about(&name, &message))];
+            return vec![Err(Diagnostic::about(&name, &message))];
         }
     };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -81,7 +81,7 @@ fn files_in(folder: &Path) -> Sources {
         paths.filter(|path| path.extension().is_some_and(|e| e == "yaml" || e == "yml")).collect();
     files.sort();
     if files.is_empty() {
-        return vec![Err(Complaint::about(&name, "this folder holds no suite (no .yaml file)"))];
+        return vec![Err(Diagnostic::about(&name, "this folder holds no suite (no .yaml file)"))];
     }
     files.into_iter().map(Source::read).collect()
 }

@@ -30,8 +30,8 @@ pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> u8 {
     for suite in select::suites(targets) {
         match suite {
             Ok(suite) => output::print(&page(&suite)),
-            Err(complaint) => {
-                output::complain(&complaint.to_string());
+            Err(diagnostic) => {
+                output::complain(&diagnostic.to_string());
                 code = BAD_INPUT;
             }
         }

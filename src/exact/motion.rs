@@ -1,7 +1,7 @@
 //! A motion given by formulas: displacement, velocity and every derivative that a check needs.
 
 use super::{
-    formula::{Formula, Hoisted, Jet, Several},
+    formula::{Formula, Hoisted, Jet, NumberBatch},
     truth::Truth,
 };
 
@@ -148,13 +148,13 @@ impl Truth for Motion {
 
     /// The same, some points at a time.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
-        for (labels, into) in labels.chunks(d * Several::LEN).zip(into.chunks_mut(d * Several::LEN))
+        for (labels, into) in labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
             // Lanes without a point of their own take that of the last.
             let last = labels.len() / d - 1;
-            let mut all = [Several::from(t); 4];
+            let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {
-                all[axis] = Several::new(|lane| labels[lane.min(last) * d + axis]);
+                all[axis] = NumberBatch::new(|lane| labels[lane.min(last) * d + axis]);
             }
             for (i, formula) in self.components.iter().enumerate() {
                 let u = formula.eval(&all[..=d]);

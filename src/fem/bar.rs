@@ -5,7 +5,7 @@ use super::{
     mesh::{Mesh, dot},
     setup::{Field, Setup, SetupError},
 };
-use crate::subject::{Census, Checkpoint, Failure, Samples, Site, Start, Subject};
+use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
 /// A bar, discretised by finite elements, at some instant.
 pub struct Bar {
@@ -208,8 +208,8 @@ impl Subject for Bar {
         self.sample_as(self.setup.sampling, samples);
     }
 
-    fn census(&self) -> Census {
-        Census {
+    fn counters(&self) -> RunCounters {
+        RunCounters {
             particles: None,
             transfers: self.transfers,
             crossings: None,

@@ -1,14 +1,14 @@
 //! A body at rest in which heat flows: no stage of mechanics, and no column of it.
 
 use super::{
-    analysis::cell_tracker::Whereabouts, basis::Domain, effect::Effect, grid::Grid,
+    analysis::cell_tracker::CellTracker, basis::Domain, effect::Effect, grid::Grid,
     kernel::contract::Kernel, particles::Particles,
 };
-use crate::subject::{Census, Checkpoint, Failure, Profile, Samples, Subject};
+use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject};
 
 /// A body at rest with the effects that advance what they keep: the masses of the grid are taken
 /// once, and a step is what the effects make of it.
-pub struct Conductor<const D: usize> {
+pub struct HeatSolver<const D: usize> {
     grid: Grid<D>,
     particles: Particles<D>,
     kernel: Box<dyn Kernel<D>>,
@@ -17,7 +17,7 @@ pub struct Conductor<const D: usize> {
     transfers: u64,
 }
 
-impl<const D: usize> Conductor<D> {
+impl<const D: usize> HeatSolver<D> {
     /// A body at t = 0.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl<const D: usize> Conductor<D> {
         effects: Vec<Box<dyn Effect<D>>>,
     ) -> Result<Self, Failure> {
         particles.all_finite()?;
-        Whereabouts::new(&grid, &particles)?;
+        CellTracker::new(&grid, &particles)?;
         if kernel.domain() == Domain::Follows {
             particles.track_domains();
         }
@@ -57,7 +57,7 @@ impl<const D: usize> Conductor<D> {
     }
 }
 
-impl<const D: usize> Subject for Conductor<D> {
+impl<const D: usize> Subject for HeatSolver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let Self { grid, particles, kernel, effects, .. } = self;
         for effect in effects {
@@ -73,8 +73,8 @@ impl<const D: usize> Subject for Conductor<D> {
         self.particles.sample(samples);
     }
 
-    fn census(&self) -> Census {
-        Census {
+    fn counters(&self) -> RunCounters {
+        RunCounters {
             particles: Some(self.particles.len() as u64),
             transfers: self.transfers,
             crossings: Some(0),

@@ -53,15 +53,15 @@ pub use effect::{
 };
 pub use frame::FrameName;
 pub use grid::Grid;
-pub use heat_solver::Conductor;
-pub use kernel::contract::{Affine, Divergence, Kernel, Maps, Shown, Takes};
+pub use heat_solver::HeatSolver;
+pub use kernel::contract::{Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField};
 pub use kernel::counting::{Counted, Tally};
 pub use kernel::kernel;
 pub use kernel::moments::Moments;
 pub use kernel::scalar_contract::Scalars;
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
-    Hencky, J2, LinearElastic, Material, MaterialPlan, MaterialWords, NeoHookean, Newtonian,
+    Hencky, J2, LinearElastic, Material, MaterialPlan, MaterialSpec, NeoHookean, Newtonian,
     Parameter, Range, Rigid,
 };
 pub use multibody::Bodies;

@@ -2,7 +2,7 @@
 
 use super::{
     algebra::Vector,
-    analysis::cell_tracker::Whereabouts,
+    analysis::cell_tracker::CellTracker,
     basis::Domain,
     boundary::Advance,
     frame::FrameName,
@@ -28,7 +28,7 @@ pub struct Solver<const D: usize> {
     pub(super) frozen: bool,
     pub(super) transfers: u64,
     pub(super) min_j: f64,
-    pub(super) whereabouts: Whereabouts<D>,
+    pub(super) whereabouts: CellTracker<D>,
     /// Where the grid carries each particle (m), from the visit that asks for it until positions move.
     pub(super) carried: Vec<Vector<D>>,
     pub(super) visited: Visited,
@@ -54,7 +54,7 @@ impl<const D: usize> Solver<D> {
         if setup.frame == FrameName::Total {
             setup.particles.stay_in_reference();
         }
-        let whereabouts = Whereabouts::new(&setup.grid, &setup.particles)?;
+        let whereabouts = CellTracker::new(&setup.grid, &setup.particles)?;
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
         let (time, stands, started, frozen, transfers) = (0.0, 0.0, false, false, 0);

@@ -1,7 +1,7 @@
 //! Steps: the stages in their order, and how a run starts.
 
 use super::{setup::Setup, solver::Solver, stage::Stage};
-use crate::subject::{Census, Checkpoint, Failure, Samples, Start, Subject, Totals};
+use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Start, Subject, Totals};
 
 impl<const D: usize> Solver<D> {
     fn run_all(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
@@ -84,8 +84,8 @@ impl<const D: usize> Subject for Solver<D> {
         Some(Self::null_space_energy(self))
     }
 
-    fn census(&self) -> Census {
-        Census {
+    fn counters(&self) -> RunCounters {
+        RunCounters {
             particles: Some(self.setup.particles.len() as u64),
             transfers: self.transfers,
             crossings: Some(self.whereabouts.crossings),

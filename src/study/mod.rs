@@ -18,5 +18,5 @@ pub mod describe;
 pub(crate) mod internal_force;
 pub(crate) mod stability;
 
-pub use cache::results::Kept;
+pub use cache::results::ResultCache;
 pub use convergence::runner::{Progress, Runner};

@@ -28,7 +28,7 @@ pub trait Subject {
     fn sample(&self, samples: &mut Samples);
 
     /// What the run has cost and met so far.
-    fn census(&self) -> Census;
+    fn counters(&self) -> RunCounters;
 
     /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
     fn totals(&self) -> Option<Totals> {
@@ -131,7 +131,7 @@ impl Samples {
 /// Deterministic figures of a run: what it cost, and what a reader must know beside an error.
 /// `None` where the subject has no such thing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Census {
+pub struct RunCounters {
     /// Particles (MPM).
     pub particles: Option<u64>,
     /// Particle-node pairs visited by P2G and G2P so far; for FEM, pairs of quadrature point and

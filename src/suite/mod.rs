@@ -15,7 +15,7 @@ pub(crate) mod grammar;
 pub(crate) mod model;
 pub mod yaml;
 
-pub use compile::scene::boundary::Hold;
+pub use compile::scene::boundary::BoundaryCondition;
 pub use grammar::{CrossingLevels, EquationName, NormName};
 pub use model::heat::SceneHeat;
 pub use model::method::Method;

@@ -3,9 +3,9 @@
 //! | module | holds |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
-//! | [`keeper`](Keeper) | a run that is interrupted and goes on |
+//! | [`keeper`](CheckpointStore) | a run that is interrupted and goes on |
 //! | [`conservation`](Drift) | what a free motion keeps, watched over a run |
-//! | [`level`](Level), [`claim`](Claim) | what is judged, and against what |
+//! | [`level`](Level), [`claim`](OrderHypothesis) | what is judged, and against what |
 //! | [`axis`](Axis) | which spacing is refined |
 //! | [`pairwise`](observed_order) | the order between two levels |
 //! | [`fit`](Interval), [`student`](two_sided_95) | the order by regression, with its confidence interval |
@@ -36,12 +36,12 @@ pub(crate) mod verdict;
 
 pub use conservation::{Conserved, Drift};
 pub use cost::{
-    Agreement, Bid, Contender, End, Exponent, Load, Machine, Model, Part, Priced, Ranked, Ranking,
-    Reach, TARGETS, Timing, Tried, pareto_front, rankings,
+    Agreement, Bid, End, Exponent, Load, Machine, MethodCost, Model, Part, Ranked, Ranking, Reach,
+    Sample, TARGETS, TimedSuite, Timing, pareto_front, rankings,
 };
-pub use error::checkpoint_store::{Keeper, Nobody};
+pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub use error::clock::{Clock, MOST_STEPS};
-pub use error::error_scale::{Yardstick, largest_exact};
+pub use error::error_scale::{ErrorScale, largest_exact};
 pub use error::norm::Norms;
 pub(crate) use error::norm::larger;
 pub use error::observer::{History, displacement_at};
@@ -52,7 +52,7 @@ pub use expectation::limits::{Limits, Measured};
 pub use expectation::{Bounds, Expectation, Seen};
 pub use order::axis::Axis;
 pub use order::fit::Interval;
-pub use order::hypothesis::Claim;
+pub use order::hypothesis::OrderHypothesis;
 pub use order::level::Level;
 pub use order::pairwise::observed_order;
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};

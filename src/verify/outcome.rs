@@ -2,7 +2,7 @@
 
 use super::{
     conservation::Conserved,
-    error::{error_scale::Yardstick, observer::History, quantity::Quantity, run_result::Run},
+    error::{error_scale::ErrorScale, observer::History, quantity::Quantity, run_result::Run},
     order::{axis::Axis, format_number::figures, richardson::Richardson},
     stability::StabilityStudy,
     verdict::{floor::Floor, judge::Judgement, name::Verdict},
@@ -79,7 +79,7 @@ pub struct Convergence {
     /// What it was divided by, if anything.
     pub scale: Option<f64>,
     /// What makes its errors and its work comparable with those of other cases.
-    pub yardstick: Yardstick,
+    pub yardstick: ErrorScale,
     /// Whether there is a truth that errors are taken against.
     pub compared: bool,
     /// Whether bounds on figures are all that binds the case: then no order is asked for, and

@@ -13,8 +13,8 @@ const VISCOUS: &str = include_str!("../../verification/artificial-viscosity-line
 #[test]
 fn sound() {
     for text in [IMPACT, DISKS, HALVES, VISCOUS] {
-        if let Err(complaint) = load(text) {
-            panic!("{complaint}");
+        if let Err(diagnostic) = load(text) {
+            panic!("{diagnostic}");
         }
     }
 }

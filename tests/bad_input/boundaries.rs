@@ -101,8 +101,8 @@ fn edited(sound: &str, edits: Edits<'_>) -> String {
 #[case::a_plate_on_rollers(PLATE, &[("{left: fixed}", "{left: roller, bottom: roller, top: roller}")])]
 #[case::a_plate_without_ends_across(PLATE, &[("{left: fixed}", "{left: fixed, bottom: periodic, top: periodic}")])]
 fn sound(#[case] text: &str, #[case] edits: Edits<'_>) {
-    if let Err(complaint) = load(&edited(text, edits)) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = load(&edited(text, edits)) {
+        panic!("{diagnostic}");
     }
 }
 
@@ -268,8 +268,8 @@ fn a_driven_end_has_the_velocity_of_the_motion() {
 fn a_force_on_a_set_enters_the_equation_of_motion() {
     let column = include_str!("../../verification/fem-oedometer.yaml");
     let right = edited(column, PUSHED);
-    if let Err(complaint) = load(&right) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = load(&right) {
+        panic!("{diagnostic}");
     }
     let half = right
         .replace("to: [2]}}}", "to: [0.5]}}}")

@@ -12,7 +12,7 @@ const STATE: &str = "equilibrium:\n  equation: hencky";
 
 #[test]
 fn without_a_mistake_the_column_is_sound() {
-    load(SETTLED).unwrap_or_else(|complaint| panic!("{complaint}"));
+    load(SETTLED).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
 }
 
 #[rstest]

@@ -23,7 +23,7 @@ const EXPANSION: &str = "    - thermal_expansion: {coefficient: alpha, reference
 #[test]
 fn without_a_mistake_the_samples_are_sound() {
     for text in [COOLED, PLATE, MOVING, HELD] {
-        load(text).unwrap_or_else(|complaint| panic!("{complaint}"));
+        load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
     }
 }
 

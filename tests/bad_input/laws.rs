@@ -12,7 +12,7 @@ const FLUID: &str = include_str!("../../verification/fluid-column.yaml");
 #[case(WAVE)]
 #[case(FLUID)]
 fn without_a_mistake_they_are_sound(#[case] text: &str) {
-    load(text).unwrap_or_else(|complaint| panic!("{complaint}"));
+    load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
 }
 
 #[rstest]

@@ -29,7 +29,7 @@ mod vortex;
 
 use mpm_verify::suite::{
     Suite,
-    yaml::{Complaint, Source},
+    yaml::{Diagnostic, Source},
 };
 use rstest::rstest;
 use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED, SWEPT};
@@ -40,7 +40,7 @@ const HERE: char = '▸';
 /// Pairs of what a sound suite says and what stands there instead.
 type Edits<'a> = &'a [(&'a str, &'a str)];
 
-fn load(text: &str) -> Result<Suite, Complaint> {
+fn load(text: &str) -> Result<Suite, Diagnostic> {
     Source::from_text("wrong.yaml", text).and_then(|source| Suite::load(&source))
 }
 
@@ -58,7 +58,7 @@ fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
     let shown = match load(&text) {
         Ok(_) => panic!("accepted:\n{text}"),
-        Err(complaint) => complaint.to_string(),
+        Err(diagnostic) => diagnostic.to_string(),
     };
     let excerpt = text.lines().nth(line - 1).expect("a line");
     points(&shown, line, column, excerpt);
@@ -92,8 +92,8 @@ fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
 #[case::force(FORCE)]
 #[case::swept(SWEPT)]
 fn without_a_mistake_the_samples_are_sound(#[case] text: &str) {
-    if let Err(complaint) = load(text) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = load(text) {
+        panic!("{diagnostic}");
     }
 }
 

@@ -77,7 +77,7 @@ fn a_plastic_bar_is_sound_with_a_reference_and_a_law() {
         .replace(EXACT, REFERENCE)
         .replace(ELASTIC, solid)
         .replace("mass: lumped}\n\njudge", "mass: lumped, law: hencky}\n\njudge");
-    if let Err(complaint) = load(&sound) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = load(&sound) {
+        panic!("{diagnostic}");
     }
 }

@@ -35,8 +35,8 @@ expect:
 
 #[test]
 fn a_stretched_ring_is_sound() {
-    if let Err(complaint) = load(STRETCHED) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = load(STRETCHED) {
+        panic!("{diagnostic}");
     }
 }
 

@@ -95,7 +95,7 @@ fn a_suite_of_one_level_that_only_bounds_is_sound() {
     let bounds = "    error_below: \"v0\"\n    error_above: 1e-9\n    drift: {mass: 1e-14}\n    observed_within: 1\n";
     let text = BAR.replace(EXPECTED, bounds).replace("cells: [6, 12]", "cells: 12");
     let text = text.replace("{norm: rms}", "{of: velocity, norm: max_linf, scale: v0}");
-    if let Err(complaint) = super::load(&text) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = super::load(&text) {
+        panic!("{diagnostic}");
     }
 }

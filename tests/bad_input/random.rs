@@ -38,8 +38,8 @@ proptest! {
         key in key(),
         kind in any::<u8>(),
     ) {
-        if let Err(complaint) = load(&slip(sound, at, key, kind)) {
-            prop_assert!(complaint.to_string().contains("wrong.yaml"));
+        if let Err(diagnostic) = load(&slip(sound, at, key, kind)) {
+            prop_assert!(diagnostic.to_string().contains("wrong.yaml"));
         }
     }
 
@@ -48,8 +48,8 @@ proptest! {
         let wrong = slips.into_iter().fold(BAR.to_owned(), |text, (at, key, kind)| {
             slip(&text, at, key, kind)
         });
-        if let Err(complaint) = load(&wrong) {
-            prop_assert!(complaint.to_string().contains("wrong.yaml"));
+        if let Err(diagnostic) = load(&wrong) {
+            prop_assert!(diagnostic.to_string().contains("wrong.yaml"));
         }
     }
 }

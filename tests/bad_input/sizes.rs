@@ -52,8 +52,11 @@ fn more_levels_than_a_list_may_have() {
 #[test]
 fn a_million_levels() {
     let text = BAR.replace("[6, 12]", &list("9", 1_000_000));
-    let complaint = super::load(&text).expect_err("too long");
-    assert_eq!(complaint.one_line(), "wrong.yaml: the file is too large: 1955 KiB, at most 64 KiB");
+    let diagnostic = super::load(&text).expect_err("too long");
+    assert_eq!(
+        diagnostic.one_line(),
+        "wrong.yaml: the file is too large: 1955 KiB, at most 64 KiB"
+    );
 }
 
 #[test]

@@ -101,8 +101,8 @@ fn a_pulled_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[test]
 fn a_bar_that_swings_a_hundred_times_is_sound() {
     let long = BAR.replace("until: 0.5, dt: 1e-3", "until: 1000, dt: 1e-2");
-    if let Err(complaint) = super::load(&long) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = super::load(&long) {
+        panic!("{diagnostic}");
     }
 }
 
@@ -173,8 +173,8 @@ fn a_force_is_manufactured_for_hencky_as_well(#[case] sound: &str, #[case] edits
         assert!(text.contains(right), "the suite does not say `{right}`");
         text = text.replacen(right, other, 1);
     }
-    if let Err(complaint) = super::load(&text) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = super::load(&text) {
+        panic!("{diagnostic}");
     }
 }
 /// The same motion with the force that it needs (for nu = 0), which the suite now states itself.
@@ -193,8 +193,8 @@ const FORCE: &str = "pi^2*u(X, t)/rho*E*(0.5*(1 + 1/f(X, t)^2) - 1)";
 
 #[test]
 fn a_stated_force_that_is_right_is_taken() {
-    if let Err(complaint) = super::load(&with_its_force(FORCE)) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = super::load(&with_its_force(FORCE)) {
+        panic!("{diagnostic}");
     }
 }
 

@@ -72,8 +72,8 @@ const PUBLISHED: &str = r#"  radial(r, a, s): "(stretch(r, s) - centripetal(r, s
 #[case::in_the_current_basis(CURRENT)]
 #[case::in_the_reference_basis(PUBLISHED)]
 fn the_right_force_is_taken(#[case] force: &str) {
-    if let Err(complaint) = load(&VORTEX.replace("FORCE", force)) {
-        panic!("{complaint}");
+    if let Err(diagnostic) = load(&VORTEX.replace("FORCE", force)) {
+        panic!("{diagnostic}");
     }
 }
 

@@ -22,8 +22,8 @@ fn state(subject: &mut impl Subject) -> Vec<u8> {
 fn seen(subject: &mut impl Subject) -> (Vec<u8>, Vec<u8>, Vec<u8>, String) {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
-    let (mut totals, census) = (subject.totals(), format!("{:?}", subject.census()));
-    (state(subject), written(&mut samples), written(&mut totals), census)
+    let (mut totals, counters) = (subject.totals(), format!("{:?}", subject.counters()));
+    (state(subject), written(&mut samples), written(&mut totals), counters)
 }
 
 /// A subject that takes its steps without a break, and one that is made anew for the rest of them, end

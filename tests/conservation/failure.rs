@@ -177,7 +177,7 @@ fn survives<const D: usize>(scheme: SchemeName, [x, v, sigma, dt]: [f64; 4]) {
     setup.particles.sigma[2].fill(sigma);
     let Ok(mut solver) = Solver::new(setup) else { return };
     let mut samples = Samples::default();
-    while solver.census().transfers < 1000 && solver.step(dt).is_ok() {
+    while solver.counters().transfers < 1000 && solver.step(dt).is_ok() {
         solver.sample(&mut samples);
         let seen = samples.displacement.iter().chain(&samples.velocity);
         assert!(seen.copied().all(f64::is_finite), "{D}-D {scheme:?}: {samples:?}");

@@ -33,7 +33,7 @@ fn momentum_is_kept<const D: usize>(scheme: SchemeName, start: Start) {
             let change = (momentum(solver.particles()) - before).norm() / size;
             assert!(change <= 1e-13, "{method:?} step {step}: relative change {change:.1e}");
         }
-        assert!(solver.census().crossings.unwrap() > 0, "{method:?}: particles change cells");
+        assert!(solver.counters().crossings.unwrap() > 0, "{method:?}: particles change cells");
     }
 }
 
@@ -94,7 +94,7 @@ fn translates<const D: usize>(scheme: SchemeName) {
             assert_abs_diff_eq!((x - x0 - path).norm(), 0.0, epsilon = 1e-13);
         }
         let particles = after.len() as u64;
-        let crossings = solver.census().crossings.unwrap();
+        let crossings = solver.counters().crossings.unwrap();
         assert!(crossings >= particles, "{method:?}: each particle changes its cell");
     }
 }

@@ -53,7 +53,7 @@ fn nothing_is_lost_around_the_corner<const D: usize>(scheme: SchemeName, start: 
         assert!((mass - body).abs() <= 1e-14 * body, "{method:?}");
         let change = (momentum(&solver) - before).norm() / before.norm();
         assert!(change <= 1e-13, "{method:?}: relative change {change:.1e}");
-        assert!(solver.census().crossings.unwrap() > 0, "{method:?}: particles change cells");
+        assert!(solver.counters().crossings.unwrap() > 0, "{method:?}: particles change cells");
     }
 }
 

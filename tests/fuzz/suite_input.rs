@@ -4,7 +4,7 @@ use mpm_verify::{
     study::Runner,
     suite::{
         Suite,
-        yaml::{Complaint, Source},
+        yaml::{Diagnostic, Source},
     },
 };
 
@@ -15,7 +15,7 @@ pub(crate) fn load(bytes: &[u8]) {
     let loaded = Source::from_text("suite.yaml", text).and_then(|source| Suite::load(&source));
     match loaded {
         Ok(suite) => state(&suite),
-        Err(complaint) => is_placed(&complaint),
+        Err(diagnostic) => is_placed(&diagnostic),
     }
 }
 
@@ -26,7 +26,7 @@ fn state(suite: &Suite) {
     assert!(!runner.outcome(Vec::new()).statement.is_empty(), "a suite that states nothing");
 }
 
-fn is_placed(complaint: &Complaint) {
-    let shown = complaint.to_string();
+fn is_placed(diagnostic: &Diagnostic) {
+    let shown = diagnostic.to_string();
     assert!(shown.contains("suite.yaml"), "a complaint about nothing: {shown}");
 }

@@ -64,8 +64,8 @@ fn trials(file: &Path) -> Vec<Trial> {
             let message = format!("{stem}.yaml calls itself `{}`: rename one of them", suite.name);
             vec![Trial::test(format!("{stem}::parse"), || Err(message.into()))]
         }
-        Err(complaint) => {
-            vec![Trial::test(format!("{stem}::parse"), move || Err(complaint.to_string().into()))]
+        Err(diagnostic) => {
+            vec![Trial::test(format!("{stem}::parse"), move || Err(diagnostic.to_string().into()))]
         }
     }
 }

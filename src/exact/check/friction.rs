@@ -40,12 +40,12 @@ pub(crate) fn at_wall(
         "Pa",
     )?;
 
-    let rub = Rub { traction, velocity: now.velocity, pressure, coefficient };
+    let rub = InterfaceTraction { traction, velocity: now.velocity, pressure, coefficient };
     coulomb(event, (axis, d), &rub, [allowed, tolerance * velocity], condition)
 }
 
 /// What passes between two surfaces at a point.
-pub(crate) struct Rub {
+pub(crate) struct InterfaceTraction {
     /// On the surface in question (Pa).
     pub(crate) traction: [f64; 3],
     /// Of that surface, relative to the other (m/s).
@@ -64,7 +64,7 @@ pub(crate) struct Rub {
 pub(crate) fn coulomb(
     event: &Event,
     (axis, d): (usize, usize),
-    rub: &Rub,
+    rub: &InterfaceTraction,
     [stress, velocity]: [f64; 2],
     condition: impl Fn(&str) -> String,
 ) -> Result<(), Violation> {

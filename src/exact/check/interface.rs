@@ -8,7 +8,7 @@
 //! inside, a billionth of its length from the face.
 
 use super::{
-    friction::{Rub, coulomb},
+    friction::{InterfaceTraction, coulomb},
     pointwise::{AXES, Event, POINTS, largest, scale},
 };
 use crate::exact::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
@@ -127,7 +127,7 @@ impl Pair<'_> {
             event.judge_most(allowed, name, (0.0, pressure), "Pa")?;
         }
         let relative = std::array::from_fn(|i| here.velocity[i] - there.velocity[i]);
-        let rub = Rub { traction, velocity: relative, pressure, coefficient };
+        let rub = InterfaceTraction { traction, velocity: relative, pressure, coefficient };
         let residuals = [allowed, tolerance * velocity];
         coulomb(&event, (axis, one.dimension()), &rub, residuals, |what| {
             self.condition(&format!("with friction, {what}"))

@@ -7,7 +7,7 @@
 //! 2. [`Formula::bind`] resolves every name against a [`Scope`] and a list of variables, puts the
 //!    bodies of user functions in place, folds what is constant and leaves a flat program.
 //! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
-//!    first and second derivatives along. [`Several`] does so at some places at once, and [`Hoisted`]
+//!    first and second derivatives along. [`NumberBatch`] does so at some places at once, and [`Hoisted`]
 //!    at many places and times, at less cost.
 //!
 //! # Language
@@ -73,6 +73,6 @@ pub use hoisted::Hoisted;
 pub use jet::Jet;
 pub use number::Number;
 pub use scope::Scope;
-pub use several::Several;
+pub use several::NumberBatch;
 pub use slope::Slope;
 pub use unary::Unary;

@@ -11,9 +11,9 @@ const MANY: usize = 8;
 /// of its instructions once for all, and the compiler does sums and products two at a time or more. The
 /// operations on each number, and so its bits, are those of `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Several([f64; MANY]);
+pub struct NumberBatch([f64; MANY]);
 
-impl Several {
+impl NumberBatch {
     /// How many.
     pub const LEN: usize = MANY;
 
@@ -26,7 +26,7 @@ impl Several {
     /// The number of one lane.
     ///
     /// # Panics
-    /// If `lane` is not below [`Several::LEN`].
+    /// If `lane` is not below [`NumberBatch::LEN`].
     #[inline]
     pub fn get(&self, lane: usize) -> f64 {
         self.0[lane]
@@ -38,14 +38,14 @@ impl Several {
     }
 }
 
-impl From<f64> for Several {
+impl From<f64> for NumberBatch {
     #[inline]
     fn from(value: f64) -> Self {
         Self([value; MANY])
     }
 }
 
-impl Neg for Several {
+impl Neg for NumberBatch {
     type Output = Self;
 
     #[inline]
@@ -54,7 +54,7 @@ impl Neg for Several {
     }
 }
 
-impl Add for Several {
+impl Add for NumberBatch {
     type Output = Self;
 
     #[inline]
@@ -63,7 +63,7 @@ impl Add for Several {
     }
 }
 
-impl Sub for Several {
+impl Sub for NumberBatch {
     type Output = Self;
 
     #[inline]
@@ -72,7 +72,7 @@ impl Sub for Several {
     }
 }
 
-impl Mul for Several {
+impl Mul for NumberBatch {
     type Output = Self;
 
     #[inline]
@@ -81,7 +81,7 @@ impl Mul for Several {
     }
 }
 
-impl Div for Several {
+impl Div for NumberBatch {
     type Output = Self;
 
     #[inline]
@@ -90,7 +90,7 @@ impl Div for Several {
     }
 }
 
-impl Number for Several {
+impl Number for NumberBatch {
     /// That of the first lane: what formulas branch on, the index of a sum, is the same in all.
     #[inline]
     fn value(&self) -> f64 {

@@ -43,7 +43,7 @@ fn a_uniform_stretch_stays(
     for (&x, &u) in bar.nodes().iter().zip(bar.nodal_displacements()) {
         assert_relative_eq!(u, stretched(x), epsilon = 1e-12);
     }
-    assert_relative_eq!(bar.census().min_j, STRETCH, epsilon = 1e-12);
+    assert_relative_eq!(bar.counters().min_j, STRETCH, epsilon = 1e-12);
 }
 
 /// A free bar under gravity falls as a whole, and needs no stress to do so.
@@ -93,7 +93,7 @@ fn samples_cover_the_bar(
 #[test]
 fn every_visit_is_counted() {
     let mut bar = Bar::new(bar_at_rest(2.0, 100.0, 1.0)).unwrap();
-    assert_eq!(bar.census().transfers, 32);
+    assert_eq!(bar.counters().transfers, 32);
     bar.step(1e-3).unwrap();
-    assert_eq!(bar.census().transfers, 32 + 64);
+    assert_eq!(bar.counters().transfers, 32 + 64);
 }

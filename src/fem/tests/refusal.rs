@@ -54,7 +54,7 @@ fn an_inversion_names_its_element_in_the_step_that_makes_it() {
     let failure = bar.step(0.1).unwrap_err();
     let Failure::Inverted { site: Site::Element(4), j } = failure else { panic!("{failure}") };
     assert!(j < 0.0);
-    assert!(bar.census().min_j <= j);
+    assert!(bar.counters().min_j <= j);
 }
 
 /// The first node is fixed, and the traction fails at the last one.

@@ -120,7 +120,7 @@ fn bits(bar: &Bar) -> (Vec<u64>, String) {
     let mut samples = Samples::default();
     bar.sample(&mut samples);
     let numbers = samples.displacement.iter().chain(&samples.velocity).map(|x| x.to_bits());
-    (numbers.collect(), format!("{:?} {}", bar.census(), bar.time()))
+    (numbers.collect(), format!("{:?} {}", bar.counters(), bar.time()))
 }
 
 #[rstest]

@@ -11,7 +11,7 @@ use crate::{
 
 /// The cells of all particles, with counters.
 #[derive(Debug)]
-pub(in crate::mpm) struct Whereabouts<const D: usize> {
+pub(in crate::mpm) struct CellTracker<const D: usize> {
     /// Index of the cell along each axis: whole numbers, as which they are compared fastest.
     cells: Vec<[f64; D]>,
     /// Changes of cell so far.
@@ -20,7 +20,7 @@ pub(in crate::mpm) struct Whereabouts<const D: usize> {
     pub(in crate::mpm) left_domain: u64,
 }
 
-impl<const D: usize> Whereabouts<D> {
+impl<const D: usize> CellTracker<D> {
     /// Finds the cells of particles that have not moved yet.
     ///
     /// # Errors
@@ -81,7 +81,7 @@ impl<const D: usize> Whereabouts<D> {
     }
 }
 
-impl<const D: usize> Memory for Whereabouts<D> {
+impl<const D: usize> Memory for CellTracker<D> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self { cells, crossings, left_domain } = self;
         checkpoint.visit(&mut cells[..]);
@@ -103,7 +103,7 @@ fn miss<'a, const D: usize>(
     first
 }
 
-/// Whether `holds` does for all of them: with no early way out, see [`Whereabouts::track`].
+/// Whether `holds` does for all of them: with no early way out, see [`CellTracker::track`].
 #[inline(always)]
 fn all<const D: usize>(x: &[Vector<D>], holds: impl Fn(&Vector<D>) -> bool) -> bool {
     x.iter().fold(true, |all, x| all & holds(x))

@@ -10,7 +10,7 @@
 use crate::mpm::{
     algebra::Vector,
     grid::Grid,
-    kernel::contract::{Kernel, Shown},
+    kernel::contract::{Kernel, ParticleField},
     particles::Particles,
     solver::Solver,
 };
@@ -39,7 +39,7 @@ fn null_part<const D: usize>(
 ) -> Vec<Vector<D>> {
     let masses = masses(kernel, grid, particles);
     let to_nodes = |v: &[Vector<D>], nodal: &mut [Vector<D>]| {
-        kernel.p2g_momentum(particles, Shown { v, affine: None }, grid, nodal);
+        kernel.p2g_momentum(particles, ParticleField { v, affine: None }, grid, nodal);
     };
     let mut rest = particles.v.clone();
     let mut momentum = vec![Vector::zeros(); grid.nodes()];
@@ -74,7 +74,7 @@ fn masses<const D: usize>(
 ) -> Vec<f64> {
     let ones = vec![Vector::from_element(1.0); particles.len()];
     let mut nodal = vec![Vector::zeros(); grid.nodes()];
-    kernel.p2g_momentum(particles, Shown { v: &ones, affine: None }, grid, &mut nodal);
+    kernel.p2g_momentum(particles, ParticleField { v: &ones, affine: None }, grid, &mut nodal);
     nodal.iter().map(|mass| mass[0]).collect()
 }
 
@@ -145,7 +145,7 @@ mod tests {
             assert!((0.1..0.95).contains(&lost), "{basis:?}: {lost}");
             // It gives no node any momentum,
             let mut nodal = vec![Vector::zeros(); grid.nodes()];
-            let shown = Shown { v: &found, affine: None };
+            let shown = ParticleField { v: &found, affine: None };
             kernel.p2g_momentum(&particles, shown, &grid, &mut nodal);
             let masses = masses(kernel.as_ref(), &grid, &particles);
             assert!(seen(&masses, &nodal) < 1e-24 * square(&particles, &particles.v), "{basis:?}");

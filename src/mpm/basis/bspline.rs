@@ -11,8 +11,8 @@ use super::{
     lattice::{Lattice, Places},
     product::Product,
     product_batch::Products,
-    weights_1d::Along,
-    weights_1d_batch::{Alongs, Weights},
+    weights_1d::Weights1d,
+    weights_1d_batch::{Weights1dBatch, WeightsSimd},
 };
 use crate::mpm::{
     algebra::array,
@@ -107,10 +107,15 @@ fn uniform<W: Width, const K: usize>(width: W, xi: W::Four) -> ([W::Four; K], [W
 
 /// The functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
-fn along<W: Width, const K: usize>(width: W, xi: W::Four, h: f64, inverse_h: f64) -> Weights<W, K> {
+fn along<W: Width, const K: usize>(
+    width: W,
+    xi: W::Four,
+    h: f64,
+    inverse_h: f64,
+) -> WeightsSimd<W, K> {
     let (weight, slope) = uniform::<W, K>(width, xi);
     let first = width.all(1.0 - 0.5 * K as f64) - xi;
-    Weights {
+    WeightsSimd {
         weight,
         slope: array(xi, |r| slope[r] * inverse_h),
         offset: array(xi, |r| (first + r as f64) * h),
@@ -133,13 +138,13 @@ fn along_wall<const D: usize, const K: usize>(
     axis: usize,
     cell: usize,
     xi: f64,
-) -> Along<K> {
+) -> Weights1d<K> {
     let (h, [weight, slope, place]) = (grid.h, at_wall::<K>(grid.cells[axis], cell, xi));
     let mut variance = 0.0;
     for r in 0..K {
         variance += weight[r] * place[r] * place[r];
     }
-    Along {
+    Weights1d {
         first: cell,
         weight,
         slope: array(0.0, |r| slope[r] * grid.inverse_h()),
@@ -156,7 +161,7 @@ fn put_right<const D: usize, const K: usize>(
     axis: usize,
     (cell, xi): ([f64; FOUR], [f64; FOUR]),
     lane: usize,
-    alongs: &mut Alongs<K>,
+    alongs: &mut Weights1dBatch<K>,
 ) {
     let (low, high) = uniform_cells(K - 1, grid.cells[axis] as f64, grid.periodic[axis]);
     for k in 0..FOUR {
@@ -198,7 +203,7 @@ macro_rules! bspline {
                 mut see: impl FnMut(&Product<D, $functions>),
             ) {
                 let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-                see(&Product(array(Along::NONE, |axis| {
+                see(&Product(array(Weights1d::NONE, |axis| {
                     let (cell, xi, cells) = (cell[axis], xi[axis], grid.cells[axis] as f64);
                     let (low, high) = uniform_cells($degree, cells, grid.periodic[axis]);
                     if !(low..high).contains(&(cell as f64)) {

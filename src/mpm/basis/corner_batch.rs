@@ -1,6 +1,6 @@
 //! Several corners of domains: hats whose gradients are in proportion to their weights.
 
-use super::{node_accumulator::Sink, patch::Patches, product_batch::Products};
+use super::{node_accumulator::NodeAccumulator, patch::PatchBatch, product_batch::Products};
 use crate::mpm::{
     algebra::{Vector, array},
     packed_grid::{View, ViewMut},
@@ -16,8 +16,8 @@ pub struct Corners<const D: usize> {
     pub(in crate::mpm) outward: [Vector<D>; LANES],
 }
 
-impl<const D: usize> Patches<D> for Corners<D> {
-    type Sink<'a, W: Width> = Sink<'a, W, 2>;
+impl<const D: usize> PatchBatch<D> for Corners<D> {
+    type NodeAccumulator<'a, W: Width> = NodeAccumulator<'a, W, 2>;
 
     fn none() -> Self {
         Self { hats: Products::none(), outward: [Vector::zeros(); LANES] }
@@ -45,17 +45,22 @@ impl<const D: usize> Patches<D> for Corners<D> {
     }
 
     #[inline(always)]
-    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::Sink<'_, W> {
+    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::NodeAccumulator<'_, W> {
         Products::<D, 2>::sink(width, field)
     }
 
     #[inline(always)]
-    fn put<W: Width>(sink: Self::Sink<'_, W>) {
+    fn put<W: Width>(sink: Self::NodeAccumulator<'_, W>) {
         Products::<D, 2>::put(sink);
     }
 
     #[inline(always)]
-    fn scatter<W: Width>(&self, lane: usize, value: W::Four, sink: &mut Self::Sink<'_, W>) {
+    fn scatter<W: Width>(
+        &self,
+        lane: usize,
+        value: W::Four,
+        sink: &mut Self::NodeAccumulator<'_, W>,
+    ) {
         self.hats.scatter(lane, value, sink);
     }
 
@@ -64,7 +69,7 @@ impl<const D: usize> Patches<D> for Corners<D> {
         &self,
         lane: usize,
         value_and_slope: (W::Four, &[W::Four; D]),
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     ) {
         self.hats.scatter_affine(lane, value_and_slope, sink);
     }
@@ -74,7 +79,7 @@ impl<const D: usize> Patches<D> for Corners<D> {
         &self,
         lane: usize,
         flux: &[W::Four; D],
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     ) {
         let outward = &self.outward[lane % LANES];
         let mut value = flux[0] * outward[0];
@@ -90,7 +95,7 @@ impl<const D: usize> Patches<D> for Corners<D> {
         lane: usize,
         (value, slope): (W::Four, Option<W::Four>),
         flux: W::Four,
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     ) {
         let value = value + flux * self.outward[lane % LANES][0];
         match slope {

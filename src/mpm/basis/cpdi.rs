@@ -24,9 +24,9 @@
 use super::{
     contract::{Basis, Domain},
     corner_batch::Corners,
-    patch::{Patch, Seen, Spread},
+    patch::{Patch, Seen, WeightMoments},
     product::Product,
-    weights_1d::Along,
+    weights_1d::Weights1d,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array, cofactor, det},
@@ -79,7 +79,7 @@ pub struct Corner<const D: usize> {
 
 /// The hats at `s` (in cells) along `axis`. Corners outside the grid by round-off are on the wall.
 #[inline(always)]
-fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Along<2> {
+fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weights1d<2> {
     let (first, cell, xi) = if grid.periodic[axis] {
         let cell = floor(s);
         (grid.wrap_signed(cell, axis), cell, s - cell)
@@ -89,7 +89,7 @@ fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Along<
     };
     let slope = grid.inverse_h();
     let offset = [(cell - own) * grid.h, (cell + 1.0 - own) * grid.h];
-    Along::new(first, [1.0 - xi, xi], [-slope, slope], offset)
+    Weights1d::new(first, [1.0 - xi, xi], [-slope, slope], offset)
 }
 
 impl<const D: usize> Patch<D> for Corner<D> {
@@ -102,7 +102,7 @@ impl<const D: usize> Patch<D> for Corner<D> {
     }
 
     #[inline(always)]
-    fn spread(&self) -> Spread<D> {
+    fn spread(&self) -> WeightMoments<D> {
         self.hats.spread()
     }
 
@@ -151,9 +151,9 @@ impl Basis for Cpdi {
         for corner in 0..corners {
             let side = Vector::from_fn(|axis, _| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 });
             let at = centre + domain * side;
-            let mut axes = array(Along::NONE, |axis| hats(grid, at[axis], own[axis], axis));
-            let Along { first, weight, slope, offset, .. } = axes[0];
-            axes[0] = Along::new(first, weight.map(|weight| weight * share), slope, offset);
+            let mut axes = array(Weights1d::NONE, |axis| hats(grid, at[axis], own[axis], axis));
+            let Weights1d { first, weight, slope, offset, .. } = axes[0];
+            axes[0] = Weights1d::new(first, weight.map(|weight| weight * share), slope, offset);
             see(&Corner { hats: Product(axes), outward: inverse_transposed * side });
         }
     }

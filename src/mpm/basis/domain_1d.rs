@@ -4,7 +4,7 @@
 //! Four at a time where no domain sees more than three nodes; one at a time, three nodes after three, where one
 //! does.
 
-use super::{weights_1d::Along, weights_1d_batch::Weights};
+use super::{weights_1d::Weights1d, weights_1d_batch::WeightsSimd};
 use crate::mpm::{
     algebra::array,
     grid::Grid,
@@ -32,7 +32,7 @@ fn integral(z: f64) -> f64 {
 
 /// Domains of four particles along one axis, in cells.
 #[derive(Clone, Copy)]
-pub(in crate::mpm) struct Extent<W: Width> {
+pub(in crate::mpm) struct Domain1dSimd<W: Width> {
     /// The particle and the ends of its domain.
     at: W::Four,
     low: W::Four,
@@ -41,7 +41,7 @@ pub(in crate::mpm) struct Extent<W: Width> {
     pub(in crate::mpm) first: W::Four,
 }
 
-impl<W: Width> Extent<W> {
+impl<W: Width> Domain1dSimd<W> {
     /// The domain at `at`, cut off at walls: at the first node and this last one, if there are any.
     #[inline(always)]
     pub(in crate::mpm) fn new(at: W::Four, half: W::Four, last: Option<f64>) -> Self {
@@ -62,7 +62,12 @@ impl<W: Width> Extent<W> {
     /// The functions of domains that end before the third node. It is known on which side of which node
     /// the ends are: what is computed are [`integral`] and [`hat`] there, to the bit.
     #[inline(always)]
-    pub(in crate::mpm) fn along(&self, width: W, h: f64, inverse_h: f64) -> Weights<W, AT_ONCE> {
+    pub(in crate::mpm) fn along(
+        &self,
+        width: W,
+        h: f64,
+        inverse_h: f64,
+    ) -> WeightsSimd<W, AT_ONCE> {
         let (zero, one) = (width.all(0.0), width.all(1.0));
         let rising = |z: W::Four| (z + 1.0) * 0.5 * (z + 1.0);
         let falling = |z: W::Four| z + 0.5 - z * 0.5 * z;
@@ -89,19 +94,19 @@ impl<W: Width> Extent<W> {
             second += weight[k] * offset[k] * offset[k];
         }
         // A domain that is cut off is not centred on its particle.
-        Weights { weight, slope, offset, variance: second - mean * mean }
+        WeightsSimd { weight, slope, offset, variance: second - mean * mean }
     }
 }
 
 /// The domain of one particle along one axis.
 #[derive(Clone, Copy)]
-pub(in crate::mpm) struct Alone {
-    extent: Extent<Plain>,
+pub(in crate::mpm) struct Domain1d {
+    extent: Domain1dSimd<Plain>,
     /// How many times [`AT_ONCE`] nodes it sees.
     pub(in crate::mpm) groups: usize,
 }
 
-impl Alone {
+impl Domain1d {
     #[inline(always)]
     pub(in crate::mpm) fn new<const D: usize>(
         grid: &Grid<D>,
@@ -110,7 +115,7 @@ impl Alone {
         axis: usize,
     ) -> Self {
         let last = (!grid.periodic[axis]).then_some(grid.cells[axis] as f64);
-        let extent = Extent::<Plain>::new(Plain.all(at), Plain.all(half), last);
+        let extent = Domain1dSimd::<Plain>::new(Plain.all(at), Plain.all(half), last);
         let [spare, ..]: [f64; FOUR] = extent.spare().into();
         let groups = if spare >= 0.0 { 1 } else { 2 + (-spare / AT_ONCE as f64) as usize };
         Self { extent, groups }
@@ -123,7 +128,7 @@ impl Alone {
         grid: &Grid<D>,
         axis: usize,
         group: usize,
-    ) -> Along<AT_ONCE> {
+    ) -> Weights1d<AT_ONCE> {
         if self.groups > 1 {
             return self.one_of_many(grid, axis, group);
         }
@@ -139,14 +144,14 @@ impl Alone {
         grid: &Grid<D>,
         axis: usize,
         group: usize,
-    ) -> Along<AT_ONCE> {
-        let Extent { at, low, high, first } = self.extent;
+    ) -> Weights1d<AT_ONCE> {
+        let Domain1dSimd { at, low, high, first } = self.extent;
         let [at, low, high, first] =
             [at, low, high, first].map(|four| <[f64; FOUR]>::from(four)[0]);
         let first = first + (group * AT_ONCE) as f64;
         let (share, node) = (1.0 / (high - low), |k: usize| first + k as f64);
         let (low, high) = (|k| low - node(k), |k| high - node(k));
-        Along::new(
+        Weights1d::new(
             grid.wrap_signed(first, axis),
             array(0.0, |k| (integral(high(k)) - integral(low(k))) * share),
             array(0.0, |k| (hat(high(k)) - hat(low(k))) * share * grid.inverse_h()),
@@ -173,7 +178,7 @@ mod tests {
             let grid = Grid::<1>::new(Vector::<1>::new(0.0), 0.3, [5], [periodic], [6]);
             let at = if whole { libm::round(at) } else { at };
             for half in [half, 0.5 * libm::round(2.0 * half), libm::fabs(at - libm::round(at)), 1e-9 * half] {
-                let alone = Alone::new(&grid, at, half, 0);
+                let alone = Domain1d::new(&grid, at, half, 0);
                 if alone.groups > 1 || half == 0.0 {
                     continue;
                 }

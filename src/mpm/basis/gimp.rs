@@ -8,11 +8,11 @@
 
 use super::{
     contract::{Basis, Domain},
-    domain_1d::{AT_ONCE, Alone, Extent},
+    domain_1d::{AT_ONCE, Domain1d, Domain1dSimd},
     lattice::{Lattice, Places},
     product::Product,
     product_batch::Products,
-    weights_1d::Along,
+    weights_1d::Weights1d,
 };
 use crate::mpm::{
     algebra::{Matrix, array},
@@ -50,12 +50,12 @@ fn patches<const D: usize>(
     }
     let alone = |axis: usize| {
         let half = half(particles, p, axis, follows) * grid.inverse_h();
-        Alone::new(grid, grid.wrapped(x, axis), half, axis)
+        Domain1d::new(grid, grid.wrapped(x, axis), half, axis)
     };
-    let axes: [Alone; D] = array(alone(0), alone);
+    let axes: [Domain1d; D] = array(alone(0), alone);
     let groups: usize = axes.iter().map(|axis| axis.groups).product();
     for mut group in 0..groups {
-        see(&Product(array(Along::NONE, |axis| {
+        see(&Product(array(Weights1d::NONE, |axis| {
             let along = axes[axis].along(grid, axis, group % axes[axis].groups);
             group /= axes[axis].groups;
             along
@@ -84,7 +84,7 @@ fn four<W: Width, const D: usize>(
         };
         let wall = (!lattice.periodic[axis]).then_some(lattice.ends[axis]);
         let at = cell[axis] + xi[axis];
-        let extent = Extent::<W>::new(at, half * lattice.inverse_h, wall);
+        let extent = Domain1dSimd::<W>::new(at, half * lattice.inverse_h, wall);
         let along = extent.along(width, lattice.h, lattice.inverse_h);
         along.put(lane / FOUR, lattice.needs, &mut patches.axes[axis]);
         start[axis] = extent.first;

@@ -2,7 +2,7 @@
 //! on periodic axes.
 
 use super::{
-    Basis, BasisName, Domain, Lattice, Needs, Patch, Patches, contract, product, weights_1d,
+    Basis, BasisName, Domain, Lattice, Needs, Patch, PatchBatch, contract, product, weights_1d,
     with_basis,
 };
 use crate::mpm::{

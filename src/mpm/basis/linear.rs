@@ -9,8 +9,8 @@ use super::{
     lattice::{Lattice, Places},
     product::Product,
     product_batch::Products,
-    weights_1d::Along,
-    weights_1d_batch::Weights,
+    weights_1d::Weights1d,
+    weights_1d_batch::WeightsSimd,
 };
 use crate::mpm::{
     algebra::array,
@@ -21,9 +21,9 @@ use crate::mpm::{
 
 /// The hats along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
-fn along<W: Width>(width: W, xi: W::Four, h: f64, inverse_h: f64) -> Weights<W, 2> {
+fn along<W: Width>(width: W, xi: W::Four, h: f64, inverse_h: f64) -> WeightsSimd<W, 2> {
     let rest = width.all(1.0) - xi;
-    Weights {
+    WeightsSimd {
         weight: [rest, xi],
         slope: [width.all(-inverse_h), width.all(inverse_h)],
         offset: [width.all(0.0) - xi * h, rest * h],
@@ -57,7 +57,7 @@ impl Basis for Linear {
         mut see: impl FnMut(&Product<D, 2>),
     ) {
         let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-        see(&Product(array(Along::NONE, |axis| {
+        see(&Product(array(Weights1d::NONE, |axis| {
             along(Plain, Plain.all(xi[axis]), grid.h, grid.inverse_h()).take(0, cell[axis])
         })));
     }

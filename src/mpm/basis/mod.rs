@@ -22,11 +22,11 @@ mod weights_1d_batch;
 pub use contract::{Basis, Domain};
 pub use corner_batch::Corners;
 pub use lattice::{Lattice, Needs};
-pub use patch::{Patch, Patches, Seen, Spread};
+pub use patch::{Patch, PatchBatch, Seen, WeightMoments};
 pub use product::Product;
 pub use product_batch::Products;
-pub use weights_1d::Along;
-pub use weights_1d_batch::Alongs;
+pub use weights_1d::Weights1d;
+pub use weights_1d_batch::Weights1dBatch;
 
 use super::{algebra::Vector, family::family, grid::Grid};
 

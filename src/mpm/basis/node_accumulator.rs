@@ -13,7 +13,7 @@ use crate::mpm::{
 
 /// A field that is added to, and the sums of K nodes in a row.
 #[derive(Debug)]
-pub struct Sink<'a, W: Width, const K: usize> {
+pub struct NodeAccumulator<'a, W: Width, const K: usize> {
     pub(in crate::mpm) width: W,
     pub(in crate::mpm) field: ViewMut<'a>,
     /// The first of the nodes whose sums are at hand, if there are any.
@@ -24,7 +24,7 @@ pub struct Sink<'a, W: Width, const K: usize> {
 /// No node.
 const NONE: usize = usize::MAX;
 
-impl<'a, W: Width, const K: usize> Sink<'a, W, K> {
+impl<'a, W: Width, const K: usize> NodeAccumulator<'a, W, K> {
     #[inline(always)]
     pub(in crate::mpm) fn new(width: W, field: ViewMut<'a>) -> Self {
         Self { width, field, start: NONE, sums: [width.all(0.0); K] }

@@ -24,7 +24,7 @@ pub struct Seen<'a, const D: usize> {
 
 /// Moments of weights, sums over nodes.
 #[derive(Debug, Clone, Copy)]
-pub struct Spread<const D: usize> {
+pub struct WeightMoments<const D: usize> {
     /// `sum_i (x_i - x_p) N_i` (m).
     pub first: Vector<D>,
     /// `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
@@ -34,13 +34,13 @@ pub struct Spread<const D: usize> {
 /// Nodes that a particle sees, and the functions there, as a basis gives them.
 pub trait Patch<const D: usize>: Copy {
     /// Several of them, as the loops use them.
-    type Several: Patches<D>;
+    type Several: PatchBatch<D>;
 
     /// Takes the place of patch `lane`.
     fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Several);
 
     /// Moments of the weights.
-    fn spread(&self) -> Spread<D>;
+    fn spread(&self) -> WeightMoments<D>;
 
     /// Mean of `x_i - x_p` (m) and its variance about it (m^2) along each axis, where the patch has all
     /// nodes that the particle sees and its functions are products: there is no covariance.
@@ -53,9 +53,9 @@ pub trait Patch<const D: usize>: Copy {
 /// Several patches. What depends on weights only is computed for four at once, each lane of a register
 /// one of them; the loops over nodes go from patch to patch. Fields of nodes hold four numbers each,
 /// and so do particles: each method does the same to all four.
-pub trait Patches<const D: usize>: Debug {
+pub trait PatchBatch<const D: usize>: Debug {
     /// Where they add to nodes.
-    type Sink<'a, W: Width>;
+    type NodeAccumulator<'a, W: Width>;
 
     /// No patches.
     fn none() -> Self;
@@ -72,20 +72,25 @@ pub trait Patches<const D: usize>: Debug {
     fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D];
 
     /// A field to be added to.
-    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::Sink<'_, W>;
+    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::NodeAccumulator<'_, W>;
 
     /// Ends what was added.
-    fn put<W: Width>(sink: Self::Sink<'_, W>);
+    fn put<W: Width>(sink: Self::NodeAccumulator<'_, W>);
 
     /// Adds `value N_i` to the nodes of patch `lane`.
-    fn scatter<W: Width>(&self, lane: usize, value: W::Four, sink: &mut Self::Sink<'_, W>);
+    fn scatter<W: Width>(
+        &self,
+        lane: usize,
+        value: W::Four,
+        sink: &mut Self::NodeAccumulator<'_, W>,
+    );
 
     /// Adds `(value + sum_a slope_a lever_a) N_i` to the nodes.
     fn scatter_affine<W: Width>(
         &self,
         lane: usize,
         value_and_slope: (W::Four, &[W::Four; D]),
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     );
 
     /// Adds `sum_a flux_a dN_i/dx_a` to the nodes.
@@ -93,7 +98,7 @@ pub trait Patches<const D: usize>: Debug {
         &self,
         lane: usize,
         flux: &[W::Four; D],
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     );
 
     /// What the others add, in one visit: `(value + slope lever) N_i + flux dN_i/dx`. Along one axis only.
@@ -102,7 +107,7 @@ pub trait Patches<const D: usize>: Debug {
         lane: usize,
         value_and_slope: (W::Four, Option<W::Four>),
         flux: W::Four,
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     );
 
     /// `sum_i field_i N_i`.

@@ -1,9 +1,9 @@
 //! Products of functions along the axes: the patch of nodes that most bases show to a particle.
 
 use super::{
-    patch::{Patch, Seen, Spread},
+    patch::{Patch, Seen, WeightMoments},
     product_batch::Products,
-    weights_1d::{Along, product},
+    weights_1d::{Weights1d, product},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
@@ -13,7 +13,7 @@ use crate::mpm::{
 
 /// All products of functions along the axes; at most four along each.
 #[derive(Debug, Clone, Copy)]
-pub struct Product<const D: usize, const K: usize>(pub [Along<K>; D]);
+pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
 impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     type Several = Products<D, K>;
@@ -28,9 +28,9 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 
     #[inline(always)]
-    fn spread(&self) -> Spread<D> {
+    fn spread(&self) -> WeightMoments<D> {
         let moments: [[f64; 3]; D] = array([0.0; 3], |axis| self.0[axis].moments());
-        let mut spread = Spread { first: Vector::zeros(), second: Matrix::zeros() };
+        let mut spread = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
         for i in 0..D {
             spread.first[i] = product(&moments, |axis| usize::from(axis == i));
             for j in 0..D {

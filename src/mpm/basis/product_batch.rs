@@ -3,7 +3,9 @@
 //! The weights along each axis are computed once for a particle. Sums over the K^D nodes are taken
 //! axis by axis, so that a node costs a product and a sum for each function, not one for each axis.
 
-use super::{node_accumulator::Sink, patch::Patches, weights_1d_batch::Alongs};
+use super::{
+    node_accumulator::NodeAccumulator, patch::PatchBatch, weights_1d_batch::Weights1dBatch,
+};
 use crate::mpm::{
     algebra::{Vector, array},
     packed_grid::{View, ViewMut},
@@ -17,7 +19,7 @@ pub struct Products<const D: usize, const K: usize> {
     /// Where the first node of each is in a packed field.
     pub(in crate::mpm) start: [u32; LANES],
     /// The functions along each axis.
-    pub(in crate::mpm) axes: [Alongs<K>; D],
+    pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
     /// Weights of the rows of a plane times those of the planes.
     across: [[Lanes; K]; K],
 }
@@ -57,11 +59,11 @@ impl<const D: usize, const K: usize> Products<D, K> {
     }
 }
 
-impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
-    type Sink<'a, W: Width> = Sink<'a, W, K>;
+impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
+    type NodeAccumulator<'a, W: Width> = NodeAccumulator<'a, W, K>;
 
     fn none() -> Self {
-        Self { start: [0; LANES], axes: [Alongs::NONE; D], across: [[Lanes::ZERO; K]; K] }
+        Self { start: [0; LANES], axes: [Weights1dBatch::NONE; D], across: [[Lanes::ZERO; K]; K] }
     }
 
     #[inline(always)]
@@ -100,17 +102,22 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::Sink<'_, W> {
-        Sink::new(width, field)
+    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::NodeAccumulator<'_, W> {
+        NodeAccumulator::new(width, field)
     }
 
     #[inline(always)]
-    fn put<W: Width>(mut sink: Self::Sink<'_, W>) {
+    fn put<W: Width>(mut sink: Self::NodeAccumulator<'_, W>) {
         sink.put();
     }
 
     #[inline(always)]
-    fn scatter<W: Width>(&self, lane: usize, value: W::Four, sink: &mut Self::Sink<'_, W>) {
+    fn scatter<W: Width>(
+        &self,
+        lane: usize,
+        value: W::Four,
+        sink: &mut Self::NodeAccumulator<'_, W>,
+    ) {
         let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
         if D == 1 {
             return sink.hold(start, array(value, |i| value * weights[i]));
@@ -133,7 +140,7 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
         &self,
         lane: usize,
         (value, slope): (W::Four, &[W::Four; D]),
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     ) {
         let (start, x) = (self.start(lane), &self.axes[0]);
         let (weights, lever) = (of(&x.weight, lane), |axis: usize, k: usize| {
@@ -165,7 +172,7 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
         &self,
         lane: usize,
         flux: &[W::Four; D],
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     ) {
         let (start, x) = (self.start(lane), &self.axes[0]);
         let (weights, slopes) = (of(&x.weight, lane), of(&x.slope, lane));
@@ -198,7 +205,7 @@ impl<const D: usize, const K: usize> Patches<D> for Products<D, K> {
         lane: usize,
         (value, slope): (W::Four, Option<W::Four>),
         flux: W::Four,
-        sink: &mut Self::Sink<'_, W>,
+        sink: &mut Self::NodeAccumulator<'_, W>,
     ) {
         let x = &self.axes[0];
         let terms = array(value, |i| {

@@ -2,7 +2,7 @@
 
 /// K neighbouring functions along one axis.
 #[derive(Debug, Clone, Copy)]
-pub struct Along<const K: usize> {
+pub struct Weights1d<const K: usize> {
     /// Index of the first. On a periodic axis the last function has the first one behind it, and
     /// beyond a wall functions of weight zero may stand.
     pub first: usize,
@@ -17,7 +17,7 @@ pub struct Along<const K: usize> {
     pub variance: f64,
 }
 
-impl<const K: usize> Along<K> {
+impl<const K: usize> Weights1d<K> {
     /// No functions.
     pub const NONE: Self =
         Self { first: 0, weight: [0.0; K], slope: [0.0; K], offset: [0.0; K], variance: 0.0 };

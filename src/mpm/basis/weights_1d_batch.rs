@@ -1,6 +1,6 @@
 //! Functions along one axis, for several particles at once.
 
-use super::{lattice::Needs, weights_1d::Along};
+use super::{lattice::Needs, weights_1d::Weights1d};
 use crate::mpm::{
     algebra::array,
     kernel::moments::SMALLEST,
@@ -9,7 +9,7 @@ use crate::mpm::{
 
 /// K neighbouring functions for each of four particles, in registers.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::mpm) struct Weights<W: Width, const K: usize> {
+pub(in crate::mpm) struct WeightsSimd<W: Width, const K: usize> {
     /// Their values.
     pub(in crate::mpm) weight: [W::Four; K],
     /// Their derivatives (1/m).
@@ -20,10 +20,10 @@ pub(in crate::mpm) struct Weights<W: Width, const K: usize> {
     pub(in crate::mpm) variance: W::Four,
 }
 
-impl<W: Width, const K: usize> Weights<W, K> {
+impl<W: Width, const K: usize> WeightsSimd<W, K> {
     /// To memory, what a pass needs.
     #[inline(always)]
-    pub(in crate::mpm) fn put(self, part: usize, needs: Needs, alongs: &mut Alongs<K>) {
+    pub(in crate::mpm) fn put(self, part: usize, needs: Needs, alongs: &mut Weights1dBatch<K>) {
         for k in 0..K {
             alongs.weight[k].put(part, self.weight[k]);
         }
@@ -42,9 +42,9 @@ impl<W: Width, const K: usize> Weights<W, K> {
 
     /// One of the four.
     #[inline(always)]
-    pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Along<K> {
+    pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Weights1d<K> {
         let of = |functions: &[W::Four; K]| array(0.0, |k| functions[k].into()[lane]);
-        Along {
+        Weights1d {
             first,
             weight: of(&self.weight),
             slope: of(&self.slope),
@@ -56,7 +56,7 @@ impl<W: Width, const K: usize> Weights<W, K> {
 
 /// The same in memory, for several particles, with what affine fields need.
 #[derive(Debug, Clone, Copy)]
-pub struct Alongs<const K: usize> {
+pub struct Weights1dBatch<const K: usize> {
     /// Their values.
     pub(in crate::mpm) weight: [Lanes; K],
     /// Their derivatives (1/m).
@@ -73,7 +73,7 @@ pub struct Alongs<const K: usize> {
     pub(in crate::mpm) inverse: Lanes,
 }
 
-impl<const K: usize> Alongs<K> {
+impl<const K: usize> Weights1dBatch<K> {
     /// No functions.
     pub(in crate::mpm) const NONE: Self = Self {
         weight: [Lanes::ZERO; K],
@@ -87,7 +87,7 @@ impl<const K: usize> Alongs<K> {
 
     /// Puts functions into a lane.
     #[inline(always)]
-    pub(in crate::mpm) fn put(&mut self, lane: usize, along: &Along<K>) {
+    pub(in crate::mpm) fn put(&mut self, lane: usize, along: &Weights1d<K>) {
         for k in 0..K {
             self.weight[k].0[lane] = along.weight[k];
             self.slope[k].0[lane] = along.slope[k];
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn an_axis_without_a_moment_has_no_inverse() {
-        let mut alongs = Alongs::<2>::NONE;
+        let mut alongs = Weights1dBatch::<2>::NONE;
         for (lane, variance) in [0.25, 1e-20, 0.0, f64::NAN].into_iter().enumerate() {
             alongs.variance.0[FOUR + lane] = variance;
         }

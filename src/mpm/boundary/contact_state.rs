@@ -4,23 +4,23 @@ use crate::subject::{Checkpoint, Memory};
 
 /// What Coulomb's law makes of a meeting.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::mpm) enum Touch {
+pub(in crate::mpm) enum ContactState {
     /// They do not touch.
-    Free,
+    Separated,
     /// They slide along each other.
-    Slides,
+    Slip,
     /// They move as one.
-    Sticks,
+    Stick,
 }
 
-impl Memory for Touch {
+impl Memory for ContactState {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let mut number = *self as u64;
         checkpoint.visit(&mut number);
         match number {
-            0 => *self = Self::Free,
-            1 => *self = Self::Slides,
-            2 => *self = Self::Sticks,
+            0 => *self = Self::Separated,
+            1 => *self = Self::Slip,
+            2 => *self = Self::Stick,
             _ => checkpoint.refuse(),
         }
     }

@@ -13,7 +13,7 @@
 //! held as the last one left them.
 
 use super::{
-    contact_state::Touch,
+    contact_state::ContactState,
     contract::{Advance, Boundary},
     face::{Side, nodes},
 };
@@ -25,7 +25,7 @@ use crate::{
 /// A face of the grid with friction.
 #[derive(Debug, Clone)]
 pub struct Friction {
-    nodes: Vec<(usize, Touch)>,
+    nodes: Vec<(usize, ContactState)>,
     axis: usize,
     /// 1 where the wall is at the low end of the axis, and pushes upwards; -1 at the other.
     inwards: f64,
@@ -40,16 +40,17 @@ impl Friction {
             Side::Low => 1.0,
             Side::High => -1.0,
         };
-        let nodes = nodes(grid, axis, side).into_iter().map(|i| (i, Touch::Free)).collect();
+        let nodes =
+            nodes(grid, axis, side).into_iter().map(|i| (i, ContactState::Separated)).collect();
         Self { nodes, axis, inwards, coefficient }
     }
 
     fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
         for &(i, touch) in &self.nodes {
             match touch {
-                Touch::Free => {}
-                Touch::Slides => field[i][self.axis] = 0.0,
-                Touch::Sticks => field[i] = Vector::zeros(),
+                ContactState::Separated => {}
+                ContactState::Slip => field[i][self.axis] = 0.0,
+                ContactState::Stick => field[i] = Vector::zeros(),
             }
         }
     }
@@ -88,17 +89,17 @@ impl<const D: usize> Boundary<D> for Friction {
             let mut along = *v + *a * dt;
             let pressed = -self.inwards * along[axis];
             if !(pressed > 0.0) {
-                *touch = Touch::Free;
+                *touch = ContactState::Separated;
                 continue;
             }
             along[axis] = 0.0;
             (v[axis], a[axis]) = (0.0, 0.0);
             let (speed, most) = (along.norm(), self.coefficient * pressed);
             if speed <= most {
-                *touch = Touch::Sticks;
+                *touch = ContactState::Stick;
                 (*v, *a) = (Vector::zeros(), Vector::zeros());
             } else {
-                *touch = Touch::Slides;
+                *touch = ContactState::Slip;
                 *a -= along * (most / (speed * dt));
             }
         }

@@ -1,6 +1,6 @@
 //! Particles, several at a time, with what they see.
 
-use super::{inertia::inertia, moments::Inertia};
+use super::{inertia::inertia, moments::InertiaTensor};
 use crate::mpm::{
     basis::{Basis, Lattice, Needs, Patch},
     grid::Grid,
@@ -18,7 +18,7 @@ pub(in crate::mpm) const ALL: u32 = (1 << LANES) - 1;
 
 /// What several particles see. The patches are not part of it: what is beside them in memory would be
 /// read anew after each of their weights is written.
-pub(in crate::mpm) struct Sight<'a, B: Basis, const D: usize> {
+pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
     lattice: Lattice<D>,
@@ -26,7 +26,7 @@ pub(in crate::mpm) struct Sight<'a, B: Basis, const D: usize> {
     basis: PhantomData<B>,
 }
 
-impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
+impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     #[inline(always)]
     pub(in crate::mpm) fn new(
         (grid, layout): (&'a Grid<D>, Layout),
@@ -48,7 +48,7 @@ impl<'a, B: Basis, const D: usize> Sight<'a, B, D> {
         width: W,
         first: usize,
         patches: &mut Several<B, D>,
-        mut see: impl FnMut(&mut Several<B, D>, Range<usize>, Option<&Inertia<D>>),
+        mut see: impl FnMut(&mut Several<B, D>, Range<usize>, Option<&InertiaTensor<D>>),
     ) -> u32 {
         let Self { particles, grid, lattice, .. } = self;
         let count = LANES.min(particles.len() - first);

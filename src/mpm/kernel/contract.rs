@@ -2,7 +2,7 @@
 //!
 //! [`Kernel`] is object-safe: one virtual call per pass, none per particle. A pass computes the weights
 //! of a particle anew, so what is wanted of the same particles and nodes is best asked for in one:
-//! [`Maps`] and [`Takes`] say what, and each part has the bits that it would have alone.
+//! [`P2gRequest`] and [`G2pRequest`] say what, and each part has the bits that it would have alone.
 
 use super::{moments::Moments, scalar_contract::Scalars};
 use crate::mpm::{
@@ -27,7 +27,7 @@ pub enum Affine<'a, const D: usize> {
 /// A velocity field around each particle, `v_p + C_p (x - mean_p)`, as the particle shows it to
 /// the nodes it sees.
 #[derive(Debug, Clone, Copy)]
-pub struct Shown<'a, const D: usize> {
+pub struct ParticleField<'a, const D: usize> {
     /// v_p (m/s).
     pub v: &'a [Vector<D>],
     /// C_p, if the field is not constant.
@@ -46,18 +46,18 @@ pub enum Divergence {
 
 /// What is mapped to the nodes in one pass.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Maps<'a, const D: usize> {
+pub struct P2gRequest<'a, const D: usize> {
     /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
     pub mass: bool,
     /// Momentum `sum_p m_p (v_p + C_p (x_i - mean_p)) N_i(x_p)` (kg m/s) into `grid.velocity`.
-    pub momentum: Option<Shown<'a, D>>,
+    pub momentum: Option<ParticleField<'a, D>>,
     /// Internal force (N) into `grid.force`.
     pub force: Option<Divergence>,
 }
 
 /// What is taken from the nodes in one pass, from their velocities where nothing else is said.
 #[derive(Debug, Default)]
-pub struct Takes<'a, const D: usize> {
+pub struct G2pRequest<'a, const D: usize> {
     /// `value_p += dt sum_i a_i N_i(x_p)` with `dt`, of the nodes' accelerations.
     pub change: Option<f64>,
     /// Then `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and `factor`.
@@ -75,29 +75,29 @@ pub struct Takes<'a, const D: usize> {
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     /// Maps what `maps` says to the nodes.
-    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>);
+    fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
     /// Takes what `takes` says from the nodes.
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>);
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>);
 
-    /// `m_i` alone, see [`Maps::mass`].
+    /// `m_i` alone, see [`P2gRequest::mass`].
     fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
-        self.p2g(particles, &Maps { mass: true, ..Maps::default() }, grid);
+        self.p2g(particles, &P2gRequest { mass: true, ..P2gRequest::default() }, grid);
     }
 
-    /// Momentum alone, see [`Maps::momentum`], into `momentum`.
+    /// Momentum alone, see [`P2gRequest::momentum`], into `momentum`.
     fn p2g_momentum(
         &self,
         particles: &Particles<D>,
-        shown: Shown<'_, D>,
+        shown: ParticleField<'_, D>,
         grid: &Grid<D>,
         momentum: &mut [Vector<D>],
     );
 
-    /// The force of the gradients of the basis alone, see [`Maps::force`].
+    /// The force of the gradients of the basis alone, see [`P2gRequest::force`].
     fn p2g_internal_force(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
         let force = Some(Divergence::Gradient);
-        self.p2g(particles, &Maps { force, ..Maps::default() }, grid);
+        self.p2g(particles, &P2gRequest { force, ..P2gRequest::default() }, grid);
     }
 
     /// Adds `force` (N), which acts on particle `p`, to the nodes that the particle sees.

@@ -2,7 +2,7 @@
 //! several things count as if each were alone.
 
 use super::{
-    contract::{Affine, Divergence, Kernel, Maps, Shown, Takes},
+    contract::{Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField},
     moments::Moments,
 };
 use crate::mpm::{
@@ -75,9 +75,10 @@ impl<const D: usize> Counted<D> {
 }
 
 impl<const D: usize> Kernel<D> for Counted<D> {
-    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
+    fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
         let force = |kind| maps.force == Some(kind);
-        let by_moment = |shown: Shown<'_, D>| matches!(shown.affine, Some(Affine::Moment(_)));
+        let by_moment =
+            |shown: ParticleField<'_, D>| matches!(shown.affine, Some(Affine::Moment(_)));
         for (name, wanted) in [
             ("p2g mass", maps.mass),
             ("p2g momentum", maps.momentum.is_some()),
@@ -90,7 +91,7 @@ impl<const D: usize> Kernel<D> for Counted<D> {
         self.kernel.p2g(particles, maps, grid);
     }
 
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>) {
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>) {
         for (name, wanted) in [
             ("g2p", takes.change.is_some()),
             ("g2p", takes.mix.is_some()),
@@ -106,7 +107,7 @@ impl<const D: usize> Kernel<D> for Counted<D> {
     fn p2g_momentum(
         &self,
         particles: &Particles<D>,
-        shown: Shown<'_, D>,
+        shown: ParticleField<'_, D>,
         grid: &Grid<D>,
         momentum: &mut [Vector<D>],
     ) {

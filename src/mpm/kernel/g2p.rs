@@ -1,12 +1,12 @@
 //! From nodes to particles: velocity, first moment and gradient in one visit.
 
 use super::{
-    batch::{ALL, Several, Sight},
-    contract::Takes,
+    batch::{ALL, ParticleBatches, Several},
+    contract::G2pRequest,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    basis::{Basis, Needs, Patches},
+    basis::{Basis, Needs, PatchBatch},
     grid::Grid,
     packed_grid::View,
     particles::Particles,
@@ -21,7 +21,7 @@ pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     /// The particles that take.
     pub(in crate::mpm) these: Range<usize>,
-    pub(in crate::mpm) takes: Takes<'a, D>,
+    pub(in crate::mpm) takes: G2pRequest<'a, D>,
     pub(in crate::mpm) fields: [View<'a>; 2],
     pub(in crate::mpm) basis: PhantomData<B>,
 }
@@ -184,7 +184,7 @@ impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
         let layout = self.fields[0].layout;
         let mut patches = Several::<B, D>::none();
         let needs = Needs { slopes, places };
-        let sight = Sight::<B, D>::new((self.grid, layout), self.particles, needs);
+        let sight = ParticleBatches::<B, D>::new((self.grid, layout), self.particles, needs);
         let mut taken = Taken::nothing(width);
         for first in self.these.clone().step_by(LANES) {
             if !B::ONE_PATCH {

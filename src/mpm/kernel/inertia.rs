@@ -1,9 +1,9 @@
 //! Moments of the weights of one particle.
 
-use super::moments::Inertia;
+use super::moments::InertiaTensor;
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    basis::{Basis, Patch, Spread},
+    basis::{Basis, Patch, WeightMoments},
     grid::Grid,
     particles::Particles,
 };
@@ -14,12 +14,12 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     grid: &Grid<D>,
     particles: &Particles<D>,
     p: usize,
-) -> Inertia<D> {
-    let mut all = Spread { first: Vector::zeros(), second: Matrix::zeros() };
-    let mut one = Inertia { mean: Vector::zeros(), second: Matrix::zeros() };
+) -> InertiaTensor<D> {
+    let mut all = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
+    let mut one = InertiaTensor { mean: Vector::zeros(), second: Matrix::zeros() };
     let mut patches = 0;
     B::patches(grid, particles, p, |patch| {
-        one = Inertia::diagonal(patch.variance());
+        one = InertiaTensor::diagonal(patch.variance());
         patches += 1;
         if !B::ONE_PATCH {
             let spread = patch.spread();
@@ -28,5 +28,5 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
         }
     });
     // What is one patch is a product.
-    if B::ONE_PATCH || patches == 1 { one } else { Inertia::full(&all) }
+    if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
 }

@@ -3,7 +3,7 @@
 
 use super::{
     Loops,
-    contract::{Affine, Divergence, Kernel, Maps, Shown, Takes},
+    contract::{Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField},
     g2p::Gather,
     p2g::Scatter,
     workspace::pack,
@@ -65,14 +65,14 @@ fn maps_together_are_maps_alone<B: Basis, const D: usize>(periodic: bool) {
     let slopes = slopes(&particles);
     for affine in [None, Some(Affine::Slope(&slopes)), Some(Affine::Moment(&slopes))] {
         for divergence in [Divergence::Gradient, Divergence::Fit] {
-            let momentum = Some(Shown { v: &particles.v, affine });
+            let momentum = Some(ParticleField { v: &particles.v, affine });
             let (mut together, mut alone) = (grid.clone(), grid.clone());
-            let all = Maps { mass: true, momentum, force: Some(divergence) };
+            let all = P2gRequest { mass: true, momentum, force: Some(divergence) };
             kernel.p2g(&particles, &all, &mut together);
             for one in [
-                Maps { mass: true, ..Maps::default() },
-                Maps { momentum, ..Maps::default() },
-                Maps { force: Some(divergence), ..Maps::default() },
+                P2gRequest { mass: true, ..P2gRequest::default() },
+                P2gRequest { momentum, ..P2gRequest::default() },
+                P2gRequest { force: Some(divergence), ..P2gRequest::default() },
             ] {
                 kernel.p2g(&particles, &one, &mut alone);
             }
@@ -86,7 +86,7 @@ fn takes_together_are_takes_alone<B: Basis, const D: usize>(periodic: bool) {
     let (grid, particles) = scene::<D>(&kernel, periodic);
     let (mut v, mut carried) = (particles.v.clone(), particles.v.clone());
     let (mut moment, mut gradient) = (particles.sigma.clone(), particles.sigma.clone());
-    let takes = Takes {
+    let takes = G2pRequest {
         change: Some(0.25),
         mix: Some((0.75, 0.25)),
         value: Some(&mut v),
@@ -129,12 +129,12 @@ fn together_is_alone<B: Basis, const D: usize>(periodic: bool) {
     let takes = |particles: &Particles<D>| {
         let (mut v, mut moment) = (particles.v.clone(), particles.sigma.clone());
         let mut gradient = particles.sigma.clone();
-        let takes = Takes {
+        let takes = G2pRequest {
             mix: Some((0.75, 0.25)),
             value: Some(&mut v),
             moment: Some(&mut moment),
             gradient: Some(&mut gradient),
-            ..Takes::default()
+            ..G2pRequest::default()
         };
         kernel.g2p_all(&grid, particles, takes);
         (v, moment, gradient)
@@ -156,8 +156,8 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     let kernel = Loops::<B>::default();
     let (mut grid, particles) = scene::<D>(&kernel, periodic);
     let (slopes, start) = (slopes(&particles), grid.clone());
-    let momentum = Some(Shown { v: &particles.v, affine: Some(Affine::Moment(&slopes)) });
-    let maps = Maps { mass: true, momentum, force: Some(Divergence::Gradient) };
+    let momentum = Some(ParticleField { v: &particles.v, affine: Some(Affine::Moment(&slopes)) });
+    let maps = P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) };
     kernel.p2g(&particles, &maps, &mut grid);
     let mut room = [Packed::default(), Packed::default()];
     let mut fields = room.each_mut().map(|field| field.shaped(&start));
@@ -178,10 +178,10 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     columns.unpack_all(&start, &room.each_mut().map(|field| field.shaped(&start)));
     assert_eq!(nodes(&grid), nodes(&plain));
 
-    let take = |run: &dyn Fn(Takes<'_, D>)| {
+    let take = |run: &dyn Fn(G2pRequest<'_, D>)| {
         let (mut v, mut sigma) = (particles.v.clone(), particles.sigma.clone());
         let mut gradient = sigma.clone();
-        run(Takes {
+        run(G2pRequest {
             change: Some(0.25),
             mix: Some((0.75, 0.25)),
             value: Some(&mut v),
@@ -217,8 +217,8 @@ fn sums_are_those_over_nodes<B: Basis, const D: usize>(periodic: bool) {
     let kernel = Loops::<B>::default();
     let (mut grid, particles) = scene::<D>(&kernel, periodic);
     let (start, slopes) = (grid.clone(), slopes(&particles));
-    let momentum = Some(Shown { v: &particles.v, affine: Some(Affine::Slope(&slopes)) });
-    let maps = Maps { mass: true, momentum, force: Some(Divergence::Gradient) };
+    let momentum = Some(ParticleField { v: &particles.v, affine: Some(Affine::Slope(&slopes)) });
+    let maps = P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) };
     kernel.p2g(&particles, &maps, &mut grid);
     let mut expected = start.clone();
     expected.mass.fill(0.0);

@@ -4,7 +4,7 @@
 use super::{
     Loops,
     colouring::CHUNKS,
-    contract::{Affine, Kernel, Maps, Shown, Takes},
+    contract::{Affine, G2pRequest, Kernel, P2gRequest, ParticleField},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
@@ -57,9 +57,9 @@ fn mapped<const D: usize>(
     particles: &Particles<D>,
 ) -> Vec<f64> {
     let (mut grid, slope) = (grid.clone(), Affine::Slope(&particles.sigma));
-    let momentum = Some(Shown { v: &particles.v, affine: Some(slope) });
+    let momentum = Some(ParticleField { v: &particles.v, affine: Some(slope) });
     let force = Some(super::contract::Divergence::Gradient);
-    kernel.p2g(particles, &Maps { mass: true, momentum, force }, &mut grid);
+    kernel.p2g(particles, &P2gRequest { mass: true, momentum, force }, &mut grid);
     let vectors = grid.velocity.iter().chain(&grid.force).flatten();
     grid.mass.iter().chain(vectors).copied().collect()
 }
@@ -71,7 +71,7 @@ fn taken<const D: usize>(
 ) -> Vec<f64> {
     let (mut value, mut moment) = (particles.v.clone(), particles.sigma.clone());
     let (mut gradient, mut carried) = (moment.clone(), value.clone());
-    let takes = Takes {
+    let takes = G2pRequest {
         change: Some(0.5),
         mix: Some((0.5, 0.5)),
         value: Some(&mut value),

@@ -25,7 +25,7 @@ mod parallel;
 mod scalar_loops;
 mod workspace;
 
-use self::{inertia::inertia, workspace::Room};
+use self::{inertia::inertia, workspace::Workspace};
 use super::{
     algebra::{Matrix, Vector},
     basis::{Basis, BasisName, Domain, with_basis},
@@ -33,8 +33,8 @@ use super::{
     packed_grid::Columns,
     particles::Particles,
 };
-use contract::{Kernel, Maps, Shown, Takes};
-use moments::{Inertia, Moments};
+use contract::{G2pRequest, Kernel, P2gRequest, ParticleField};
+use moments::{InertiaTensor, Moments};
 use std::{
     marker::PhantomData,
     sync::{Mutex, MutexGuard, PoisonError},
@@ -48,7 +48,7 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
 /// The kernel of basis `B`.
 struct Loops<B> {
     /// Kept from one pass to the next. No result depends on what it holds.
-    room: Mutex<Room>,
+    room: Mutex<Workspace>,
     basis: PhantomData<B>,
 }
 
@@ -59,14 +59,14 @@ impl<B> Default for Loops<B> {
 }
 
 impl<B> Loops<B> {
-    fn room(&self) -> MutexGuard<'_, Room> {
+    fn room(&self) -> MutexGuard<'_, Workspace> {
         // A pass that has panicked leaves numbers that the next one overwrites.
         self.room.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
-    fn p2g(&self, particles: &Particles<D>, maps: &Maps<'_, D>, grid: &mut Grid<D>) {
+    fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
         let mut mass = std::mem::take(&mut grid.mass);
         let mut momentum = std::mem::take(&mut grid.velocity);
         let mut force = std::mem::take(&mut grid.force);
@@ -83,11 +83,11 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g_momentum(
         &self,
         particles: &Particles<D>,
-        shown: Shown<'_, D>,
+        shown: ParticleField<'_, D>,
         grid: &Grid<D>,
         column: &mut [Vector<D>],
     ) {
-        let maps = Maps { momentum: Some(shown), ..Maps::default() };
+        let maps = P2gRequest { momentum: Some(shown), ..P2gRequest::default() };
         let columns = Columns { momentum: Some(column), ..Columns::default() };
         self.room().scatter::<B, D>(particles, &maps, grid, columns);
     }
@@ -104,7 +104,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid.force = column;
     }
 
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: Takes<'_, D>) {
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>) {
         self.room().gather::<B, D>(grid, particles, &grid.velocity, takes);
     }
 
@@ -121,7 +121,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
             grid,
             particles,
             field,
-            Takes { mix, value, ..Takes::default() },
+            G2pRequest { mix, value, ..G2pRequest::default() },
         );
     }
 
@@ -133,7 +133,12 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         gradient: &mut [Matrix<D>],
     ) {
         let gradient = Some(gradient);
-        self.room().gather::<B, D>(grid, particles, field, Takes { gradient, ..Takes::default() });
+        self.room().gather::<B, D>(
+            grid,
+            particles,
+            field,
+            G2pRequest { gradient, ..G2pRequest::default() },
+        );
     }
 
     fn g2p_moment(
@@ -144,12 +149,17 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         moment: &mut [Matrix<D>],
     ) {
         let moment = Some(moment);
-        self.room().gather::<B, D>(grid, particles, field, Takes { moment, ..Takes::default() });
+        self.room().gather::<B, D>(
+            grid,
+            particles,
+            field,
+            G2pRequest { moment, ..G2pRequest::default() },
+        );
     }
 
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
         for (p, (mean, second)) in moments.mean.iter_mut().zip(&mut moments.second).enumerate() {
-            Inertia { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
+            InertiaTensor { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
         }
     }
 

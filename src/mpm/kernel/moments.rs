@@ -3,7 +3,7 @@
 use crate::{
     mpm::{
         algebra::{Matrix, Vector, dyad},
-        basis::Spread,
+        basis::WeightMoments,
     },
     subject::Column,
 };
@@ -37,14 +37,14 @@ impl<const D: usize> Moments<D> {
 
 /// Mean and second moments of the weights of one particle.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::mpm) struct Inertia<const D: usize> {
+pub(in crate::mpm) struct InertiaTensor<const D: usize> {
     /// The mean of the nodes, from the particle (m).
     pub(in crate::mpm) mean: Vector<D>,
     /// D_p (m^2).
     pub(in crate::mpm) second: Matrix<D>,
 }
 
-impl<const D: usize> Inertia<D> {
+impl<const D: usize> InertiaTensor<D> {
     /// Of weights that are products of functions of one coordinate each, by mean and variance along
     /// each axis: D_p is diagonal.
     #[inline(always)]
@@ -59,7 +59,7 @@ impl<const D: usize> Inertia<D> {
 
     /// Of any weights.
     #[inline(always)]
-    pub(in crate::mpm) fn full(spread: &Spread<D>) -> Self {
+    pub(in crate::mpm) fn full(spread: &WeightMoments<D>) -> Self {
         let mean = spread.first;
         Self { mean, second: spread.second - dyad(&mean, &mean) }
     }

@@ -1,13 +1,13 @@
 //! From particles to nodes: mass, momentum and internal force in one visit.
 
 use super::{
-    batch::{Several, Sight},
-    contract::{Affine, Divergence, Maps},
-    moments::Inertia,
+    batch::{ParticleBatches, Several},
+    contract::{Affine, Divergence, P2gRequest},
+    moments::InertiaTensor,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
-    basis::{Basis, Needs, Patches},
+    basis::{Basis, Needs, PatchBatch},
     grid::Grid,
     packed_grid::ViewMut,
     particles::Particles,
@@ -22,7 +22,7 @@ pub(in crate::mpm) struct Scatter<'a, const D: usize, B> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     /// The particles that give.
     pub(in crate::mpm) these: Range<usize>,
-    pub(in crate::mpm) maps: &'a Maps<'a, D>,
+    pub(in crate::mpm) maps: &'a P2gRequest<'a, D>,
     pub(in crate::mpm) fields: [ViewMut<'a>; 2],
     pub(in crate::mpm) basis: PhantomData<B>,
 }
@@ -31,7 +31,7 @@ pub(in crate::mpm) struct Scatter<'a, const D: usize, B> {
 /// the force follows the momentum there.
 pub(in crate::mpm) fn has_one_field<const D: usize>(
     particles: &Particles<D>,
-    maps: &Maps<'_, D>,
+    maps: &P2gRequest<'_, D>,
 ) -> bool {
     let by_gradient = maps.force == Some(Divergence::Gradient) && particles.moved.is_empty();
     2 * D < FOUR && maps.momentum.is_some() && by_gradient
@@ -64,7 +64,7 @@ fn inertial<W: Width, const D: usize>(width: W, m: f64, v: &Vector<D>) -> W::Fou
 #[inline(always)]
 fn divide<B: Basis, W: Width, const D: usize>(
     (width, patches, lane): (W, &Several<B, D>, usize),
-    of_all: Option<&Inertia<D>>,
+    of_all: Option<&InertiaTensor<D>>,
     matrix: &Matrix<D>,
     h: f64,
 ) -> [W::Four; D] {
@@ -82,7 +82,7 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         width: W,
         (first, lanes): (usize, Range<usize>),
         patches: &Several<B, D>,
-        of_all: Option<&Inertia<D>>,
+        of_all: Option<&InertiaTensor<D>>,
     ) {
         let (h, maps) = (self.grid.h, self.maps);
         let mut sink = Several::<B, D>::sink(width, self.fields[0].again());
@@ -126,7 +126,7 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         divergence: Divergence,
         (first, lanes): (usize, Range<usize>),
         patches: &Several<B, D>,
-        of_all: Option<&Inertia<D>>,
+        of_all: Option<&InertiaTensor<D>>,
     ) {
         let (h, particles) = (self.grid.h, self.particles);
         let mut sink = Several::<B, D>::sink(width, self.fields[1].again());
@@ -160,7 +160,7 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         width: W,
         (first, lanes): (usize, Range<usize>),
         patches: &Several<B, D>,
-        of_all: Option<&Inertia<D>>,
+        of_all: Option<&InertiaTensor<D>>,
     ) {
         let (h, particles) = (self.grid.h, self.particles);
         let Some(shown) = &self.maps.momentum else { return };
@@ -200,7 +200,7 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
         let mut patches = Several::<B, D>::none();
         let slopes = maps.force == Some(Divergence::Gradient);
         let needs = Needs { slopes, places: is_affine };
-        let sight = Sight::<B, D>::new((grid, layout), particles, needs);
+        let sight = ParticleBatches::<B, D>::new((grid, layout), particles, needs);
         for first in these.step_by(LANES) {
             sight.of(
                 width,

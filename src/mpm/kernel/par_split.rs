@@ -1,6 +1,6 @@
 //! Particles that take from nodes, shared by halves among threads: none waits for another.
 
-use super::contract::Takes;
+use super::contract::G2pRequest;
 use crate::mpm::{
     simd::LANES,
     threads::{both, split},
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Particles that are not worth a thread of their own.
 const FEW: usize = 1 << 14;
 
-impl<const D: usize> Takes<'_, D> {
+impl<const D: usize> G2pRequest<'_, D> {
     /// What the first `count` particles take, and what the others do.
     fn split_at(self, count: usize) -> (Self, Self) {
         let Self { change, mix, .. } = self;
@@ -37,8 +37,8 @@ impl<const D: usize> Takes<'_, D> {
 /// Runs `work` for parts of `these` particles, each with what its particles take.
 pub(in crate::mpm) fn halves<const D: usize>(
     these: Range<usize>,
-    takes: Takes<'_, D>,
-    work: &(impl Fn(Range<usize>, Takes<'_, D>) + Sync),
+    takes: G2pRequest<'_, D>,
+    work: &(impl Fn(Range<usize>, G2pRequest<'_, D>) + Sync),
 ) {
     if these.len() <= FEW {
         return work(these, takes);

@@ -2,7 +2,7 @@
 
 use super::{
     colouring::{Block, Blocks},
-    contract::{Maps, Takes},
+    contract::{G2pRequest, P2gRequest},
     g2p::{Gather, are_beside},
     p2g::{Scatter, has_one_field},
     par_split::halves,
@@ -20,7 +20,7 @@ use std::marker::PhantomData;
 
 /// What a pass needs besides particles and grid.
 #[derive(Debug, Default)]
-pub(in crate::mpm) struct Room {
+pub(in crate::mpm) struct Workspace {
     /// Two fields of nodes, packed.
     fields: [Packed; 2],
     pub(in crate::mpm) blocks: Blocks,
@@ -53,12 +53,12 @@ pub(in crate::mpm) fn pack<const D: usize>(
     }
 }
 
-impl Room {
+impl Workspace {
     /// What `maps` says, into `columns`.
     pub(in crate::mpm) fn scatter<B: Basis, const D: usize>(
         &mut self,
         particles: &Particles<D>,
-        maps: &Maps<'_, D>,
+        maps: &P2gRequest<'_, D>,
         grid: &Grid<D>,
         mut columns: Columns<'_, D>,
     ) {
@@ -93,7 +93,7 @@ impl Room {
         grid: &Grid<D>,
         particles: &Particles<D>,
         field: &[Vector<D>],
-        takes: Takes<'_, D>,
+        takes: G2pRequest<'_, D>,
     ) {
         let fields = &mut self.fields;
         pack(fields, grid, field, takes.change.is_some());

@@ -15,7 +15,7 @@ macro_rules! materials {
         /// an `N`, which stands for a number.
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
         #[serde(deny_unknown_fields)]
-        pub enum MaterialWords<N> {
+        pub enum MaterialSpec<N> {
             $(
                 #[doc = concat!("`", $name, "`, see [`", stringify!($member), "`].")]
                 #[serde(rename = $name)]
@@ -45,7 +45,7 @@ macro_rules! materials {
             )+
         }
 
-        impl<N> MaterialWords<N> {
+        impl<N> MaterialSpec<N> {
             /// The name as suites and reports spell it.
             pub fn name(&self) -> &'static str {
                 match self {

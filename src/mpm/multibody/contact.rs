@@ -18,7 +18,7 @@
 use super::{coupling::Coupling, interface::Meeting};
 use crate::{
     mpm::{
-        algebra::Vector, boundary::contact_state::Touch, grid::Grid, scheme::SchemeName,
+        algebra::Vector, boundary::contact_state::ContactState, grid::Grid, scheme::SchemeName,
         setup::Setup, solver::Solver,
     },
     subject::{Checkpoint, Column},
@@ -33,7 +33,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     /// Every two bodies.
     pairs: Vec<[usize; 2]>,
     /// For each node and every two bodies: how the last push left them.
-    touches: Vec<Touch>,
+    touches: Vec<ContactState>,
     /// For each body: velocities as they were mapped (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
 }
@@ -48,7 +48,7 @@ impl<const D: usize> Contact<D> {
         let nodes = bodies.first().map_or(0, |body| body.grid().nodes());
         Self {
             friction,
-            touches: vec![Touch::Free; nodes * pairs.len()],
+            touches: vec![ContactState::Separated; nodes * pairs.len()],
             pairs,
             meeting: Meeting::of(bodies),
             outwards: bodies.iter().map(column).collect(),
@@ -58,7 +58,7 @@ impl<const D: usize> Contact<D> {
 
     /// Pushes apart what would approach at each node after `dt` (s), by accelerations.
     fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
-        self.touches.fill(Touch::Free);
+        self.touches.fill(ContactState::Separated);
         for k in 0..self.meeting.nodes().len() {
             let i = self.meeting.nodes()[k];
             for pair in 0..self.pairs.len() {
@@ -77,17 +77,17 @@ impl<const D: usize> Contact<D> {
     }
 
     /// What contact does to a velocity relative to the other body: how they touch, and the change.
-    fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (Touch, Vector<D>) {
+    fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
-            return (Touch::Free, Vector::zeros());
+            return (ContactState::Separated, Vector::zeros());
         }
         let along = relative - normal * approach;
         let (speed, most) = (along.norm(), self.friction * approach);
         if speed <= most {
-            return (Touch::Sticks, -relative);
+            return (ContactState::Stick, -relative);
         }
-        (Touch::Slides, -(normal * approach + along * (most / speed)))
+        (ContactState::Slip, -(normal * approach + along * (most / speed)))
     }
 
     /// Gives velocities that strain the bodies what the last push left of them: along the normal they are
@@ -99,9 +99,9 @@ impl<const D: usize> Contact<D> {
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
                 let relative = bodies[a].setup.grid.velocity[i] - bodies[b].setup.grid.velocity[i];
                 let change = match touch {
-                    Touch::Free => continue,
-                    Touch::Slides => meet.normal * -relative.dot(&meet.normal),
-                    Touch::Sticks => -relative,
+                    ContactState::Separated => continue,
+                    ContactState::Slip => meet.normal * -relative.dot(&meet.normal),
+                    ContactState::Stick => -relative,
                 };
                 let impulse = change * meet.mass;
                 for (k, impulse) in [(a, impulse), (b, -impulse)] {

@@ -19,7 +19,7 @@ mod shared_velocity;
 mod state;
 
 use super::{setup::Setup, solver::Solver, stage::Stage};
-use crate::subject::{Census, Checkpoint, Failure, Profile, Samples, Subject, Totals};
+use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals};
 use contact::Contact;
 use coupling::Coupling;
 use failure::among;
@@ -135,14 +135,14 @@ impl<const D: usize> Subject for Bodies<D> {
         self.solvers.iter().filter_map(Solver::totals).reduce(Totals::plus)
     }
 
-    fn census(&self) -> Census {
-        let all = || self.solvers.iter().map(Solver::census);
-        Census {
-            particles: all().map(|census| census.particles).sum(),
-            transfers: all().map(|census| census.transfers).sum(),
-            crossings: all().map(|census| census.crossings).sum(),
-            left_domain: all().map(|census| census.left_domain).sum(),
-            min_j: all().map(|census| census.min_j).fold(f64::INFINITY, f64::min),
+    fn counters(&self) -> RunCounters {
+        let all = || self.solvers.iter().map(Solver::counters);
+        RunCounters {
+            particles: all().map(|counters| counters.particles).sum(),
+            transfers: all().map(|counters| counters.transfers).sum(),
+            crossings: all().map(|counters| counters.crossings).sum(),
+            left_domain: all().map(|counters| counters.left_domain).sum(),
+            min_j: all().map(|counters| counters.min_j).fold(f64::INFINITY, f64::min),
         }
     }
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {

@@ -16,7 +16,7 @@ use crate::{
         boundary::Boundary,
         grid::Grid,
         kernel::{
-            contract::{Affine, Kernel, Shown},
+            contract::{Affine, Kernel, ParticleField},
             moments::Moments,
         },
         particles::Particles,
@@ -52,8 +52,8 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         true
     }
 
-    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
-        Shown { v: &particles.v, affine: Some(Affine::Moment(&self.b)) }
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> ParticleField<'a, D> {
+        ParticleField { v: &particles.v, affine: Some(Affine::Moment(&self.b)) }
     }
 
     fn needs_moments(&self) -> bool {

@@ -6,7 +6,7 @@ use crate::{
         algebra::{Matrix, Vector},
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Divergence, Kernel, Maps, Shown},
+        kernel::contract::{Divergence, Kernel, P2gRequest, ParticleField},
         particles::Particles,
     },
     subject::{Checkpoint, Column},
@@ -50,8 +50,8 @@ pub trait Transfer<const D: usize>: Send + Sync {
     fn reads_grid_velocity(&self) -> bool;
 
     /// The velocity field that particles show to the nodes.
-    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
-        Shown { v: &particles.v, affine: None }
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> ParticleField<'a, D> {
+        ParticleField { v: &particles.v, affine: None }
     }
 
     /// What makes a force of their stresses.
@@ -212,7 +212,7 @@ pub(super) fn map<const D: usize>(
     grid: &mut Grid<D>,
     wanted: Wanted,
 ) -> u64 {
-    let maps = Maps {
+    let maps = P2gRequest {
         mass: wanted.mass,
         momentum: wanted.momentum.then(|| transfer.shown(particles)),
         force: wanted.force.then(|| transfer.divergence()),

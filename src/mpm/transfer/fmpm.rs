@@ -14,7 +14,7 @@ use crate::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Kernel, Shown},
+        kernel::contract::{Kernel, ParticleField},
         particles::Particles,
     },
     subject::Column,
@@ -70,7 +70,7 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         self.rest.copy_from_slice(field);
         for _ in 1..self.order {
             kernel.g2p(grid, &self.rest, particles, (0.0, 1.0), &mut self.seen);
-            let shown = Shown { v: &self.seen, affine: None };
+            let shown = ParticleField { v: &self.seen, affine: None };
             kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
             for (rest, mapped) in self.rest.iter_mut().zip(&self.nodal) {

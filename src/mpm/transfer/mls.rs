@@ -12,7 +12,7 @@ use crate::{
         algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Divergence, Kernel, Shown},
+        kernel::contract::{Divergence, Kernel, ParticleField},
         particles::Particles,
     },
     subject::Column,
@@ -41,7 +41,7 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         true
     }
 
-    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> ParticleField<'a, D> {
         self.apic.shown(particles)
     }
 

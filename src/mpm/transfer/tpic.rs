@@ -14,7 +14,7 @@ use crate::{
         boundary::Boundary,
         grid::Grid,
         kernel::{
-            contract::{Affine, Kernel, Shown},
+            contract::{Affine, Kernel, ParticleField},
             moments::Moments,
         },
         particles::Particles,
@@ -50,8 +50,8 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         true
     }
 
-    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> Shown<'a, D> {
-        Shown { v: &particles.v, affine: Some(Affine::Slope(&self.c)) }
+    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> ParticleField<'a, D> {
+        ParticleField { v: &particles.v, affine: Some(Affine::Slope(&self.c)) }
     }
 
     fn p2g(

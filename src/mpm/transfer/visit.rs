@@ -5,7 +5,7 @@ use crate::mpm::{
     algebra::Vector,
     boundary::Boundary,
     grid::Grid,
-    kernel::contract::{Kernel, Takes},
+    kernel::contract::{G2pRequest, Kernel},
     particles::Particles,
 };
 
@@ -37,7 +37,7 @@ pub fn g2p<const D: usize>(
         (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
     let moment = transfer.moment_column();
     let passes = recipe.passes(moment.is_some()) + u64::from(also.gradient);
-    let takes = Takes {
+    let takes = G2pRequest {
         change: recipe.change.then_some(dt),
         mix: recipe.mix,
         value: Some(&mut v),
@@ -66,7 +66,7 @@ pub(in crate::mpm) fn rest<const D: usize>(
         let mut grad_v = std::mem::take(&mut particles.grad_v);
         let gradient = gradient.then_some(&mut *grad_v);
         let carried = also.carried.map(|carried| (dt, carried));
-        let takes = Takes { gradient, carried, ..Takes::default() };
+        let takes = G2pRequest { gradient, carried, ..G2pRequest::default() };
         kernel.g2p_all(grid, particles, takes);
         particles.grad_v = grad_v;
     }

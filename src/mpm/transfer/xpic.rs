@@ -12,7 +12,7 @@ use crate::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Kernel, Shown},
+        kernel::contract::{Kernel, ParticleField},
         particles::Particles,
     },
     subject::Column,
@@ -61,7 +61,7 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
     ) -> u64 {
         self.rest.copy_from_slice(&particles.v);
         for _ in 0..self.order {
-            let shown = Shown { v: &self.rest, affine: None };
+            let shown = ParticleField { v: &self.rest, affine: None };
             kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
             kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.rest);

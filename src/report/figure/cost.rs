@@ -1,7 +1,7 @@
 //! Work-precision diagrams of a ranking.
 
 use super::{Mark, Point, Series, WorkPrecision, drawing::Figure};
-use crate::verify::{Ranked, Ranking, Tried, pareto_front};
+use crate::verify::{Ranked, Ranking, Sample, pareto_front};
 use std::ops::Range;
 
 /// Most lines with a colour and a name: a reader cannot tell more apart.
@@ -43,7 +43,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str) -> WorkPrecision {
     let mut named = groups;
     named.sort_by_key(|(row, _)| row.front.is_empty());
     let others = named.split_off(named.len().min(MOST_NAMED));
-    let every: Vec<Tried> =
+    let every: Vec<Sample> =
         ranking.rows.iter().flat_map(|row| row.contender.tried.iter().copied()).collect();
     let front = pareto_front(&every).into_iter().map(|k| (every[k].work, every[k].error));
     let series = |(row, more): &(&Ranked, usize)| Series {
@@ -68,7 +68,7 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.contender.tried, &b.contender.tried);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
     // Levels that do not count may differ.
-    let same = |(a, b): (&Tried, &Tried)| {
+    let same = |(a, b): (&Sample, &Sample)| {
         let counts = a.counts() || b.counts();
         !counts || (near(a.work, b.work) && near(a.error, b.error))
     };
@@ -81,7 +81,7 @@ fn points(row: &Ranked) -> Vec<Point> {
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()
 }
 
-fn point(converging: &Range<usize>, level: usize, one: &Tried) -> Point {
+fn point(converging: &Range<usize>, level: usize, one: &Sample) -> Point {
     let mark = if one.failed {
         Mark::Failed
     } else if !one.usable {
@@ -89,7 +89,7 @@ fn point(converging: &Range<usize>, level: usize, one: &Tried) -> Point {
     } else if one.asymptotic && converging.contains(&level) {
         Mark::Window
     } else {
-        Mark::Shown
+        Mark::ParticleField
     };
     Point { h: one.work, error: one.error, mark }
 }

@@ -19,7 +19,7 @@ pub enum Mark {
     /// Measured and not judged: as in the window, and no word in the legend.
     Measured,
     /// Outside the window: hollow, joined by a thin dashed line.
-    Shown,
+    ParticleField,
     /// Particles changed cell: hollow with a cross.
     Crossing,
     /// No finite error: an arrow at the upper edge of the frame.
@@ -61,7 +61,7 @@ mod tests {
     #[rstest]
     #[case(0.1, 0.5, Mark::Window, Some((Some(0.5), Mark::Window)))]
     #[case(0.1, f64::NAN, Mark::Window, Some((None, Mark::Failed)))]
-    #[case(0.1, f64::INFINITY, Mark::Shown, Some((None, Mark::Failed)))]
+    #[case(0.1, f64::INFINITY, Mark::ParticleField, Some((None, Mark::Failed)))]
     #[case(0.1, 0.5, Mark::Failed, Some((None, Mark::Failed)))]
     #[case(0.1, 0.0, Mark::Window, None)]
     #[case(0.1, -0.5, Mark::Window, None)]

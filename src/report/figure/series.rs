@@ -24,7 +24,7 @@ pub struct Series {
 /// Every mark with its key in the legend, in the order of the legend.
 const MARKS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
-    (Mark::Shown, "outside the window"),
+    (Mark::ParticleField, "outside the window"),
     (Mark::Crossing, "particles changed cell"),
     (Mark::Failed, "failed or not finite"),
 ];
@@ -100,7 +100,7 @@ fn key(mark: Mark) -> Element {
 fn fill(mark: Mark) -> Fill {
     match mark {
         Mark::Window | Mark::Measured => Fill::Solid,
-        Mark::Shown | Mark::Failed => Fill::Hollow,
+        Mark::ParticleField | Mark::Failed => Fill::Hollow,
         Mark::Crossing => Fill::Crossed,
     }
 }

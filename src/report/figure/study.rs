@@ -93,12 +93,12 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
     let window = study.judgement.window.as_deref().unwrap_or_default();
     let mark = if level.run.failure.is_some() {
         Mark::Failed
-    } else if level.run.census.crossings.unwrap_or(0) > 0 {
+    } else if level.run.counters.crossings.unwrap_or(0) > 0 {
         Mark::Crossing
     } else if window.contains(&index) {
         Mark::Window
     } else {
-        Mark::Shown
+        Mark::ParticleField
     };
     let error = study.judgement.levels.get(index).map_or(f64::NAN, |judged| judged.error);
     Point { h: level.spacing, error, mark }

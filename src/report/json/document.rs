@@ -150,7 +150,7 @@ fn floor(floor: &Floor) -> Value {
 
 /// One level; errors only where something was `compared`.
 fn level(level: &LevelOutcome, compared: bool) -> Value {
-    let (run, census) = (&level.run, &level.run.census);
+    let (run, counters) = (&level.run, &level.run.counters);
     let error = |value: f64| compared.then(|| number(value));
     json!({
         "cells": level.cells,
@@ -158,12 +158,12 @@ fn level(level: &LevelOutcome, compared: bool) -> Value {
         "spacing": number(level.spacing),
         "dt": number(level.dt),
         "ppc": level.ppc,
-        "particles": census.particles,
+        "particles": counters.particles,
         "steps": run.steps,
-        "transfers": census.transfers,
-        "crossings": census.crossings,
-        "left_domain": census.left_domain,
-        "min_j": number(census.min_j),
+        "transfers": counters.transfers,
+        "crossings": counters.crossings,
+        "left_domain": counters.left_domain,
+        "min_j": number(counters.min_j),
         "errors": {
             "rms": error(run.errors.rms),
             "l1": error(run.errors.l1),

@@ -18,19 +18,19 @@
 use super::{cost::rankings, number::number};
 use crate::{
     subject::{Column, Holder, Profile},
-    verify::{Bid, CaseOutcome, LevelOutcome, Load, Machine, Model, Priced, Timing},
+    verify::{Bid, CaseOutcome, LevelOutcome, Load, Machine, Model, TimedSuite, Timing},
 };
 use serde_json::{Value, json};
 
 /// The document, indented, with a newline at its end. A suite has either been priced or bid for.
-pub fn priced_json(priced: &[Priced], bids: &[(String, Bid)]) -> String {
+pub fn priced_json(priced: &[TimedSuite], bids: &[(String, Bid)]) -> String {
     let suites = priced.iter().map(suite).chain(bids.iter().map(|(name, found)| {
         json!({"suite": name, "machine": null, "cases": [], "cost": [], "bid": bid(found)})
     }));
     format!("{:#}\n", json!({ "suites": suites.collect::<Vec<_>>() }))
 }
 
-fn suite(priced: &Priced) -> Value {
+fn suite(priced: &TimedSuite) -> Value {
     let cases = priced.outcome.cases.iter().enumerate();
     let ranked = [
         (rankings(&priced.by_seconds(), "seconds")),
@@ -60,7 +60,7 @@ fn timing(timing: Timing) -> Value {
     json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
 }
 
-fn case(priced: &Priced, index: usize, case: &CaseOutcome) -> Value {
+fn case(priced: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
     let levels = case.convergence().map_or(&[][..], |study| &study.levels);
     let size = case.convergence().map_or(f64::NAN, |study| study.yardstick.size);
     let bytes = case.profile.as_ref().map(of_a_particle);
@@ -98,7 +98,7 @@ fn one_level(
         "dt": number(level.dt),
         "ppc": level.ppc,
         "error": number(level.error / size),
-        "transfers": level.run.census.transfers,
+        "transfers": level.run.counters.transfers,
         "particle_updates": load.updates as u64,
         "steps": level.run.steps,
         "bytes": bytes.map(|bytes| bytes as u64 * load.updates as u64),

@@ -143,7 +143,7 @@ mod tests {
             matches!(*colour, "#ffffff" | "#222222")
                 || DRAWN.iter().any(|(drawn, _)| drawn == colour)
         };
-        let marks = [Mark::Window, Mark::Shown, Mark::Crossing, Mark::Failed];
+        let marks = [Mark::Window, Mark::ParticleField, Mark::Crossing, Mark::Failed];
         let points = [0.5, 0.25, 0.1, 0.05].iter().zip(marks).map(|(h, mark)| Point {
             h: *h,
             error: *h,

@@ -15,7 +15,7 @@ pub(crate) const TRANSFERS: &str = "particle-node transfers";
 /// The rankings of a suite by transfers.
 pub(crate) fn by_transfers(outcome: &SuiteOutcome) -> Vec<Ranking> {
     let transfers =
-        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.census.transfers as f64;
+        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
     rankings(&outcome.cases, transfers)
 }
 

@@ -92,14 +92,14 @@ fn error_row(study: &Convergence, index: usize, level: &LevelOutcome) -> Vec<Str
 
 /// What the level cost, and what a reader must know beside its error.
 fn work_row(axis: Axis, level: &LevelOutcome) -> Vec<String> {
-    let census = &level.run.census;
+    let counters = &level.run.counters;
     let figures = [
-        optional(census.particles),
+        optional(counters.particles),
         level.run.steps.to_string(),
-        census.transfers.to_string(),
-        optional(census.crossings),
-        optional(census.left_domain),
-        format!("{:.4}", census.min_j),
+        counters.transfers.to_string(),
+        optional(counters.crossings),
+        optional(counters.left_domain),
+        format!("{:.4}", counters.min_j),
         optional(level.run.unrest.map(|unrest| match level.run.failure {
             Some(_) => "failed".to_owned(),
             None => format!("{unrest:.0e}"),

@@ -114,8 +114,8 @@ fn convergence(lines: &mut Vec<String>, study: &Convergence) {
 
 /// Where particles begin to change their cell, and what that does to the order.
 fn order_lost(study: &Convergence) -> Option<String> {
-    let first = study.levels.iter().find(|level| level.run.census.crossings.unwrap_or(0) > 0)?;
-    let crossings = first.run.census.crossings?;
+    let first = study.levels.iter().find(|level| level.run.counters.crossings.unwrap_or(0) > 0)?;
+    let crossings = first.run.counters.crossings?;
     let finest = study.levels.last()?;
     if study.levels.len() == 1 {
         return Some(format!("particles change their cell {crossings} times"));
@@ -129,7 +129,7 @@ fn order_lost(study: &Convergence) -> Option<String> {
         first.name(study.axis),
         pair(first),
         finest.name(study.axis),
-        finest.run.census.crossings.unwrap_or(0),
+        finest.run.counters.crossings.unwrap_or(0),
         pair(finest),
     ))
 }

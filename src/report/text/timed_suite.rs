@@ -4,11 +4,11 @@ use super::{
     cost::{TRANSFERS, cost, short},
     table::{Table, optional},
 };
-use crate::verify::{Bid, LevelOutcome, Machine, Model, Priced, Ranked, Ranking, Timing};
+use crate::verify::{Bid, LevelOutcome, Machine, Model, Ranked, Ranking, TimedSuite, Timing};
 
 /// The report of a suite whose levels have been timed. `varied` says that there are cases besides the
 /// suite's own, whose best splits are shown.
-pub fn priced(priced: &Priced, varied: bool) -> String {
+pub fn priced(priced: &TimedSuite, varied: bool) -> String {
     let mut text = format!("{}: {}\n\n", priced.outcome.suite, priced.outcome.title);
     text += &machine(&priced.machine);
     text += &row("seconds", SECONDS);
@@ -58,7 +58,7 @@ pub(crate) fn machine(machine: &Machine) -> String {
 }
 
 /// Every level of every case: what it gave and took.
-fn levels(priced: &Priced) -> Vec<String> {
+fn levels(priced: &TimedSuite) -> Vec<String> {
     let heads = [
         "case",
         "cells",
@@ -80,7 +80,7 @@ fn levels(priced: &Priced) -> Vec<String> {
                 None => short(level.error / study.yardstick.size),
             };
             let figures = [case.case.clone(), level.cells.to_string(), short(level.dt)];
-            let rest = [optional(level.ppc), error, level.run.census.transfers.to_string()];
+            let rest = [optional(level.ppc), error, level.run.counters.transfers.to_string()];
             table
                 .row(figures.into_iter().chain(rest).chain(timing_cells(level, *timing)).collect());
         }
@@ -89,7 +89,7 @@ fn levels(priced: &Priced) -> Vec<String> {
 }
 
 fn timing_cells(level: &LevelOutcome, timing: Option<Timing>) -> [String; 4] {
-    let nanoseconds = |timing: &Timing| 1e9 * timing.median / level.run.census.transfers as f64;
+    let nanoseconds = |timing: &Timing| 1e9 * timing.median / level.run.counters.transfers as f64;
     [
         optional(timing.map(|timing| short(timing.median))),
         optional(timing.map(|timing| format!("{}..{}", short(timing.low), short(timing.high)))),
@@ -99,7 +99,7 @@ fn timing_cells(level: &LevelOutcome, timing: Option<Timing>) -> [String; 4] {
 }
 
 /// The cost model of each case, and how well it predicts the finest level before that runs.
-fn models(priced: &Priced) -> Option<Vec<String>> {
+fn models(priced: &TimedSuite) -> Option<Vec<String>> {
     let heads = ["cost model, ns", "a transfer", "a particle", "a node", "a step", "finest"];
     let mut table = Table::new(&heads);
     let mut any = false;

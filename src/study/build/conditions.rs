@@ -7,7 +7,7 @@ use crate::{
         SetForce, Side, Vector, VelocityField,
     },
     suite::{
-        compile::scene::boundary::Hold,
+        compile::scene::boundary::BoundaryCondition,
         model::{Scene, SceneFace},
     },
 };
@@ -19,7 +19,7 @@ pub(crate) fn side(face: &SceneFace) -> Side {
 
 /// Whether an axis has no end. A round body has no faces.
 pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
-    scene.faces.get(2 * axis).is_some_and(|face| matches!(face.hold, Hold::Periodic))
+    scene.faces.get(2 * axis).is_some_and(|face| matches!(face.hold, BoundaryCondition::Periodic))
 }
 
 /// What is held on the faces of the grid. Where faces meet, a fixed one wins over one with
@@ -33,16 +33,16 @@ pub(crate) fn boundary<const D: usize>(
     for face in &scene.faces {
         let (axis, side) = (face.axis, side(face));
         match &face.hold {
-            Hold::Free | Hold::Periodic | Hold::AtRest => {}
-            Hold::Velocity(value) => {
+            BoundaryCondition::Free | BoundaryCondition::Periodic | BoundaryCondition::AtRest => {}
+            BoundaryCondition::Velocity(value) => {
                 let driven = Prescribed::face(grid, basis, axis, side, of_place_and_time(value));
                 ranked.push((0, Box::new(driven)));
             }
-            Hold::Roller => ranked.push((1, Box::new(Roller::face(grid, axis, side)))),
-            Hold::Friction(coefficient) => {
+            BoundaryCondition::Roller => ranked.push((1, Box::new(Roller::face(grid, axis, side)))),
+            BoundaryCondition::Friction(coefficient) => {
                 ranked.push((2, Box::new(Friction::face(grid, axis, side, *coefficient))));
             }
-            Hold::Fixed => ranked.push((3, Box::new(Fixed::face(grid, axis, side)))),
+            BoundaryCondition::Fixed => ranked.push((3, Box::new(Fixed::face(grid, axis, side)))),
         }
     }
     ranked.sort_by_key(|(rank, _)| *rank);

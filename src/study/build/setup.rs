@@ -14,7 +14,7 @@ use crate::{
         heat::Conduction,
     },
     mpm::{
-        BasisName, BodyForce, Conductor, Damping, Effect, Gravity, Grid, Kernel, LocalDamping,
+        BasisName, BodyForce, Damping, Effect, Gravity, Grid, HeatSolver, Kernel, LocalDamping,
         Particles, Setup, Vector, kernel,
     },
     suite::{
@@ -117,7 +117,7 @@ pub(crate) fn conductor<const D: usize>(
     basis: BasisName,
     level: LevelPlan,
     with: impl FnOnce(Box<dyn Kernel<D>>) -> Box<dyn Kernel<D>>,
-) -> Result<Conductor<D>, String> {
+) -> Result<HeatSolver<D>, String> {
     let h = cell_size(&plan.scene, level.cells);
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = with(kernel::<D>(basis));
@@ -125,7 +125,7 @@ pub(crate) fn conductor<const D: usize>(
     let mut particles = seeding::particles(&plan.scene, &grid.origin, h, per_axis);
     let heat = thermal::heat((&plan.scene, plan.heat_problem()), (&grid, basis), &mut particles);
     let effects = heat.map(|heat| Box::new(heat) as Box<dyn Effect<D>>).into_iter().collect();
-    Conductor::new(kernel, grid, particles, effects).map_err(|failure| failure.to_string())
+    HeatSolver::new(kernel, grid, particles, effects).map_err(|failure| failure.to_string())
 }
 
 pub(crate) fn plain<const D: usize>(kernel: Box<dyn Kernel<D>>) -> Box<dyn Kernel<D>> {

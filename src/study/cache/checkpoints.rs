@@ -4,8 +4,8 @@
 //! fingerprint of all before. Whatever is of another level or torn is not taken, and the level starts
 //! anew. The file is written to another name first, and gone when the level has ended.
 
-use super::log::Notes;
-use crate::{suite::model::fingerprint::fingerprint, verify::Keeper};
+use super::log::CacheLog;
+use crate::{suite::model::fingerprint::fingerprint, verify::CheckpointStore};
 use std::{
     fs,
     io::ErrorKind,
@@ -15,7 +15,7 @@ use std::{
 
 /// Keeps the state of one level.
 pub(crate) struct LevelKeeper<'a> {
-    notes: &'a Notes,
+    log: &'a CacheLog,
     every: Duration,
     last: Instant,
     path: PathBuf,
@@ -26,20 +26,20 @@ pub(crate) struct LevelKeeper<'a> {
 impl<'a> LevelKeeper<'a> {
     /// For the level that is kept as `path` under `key`; `notes` call it `what`.
     pub(crate) fn new(
-        notes: &'a Notes,
+        log: &'a CacheLog,
         every: Duration,
         path: &Path,
         key: &'a str,
         what: &'a str,
     ) -> Self {
         let path = path.with_extension("checkpoint");
-        Self { notes, every, last: Instant::now(), path, key, what }
+        Self { log, every, last: Instant::now(), path, key, what }
     }
 
     /// The level has ended and is kept itself.
     pub(crate) fn forget(&self) {
         match fs::remove_file(&self.path) {
-            Err(error) if error.kind() != ErrorKind::NotFound => self.notes.complain(&error),
+            Err(error) if error.kind() != ErrorKind::NotFound => self.log.record_error(&error),
             _ => {}
         }
         // What was being written when an earlier run was killed.
@@ -51,11 +51,11 @@ impl<'a> LevelKeeper<'a> {
     }
 
     fn refuse(&self, why: &str) {
-        self.notes.tell(format!("{}: its checkpoint {why}; the level starts anew", self.what));
+        self.log.add(format!("{}: its checkpoint {why}; the level starts anew", self.what));
     }
 }
 
-impl Keeper for LevelKeeper<'_> {
+impl CheckpointStore for LevelKeeper<'_> {
     fn left(&mut self) -> Option<Vec<u8>> {
         let bytes = match fs::read(&self.path) {
             Ok(bytes) => bytes,
@@ -71,7 +71,7 @@ impl Keeper for LevelKeeper<'_> {
 
     fn taken(&mut self, steps: Option<u64>) {
         match steps {
-            Some(steps) => self.notes.tell(format!("{}: goes on after step {steps}", self.what)),
+            Some(steps) => self.log.add(format!("{}: goes on after step {steps}", self.what)),
             None => self.refuse("holds another state"),
         }
     }
@@ -85,7 +85,7 @@ impl Keeper for LevelKeeper<'_> {
         let written = fs::write(&unfinished, sealed(state, self.key))
             .and_then(|()| fs::rename(&unfinished, &self.path));
         if let Err(error) = written {
-            self.notes.complain(&error);
+            self.log.record_error(&error);
         }
         self.last = Instant::now();
     }
@@ -130,7 +130,7 @@ pub(crate) struct Interruption {
 }
 
 #[cfg(test)]
-impl Keeper for Interruption {
+impl CheckpointStore for Interruption {
     fn left(&mut self) -> Option<Vec<u8>> {
         self.state.clone()
     }
@@ -155,7 +155,7 @@ impl Interruption {
     /// the state that was left.
     pub(crate) fn holds(
         steps: u64,
-        run: impl Fn(&mut dyn Keeper) -> String,
+        run: impl Fn(&mut dyn CheckpointStore) -> String,
         what: &str,
     ) -> (String, Vec<u8>) {
         let at = (steps / 3).max(1);
@@ -170,7 +170,11 @@ impl Interruption {
     }
 
     /// A run for which no state of its own is left shows the same.
-    pub(crate) fn is_refused(state: Vec<u8>, run: impl Fn(&mut dyn Keeper) -> String, whole: &str) {
+    pub(crate) fn is_refused(
+        state: Vec<u8>,
+        run: impl Fn(&mut dyn CheckpointStore) -> String,
+        whole: &str,
+    ) {
         let mut third = Self { state: Some(state), ..Self::default() };
         assert_eq!(run(&mut third), whole);
         assert_eq!(third.told, [None], "no such state");

@@ -1,35 +1,35 @@
-//! What there is to say of what is kept: by many threads, to who asks in the end.
+//! Thread-safe log of the result cache, drained once at the end.
 
 use std::{
     fmt::Display,
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-/// The first complaint, and lines that tell what was done.
+/// The first error, and lines that say what was done.
 #[derive(Debug, Default)]
-pub(crate) struct Notes {
-    complaint: Mutex<Option<String>>,
-    told: Mutex<Vec<String>>,
+pub(crate) struct CacheLog {
+    first_error: Mutex<Option<String>>,
+    lines: Mutex<Vec<String>>,
 }
 
-impl Notes {
-    pub(crate) fn tell(&self, line: String) {
-        lock(&self.told).push(line);
+impl CacheLog {
+    pub(crate) fn add(&self, line: String) {
+        lock(&self.lines).push(line);
     }
 
-    pub(crate) fn complain(&self, error: &dyn Display) {
-        lock(&self.complaint).get_or_insert_with(|| error.to_string());
+    pub(crate) fn record_error(&self, error: &dyn Display) {
+        lock(&self.first_error).get_or_insert_with(|| error.to_string());
     }
 
-    pub(crate) fn complaint(&self) -> Option<String> {
-        lock(&self.complaint).clone()
+    pub(crate) fn first_error(&self) -> Option<String> {
+        lock(&self.first_error).clone()
     }
 
     /// Each line once, in an order that does not depend on threads.
-    pub(crate) fn take_told(&self) -> Vec<String> {
-        let mut told = std::mem::take(&mut *lock(&self.told));
-        told.sort();
-        told
+    pub(crate) fn take_lines(&self) -> Vec<String> {
+        let mut lines = std::mem::take(&mut *lock(&self.lines));
+        lines.sort();
+        lines
     }
 }
 

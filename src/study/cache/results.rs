@@ -6,13 +6,13 @@
 //! was computed otherwise is ever taken for it, and a run that goes on prints what it would have printed
 //! uninterrupted, byte by byte. A file is written whole or not at all: to another name first.
 
-use super::{checkpoints::LevelKeeper, log::Notes};
+use super::{checkpoints::LevelKeeper, log::CacheLog};
 use crate::{
     suite::{
         model::fingerprint::fingerprint,
         yaml::{read_again, written},
     },
-    verify::Keeper,
+    verify::CheckpointStore,
 };
 use serde::{Serialize, de::DeserializeOwned};
 use std::{
@@ -23,17 +23,17 @@ use std::{
 
 /// A folder of finished levels, and of states of running ones.
 #[derive(Debug)]
-pub struct Kept {
+pub struct ResultCache {
     folder: PathBuf,
     program: u64,
     every: Duration,
-    notes: Notes,
+    log: CacheLog,
 }
 
 /// How often the state of a running level is kept: shorter ones never are.
 const EVERY: Duration = Duration::from_secs(10);
 
-impl Kept {
+impl ResultCache {
     /// Uses a folder, and makes it if it is not there.
     ///
     /// # Errors
@@ -41,7 +41,7 @@ impl Kept {
     pub fn open(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let program = fingerprint(&fs::read(std::env::current_exe()?)?);
-        Ok(Self { folder: folder.to_owned(), program, every: EVERY, notes: Notes::default() })
+        Ok(Self { folder: folder.to_owned(), program, every: EVERY, log: CacheLog::default() })
     }
 
     /// Keeps the state of running levels so often, not every ten seconds.
@@ -56,11 +56,11 @@ impl Kept {
         &self,
         key: &str,
         what: &str,
-        run: impl FnOnce(&mut dyn Keeper) -> Result<T, String>,
+        run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
     ) -> Result<T, String> {
         let key = format!("{:016x} {key}", self.program);
         let path = self.folder.join(format!("{:016x}.level", fingerprint(key.as_bytes())));
-        let mut keeper = LevelKeeper::new(&self.notes, self.every, &path, &key, what);
+        let mut keeper = LevelKeeper::new(&self.log, self.every, &path, &key, what);
         if let Some(found) = fs::read_to_string(&path).ok().and_then(|text| read(&text, &key)) {
             // A run may have been killed between the two.
             keeper.forget();
@@ -69,19 +69,19 @@ impl Kept {
         let found = run(&mut keeper)?;
         match save(&path, &key, &found) {
             Ok(()) => keeper.forget(),
-            Err(error) => self.notes.complain(&error),
+            Err(error) => self.log.record_error(&error),
         }
         Ok(found)
     }
 
     /// Why something could not be kept, if so.
-    pub fn complaint(&self) -> Option<String> {
-        Some(format!("{}: {}", self.folder.display(), self.notes.complaint()?))
+    pub fn diagnostic(&self) -> Option<String> {
+        Some(format!("{}: {}", self.folder.display(), self.log.first_error()?))
     }
 
     /// What became of states that were left by an interrupted run: one line for each, told once.
-    pub fn take_told(&self) -> Vec<String> {
-        self.notes.take_told()
+    pub fn take_lines(&self) -> Vec<String> {
+        self.log.take_lines()
     }
 }
 
@@ -103,7 +103,7 @@ fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
 mod tests {
     use super::*;
     use crate::{
-        subject::{Census, Totals},
+        subject::{RunCounters, Totals},
         verify::{Drift, History, Interval, Norms, Run},
     };
     use proptest::prelude::*;
@@ -119,7 +119,7 @@ mod tests {
             drift: Some(Drift::NONE),
             account: vec![(0.0, totals), (x, Totals { strain_energy: None, ..totals })],
             energy_rate: Some(Interval { value: x, low: -x, high: f64::INFINITY }),
-            census: Census {
+            counters: RunCounters {
                 particles: Some(7),
                 transfers: u64::MAX,
                 crossings: None,

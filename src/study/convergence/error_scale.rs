@@ -3,7 +3,7 @@
 use crate::{
     exact::Truth,
     suite::model::{Against, Case, ConvergencePlan},
-    verify::{Axis, Yardstick, largest_exact},
+    verify::{Axis, ErrorScale, largest_exact},
 };
 
 /// Intervals of the raster of places along each axis, and of times, in 1-D and 2-D, and in 3-D, where
@@ -12,14 +12,14 @@ const FINE: usize = 20;
 const COARSE: usize = 8;
 
 /// The yardstick of `case`, whose errors are taken against `truth`.
-pub(crate) fn yardstick(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> Yardstick {
+pub(crate) fn yardstick(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     let against = match case.against {
         Against::Exact => "the exact solution",
         Against::Reference => "the reference",
         Against::SameMethod => "the same method with shorter steps",
         Against::Nothing => "nothing",
     };
-    Yardstick {
+    ErrorScale {
         problem: format!("until t = {} s, against {against}", case.until),
         size: size(plan, case, truth),
         growth: growth(plan),

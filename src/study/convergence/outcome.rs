@@ -10,8 +10,9 @@ use crate::{
     },
     verify,
     verify::{
-        Axis, CaseOutcome, Claim, Convergence, Drift, Expectation, Floor, Interval, Judgement,
-        LevelOutcome, Measured, Richardson, Run, Seen, Study, Verdict, Yardstick, judge, larger,
+        Axis, CaseOutcome, Convergence, Drift, ErrorScale, Expectation, Floor, Interval, Judgement,
+        LevelOutcome, Measured, OrderHypothesis, Richardson, Run, Seen, Study, Verdict, judge,
+        larger,
     },
 };
 
@@ -38,7 +39,7 @@ pub(crate) fn judged(
     mut levels: Vec<LevelOutcome>,
     judgement: Judgement,
     floor: Option<Floor>,
-    yardstick: Yardstick,
+    yardstick: ErrorScale,
 ) -> CaseOutcome {
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
@@ -49,7 +50,7 @@ pub(crate) fn judged(
         verdict: judgement.verdict,
         order: judgement.order.map(|order| (order.low, order.high)),
         finest_pair: finest.and_then(|level| level.order),
-        crossings: finest.and_then(|level| level.run.census.crossings),
+        crossings: finest.and_then(|level| level.run.counters.crossings),
         measured,
         floor: floor.as_ref().and_then(Floor::cause),
     };
@@ -104,7 +105,7 @@ pub(crate) fn judge_levels(
         })
         .collect();
     let (formal_order, axis) = (formal_order(plan, case), plan.refine.axis);
-    let claim = Claim { formal_order, expected: expectation.order, axis };
+    let claim = OrderHypothesis { formal_order, expected: expectation.order, axis };
     judge(&judged, &claim)
 }
 
@@ -216,12 +217,12 @@ pub(crate) fn refused(
 mod tests {
     use super::*;
     use crate::{
-        subject::Census,
+        subject::RunCounters,
         verify::{Limits, Norms},
     };
 
     fn level(usable: bool, error: f64, drift: Option<Drift>) -> LevelOutcome {
-        let census = Census {
+        let counters = RunCounters {
             particles: None,
             transfers: 0,
             crossings: None,
@@ -236,7 +237,7 @@ mod tests {
             drift,
             account: Vec::new(),
             energy_rate: None,
-            census,
+            counters,
             steps: 1,
             failure: None,
             history: None,
@@ -290,7 +291,7 @@ mod tests {
         let (verdict, order, finest_pair, floor) = (None, None, None, None);
         let bound = Expectation { verdict, order, finest_pair, crossings, limits, floor, because };
         let said = |level: verify::Level, unmet: &[String]| {
-            let judgement = judge(&[level], &Claim::formal(2.0));
+            let judgement = judge(&[level], &OrderHypothesis::formal(2.0));
             let measured = Measured {
                 errors: Some((1e-12, 1e-12)),
                 observed: None,

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     exact::{Problem, Truth},
     study::{
-        build::dispatch::subject, cache::results::Kept, describe::statement,
+        build::dispatch::subject, cache::results::ResultCache, describe::statement,
         internal_force::case::internal_force, stability::run as stability,
     },
     suite::{
@@ -23,7 +23,8 @@ use crate::{
     },
     verify,
     verify::{
-        Axis, CaseOutcome, Clock, Comparison, Keeper, LevelOutcome, Nobody, Run, SuiteOutcome,
+        Axis, CaseOutcome, CheckpointStore, Clock, Comparison, LevelOutcome, NoCheckpoints, Run,
+        SuiteOutcome,
     },
 };
 use rayon::prelude::*;
@@ -36,7 +37,7 @@ pub type Progress<'a> = &'a (dyn Fn() + Sync);
 pub struct Runner<'a> {
     suite: &'a Suite,
     extent: Extent,
-    kept: Option<&'a Kept>,
+    kept: Option<&'a ResultCache>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
     steps: Steps,
 }
@@ -61,7 +62,7 @@ impl<'a> Runner<'a> {
 
     /// Keeps finished levels, and takes those that have been kept.
     #[must_use]
-    pub fn keeping(self, kept: Option<&'a Kept>) -> Self {
+    pub fn keeping(self, kept: Option<&'a ResultCache>) -> Self {
         Self { kept, ..self }
     }
 
@@ -177,9 +178,10 @@ impl<'a> Runner<'a> {
     ) -> Result<LevelOutcome, String> {
         let clock = Clock::new(case.until, level.dt, plan.instants)
             .ok_or("the time step makes no sense")?;
-        let run = |keeper: &mut dyn Keeper| run_of(plan, case, truth, level, &clock, keeper);
+        let run =
+            |keeper: &mut dyn CheckpointStore| run_of(plan, case, truth, level, &clock, keeper);
         let run = match self.kept {
-            None => run(&mut Nobody),
+            None => run(&mut NoCheckpoints),
             Some(kept) => {
                 let Suite { name, fingerprint, .. } = self.suite;
                 let what =
@@ -217,7 +219,7 @@ fn run_of(
     truth: &dyn Truth,
     level: LevelPlan,
     clock: &Clock,
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
 ) -> Result<Run, String> {
     let make = || subject(plan, case.method, level);
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
@@ -226,10 +228,10 @@ fn run_of(
 }
 
 fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> LevelOutcome {
-    let crossed = run.census.crossings.is_some_and(|n| n > 0);
+    let crossed = run.counters.crossings.is_some_and(|n| n > 0);
     let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
     let LevelPlan { cells, h, .. } = level;
-    let ppc = level.ppc.filter(|_| run.census.particles.is_some());
+    let ppc = level.ppc.filter(|_| run.counters.particles.is_some());
     let spacing = match plan.refine.axis {
         Axis::Space => h,
         Axis::Time => dt,
@@ -272,7 +274,7 @@ mod tests {
             let runner = Runner::new(&suite);
             let truth = runner.truth(plan, case).unwrap();
             let clock = Clock::new(case.until, level.dt, plan.instants).unwrap();
-            let run = |keeper: &mut dyn Keeper| {
+            let run = |keeper: &mut dyn CheckpointStore| {
                 format!("{:?}", run_of(plan, case, truth, level, &clock, keeper).unwrap())
             };
             Interruption::holds(clock.steps, run, &case.name);
@@ -288,11 +290,11 @@ mod tests {
         let runner = Runner::new(&suite);
         let truth = runner.truth(plan, case).unwrap();
         let clock = Clock::new(case.until, plan.refine.levels[0].dt, plan.instants).unwrap();
-        let run = |level: usize, keeper: &mut dyn Keeper| {
+        let run = |level: usize, keeper: &mut dyn CheckpointStore| {
             let level = plan.refine.levels[level];
             format!("{:?}", run_of(plan, case, truth, level, &clock, keeper).unwrap())
         };
-        let coarsest = |keeper: &mut dyn Keeper| run(0, keeper);
+        let coarsest = |keeper: &mut dyn CheckpointStore| run(0, keeper);
         let (whole, state) = Interruption::holds(clock.steps, coarsest, "level 0");
         let (_, of_another) = Interruption::holds(clock.steps, |keeper| run(1, keeper), "level 1");
         let torn = state[..state.len() / 2].to_vec();

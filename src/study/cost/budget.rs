@@ -44,7 +44,7 @@ pub fn bid(suite: &Suite, budget: f64) -> Result<Bid, String> {
     }
     let cases = Runner::new(suite).run(&|| ()).cases;
     let transfers =
-        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.census.transfers as f64;
+        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
     let ranked = rankings(&cases, transfers);
     let ranking = ranked.first().ok_or("no error of it has a size to be compared with")?;
     let candidates: Vec<Candidate<'_>> =

@@ -7,7 +7,7 @@ use crate::{
         model::{Case, ConvergencePlan, refine_plan::LevelPlan},
     },
     verify::{
-        CaseOutcome, Clock, Contender, Convergence, End, Exponent, LevelOutcome, Load, Model,
+        CaseOutcome, Clock, Convergence, End, Exponent, LevelOutcome, Load, MethodCost, Model,
         Ranked, Verdict,
     },
 };
@@ -146,7 +146,7 @@ impl Candidate<'_> {
     /// The error at a spacing: between levels straight on logarithmic axes, beyond the finest by the
     /// observed order.
     pub(crate) fn error(&self, h: f64) -> Option<f64> {
-        let Ranked { contender: Contender { tried, formal_order, growth, .. }, part, .. } =
+        let Ranked { contender: MethodCost { tried, formal_order, growth, .. }, part, .. } =
             self.ranked;
         let levels = &tried[part.levels.clone()];
         let finest = levels.last()?;

@@ -22,7 +22,7 @@ pub struct Goal<'a> {
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let StudyPlan::Convergence(plan) = &suite.study else { return Vec::new() };
     let transfers =
-        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.census.transfers as f64;
+        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
     let ranked = rankings(&Runner::new(suite).run(&|| ()).cases, transfers);
     let goal = |row: &Ranked| {
         let case = plan.cases.iter().find(|case| case.name == row.contender.name)?;

@@ -29,12 +29,12 @@ pub(crate) struct Observed {
 
 /// Time of a piece of work (s): all that passed, and how much of it this thread waited for a core that
 /// ran something else, where the system tells.
-pub(crate) struct Watch {
+pub(crate) struct LoadMonitor {
     start: Instant,
     waited: Option<f64>,
 }
 
-impl Watch {
+impl LoadMonitor {
     /// From now on.
     pub(crate) fn start() -> Self {
         Self { waited: waited(), start: Instant::now() }
@@ -66,7 +66,7 @@ impl Observed {
 
     /// Times the loop once.
     pub(crate) fn look(&mut self) {
-        let watch = Watch::start();
+        let watch = LoadMonitor::start();
         let mut x = black_box(0.5_f64);
         for _ in 0..ROUNDS {
             x = x * 0.999 + 0.001;

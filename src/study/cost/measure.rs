@@ -5,7 +5,7 @@
 //! after the other: a machine that slows down slows all of them. Time for which other processes had the
 //! core does not count, where the system tells it.
 
-use super::machine::{Observed, Watch, alone};
+use super::machine::{LoadMonitor, Observed, alone};
 use crate::{
     study::{build::dispatch::subject, convergence::runner::Runner},
     suite::{
@@ -15,7 +15,7 @@ use crate::{
             refine_plan::{Extent, LevelPlan},
         },
     },
-    verify::{CaseOutcome, Clock, LevelOutcome, Load, Priced, Timing},
+    verify::{CaseOutcome, Clock, LevelOutcome, Load, TimedSuite, Timing},
 };
 
 /// Fewest repeats, and the time (s) that they must fill.
@@ -56,7 +56,7 @@ pub(crate) fn seconds(
         Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
     alone(|| {
         let mut subject = subject(plan, case.method, level)?;
-        let watch = Watch::start();
+        let watch = LoadMonitor::start();
         for _ in 0..clock.steps {
             if subject.step(clock.dt()).is_err() {
                 break;
@@ -74,7 +74,7 @@ pub fn price(
     variants: &[Suite],
     extent: Extent,
     progress: &(dyn Fn() + Sync),
-) -> Priced {
+) -> TimedSuite {
     let suites: Vec<&Suite> = std::iter::once(suite).chain(variants).collect();
     let mut cases: Vec<CaseOutcome> = Vec::new();
     let mut jobs: Vec<Job<'_>> = Vec::new();
@@ -102,7 +102,7 @@ pub fn price(
         }
     }
     let outcome = Runner::over(suite, extent).outcome(cases);
-    Priced { outcome, levels, machine: observed.seen() }
+    TimedSuite { outcome, levels, machine: observed.seen() }
 }
 
 fn index(plan: &ConvergencePlan, case: &Case) -> usize {
@@ -133,10 +133,10 @@ fn time(jobs: &mut [Job<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sy
 
 /// What a level that has run had to do.
 pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Load {
-    let (census, steps) = (&level.run.census, level.run.steps as f64);
+    let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Load {
-        transfers: census.transfers as f64,
-        updates: census.particles.unwrap_or(0) as f64 * steps,
+        transfers: counters.transfers as f64,
+        updates: counters.particles.unwrap_or(0) as f64 * steps,
         node_steps: nodes(&plan.scene, level.h) * steps,
         steps,
     }

@@ -5,7 +5,10 @@ use crate::{
     exact::formula::Formula,
     mpm::{MaterialPlan, Parameter},
     suite::{
-        compile::{load::surface, scene::boundary::Hold, truth::conservation_only, wording::shown},
+        compile::{
+            load::surface, scene::boundary::BoundaryCondition, truth::conservation_only,
+            wording::shown,
+        },
         model::{
             Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite,
             refine_plan::{LevelPlan, RefinePlan},
@@ -187,15 +190,17 @@ fn scene(scene: &Scene, rows: &mut Rows) {
     for face in &scene.faces {
         let state = match (surface::described(face), &face.hold) {
             (Some(load), _) => load,
-            (None, Hold::Velocity(value)) => format!("velocity {} m/s", sources(value)),
-            (None, Hold::Friction(coefficient)) => {
+            (None, BoundaryCondition::Velocity(value)) => {
+                format!("velocity {} m/s", sources(value))
+            }
+            (None, BoundaryCondition::Friction(coefficient)) => {
                 format!("wall that does not pull, coefficient of friction {coefficient}")
             }
-            (None, Hold::Free) => "free".to_owned(),
-            (None, Hold::Fixed) => "fixed".to_owned(),
-            (None, Hold::Roller) => "roller".to_owned(),
-            (None, Hold::Periodic) => "periodic".to_owned(),
-            (None, Hold::AtRest) => String::new(),
+            (None, BoundaryCondition::Free) => "free".to_owned(),
+            (None, BoundaryCondition::Fixed) => "fixed".to_owned(),
+            (None, BoundaryCondition::Roller) => "roller".to_owned(),
+            (None, BoundaryCondition::Periodic) => "periodic".to_owned(),
+            (None, BoundaryCondition::AtRest) => String::new(),
         };
         push(rows, face.name, &state);
     }

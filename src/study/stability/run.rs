@@ -8,7 +8,7 @@ use crate::{
             initial_state::Initial,
             setup::Body,
         },
-        cache::results::Kept,
+        cache::results::ResultCache,
     },
     subject::{Perturbable, Subject},
     suite::{
@@ -23,9 +23,9 @@ use crate::{
         },
     },
     verify::{
-        CaseOutcome, Critical, Keeper, Nobody, Prediction, Scales, Stability, StabilityLimit,
-        StabilityRow, StabilityStudy, Study, Trial, amplification, resume_trial, spectral_radius,
-        stability_limit,
+        CaseOutcome, CheckpointStore, Critical, NoCheckpoints, Prediction, Scales, Stability,
+        StabilityLimit, StabilityRow, StabilityStudy, Study, Trial, amplification, resume_trial,
+        spectral_radius, stability_limit,
     },
 };
 use rayon::prelude::*;
@@ -56,7 +56,7 @@ pub(crate) fn case(
     (suite, text): (&str, u64),
     plan: &StabilityPlan,
     case: &StabilityCase,
-    (extent, kept): (Extent, Option<&Kept>),
+    (extent, kept): (Extent, Option<&ResultCache>),
     progress: &(dyn Fn() + Sync),
 ) -> CaseOutcome {
     let name = format!("{suite}::{}", case.name);
@@ -109,7 +109,7 @@ struct Job<'a> {
     plan: &'a StabilityPlan,
     method: Method,
     extent: Extent,
-    kept: Option<&'a Kept>,
+    kept: Option<&'a ResultCache>,
     /// What messages call it.
     name: String,
     /// All that its runs depend on, besides their parameters.
@@ -133,7 +133,7 @@ impl Job<'_> {
     /// The set-up with these values of the parameters.
     fn setting(&self, values: &Values<'_>) -> Result<Setting, String> {
         let mut setting =
-            self.plan.recipe.setting(values).map_err(|complaint| complaint.one_line())?;
+            self.plan.recipe.setting(values).map_err(|diagnostic| diagnostic.one_line())?;
         if self.extent == Extent::Full {
             setting.steps = setting.full_steps;
         }
@@ -161,15 +161,19 @@ impl Job<'_> {
 
     /// The run with these values of the parameters.
     fn run(&self, values: &Values<'_>) -> Result<Trial, String> {
-        let run = |keeper: &mut dyn Keeper| self.run_keeping(values, keeper);
-        let Some(kept) = self.kept else { return run(&mut Nobody) };
+        let run = |keeper: &mut dyn CheckpointStore| self.run_keeping(values, keeper);
+        let Some(kept) = self.kept else { return run(&mut NoCheckpoints) };
         let said: Vec<String> =
             values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         let what = format!("{}, {}", self.name, said.join(", "));
         kept.level(&format!("{} {values:?}", self.key), &what, run)
     }
 
-    fn run_keeping(&self, values: &Values<'_>, keeper: &mut dyn Keeper) -> Result<Trial, String> {
+    fn run_keeping(
+        &self,
+        values: &Values<'_>,
+        keeper: &mut dyn CheckpointStore,
+    ) -> Result<Trial, String> {
         let setting = self.setting(values)?;
         let make = || -> Result<Box<dyn Subject>, String> {
             let mut subject = self.subject(&setting)?;
@@ -277,8 +281,8 @@ mod tests {
         for value in plan.values.first().into_iter().chain(plan.values.last()) {
             let mut values = vec![(plan.swept.as_str(), *value)];
             values.extend(plan.sought.iter().map(|(name, from, _)| (name.as_str(), *from)));
-            let run = |keeper: &mut dyn Keeper| job.run_keeping(&values, keeper).unwrap();
-            let steps = run(&mut Nobody).steps;
+            let run = |keeper: &mut dyn CheckpointStore| job.run_keeping(&values, keeper).unwrap();
+            let steps = run(&mut NoCheckpoints).steps;
             Interruption::holds(steps, |keeper| format!("{:?}", run(keeper)), &plan.swept);
         }
     }

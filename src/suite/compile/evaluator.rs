@@ -3,7 +3,7 @@
 use super::{path::Path, wording::shown};
 use crate::{
     exact::formula::{Expr, Formula, FormulaError, Scope},
-    suite::yaml::{Complaint, NumberText, Ordered, Source},
+    suite::yaml::{Diagnostic, NumberText, Ordered, Source},
 };
 use std::{cell::RefCell, collections::BTreeSet};
 
@@ -17,53 +17,53 @@ pub(crate) type Parameter = (String, String, f64);
 type What<'a> = &'a str;
 
 /// The names of a suite, and which of them have been used.
-pub(crate) struct Binder<'a> {
+pub(crate) struct Evaluator<'a> {
     source: &'a Source,
     scope: Scope,
     used: RefCell<BTreeSet<String>>,
     heads: Vec<String>,
 }
 
-impl<'a> Binder<'a> {
+impl<'a> Evaluator<'a> {
     /// Declares the functions and, in the order of the file, the parameters of a suite. Returns
     /// the binder and each parameter's name, text and value.
     pub(crate) fn new(
         source: &'a Source,
         parameters: &Ordered<NumberText>,
         functions: &Ordered<String>,
-    ) -> Result<(Self, Vec<Parameter>), Complaint> {
+    ) -> Result<(Self, Vec<Parameter>), Diagnostic> {
         let scope = Scope::new();
         let heads = functions.as_slice().iter().map(|(head, _)| head.clone()).collect();
-        let mut binder = Self { source, scope, used: RefCell::default(), heads };
+        let mut evaluator = Self { source, scope, used: RefCell::default(), heads };
         for (head, body) in functions.as_slice() {
-            binder.declare_function(head, body)?;
+            evaluator.declare_function(head, body)?;
         }
         let mut values = Vec::new();
         for (name, text) in parameters.as_slice() {
             let path = Path::top("parameters").then(name.as_str());
-            let value = binder.number(&path, text)?;
-            let declared = binder.scope.constant(name, value);
-            declared.map_err(|error| binder.at_key(&path, &error))?;
+            let value = evaluator.number(&path, text)?;
+            let declared = evaluator.scope.constant(name, value);
+            declared.map_err(|error| evaluator.at_key(&path, &error))?;
             values.push((name.clone(), text.to_string(), value));
         }
-        Ok((binder, values))
+        Ok((evaluator, values))
     }
 
     /// `s(tau): "..."` declares the function s of one argument.
-    fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Complaint> {
+    fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Diagnostic> {
         let path = Path::top("functions").then(head);
         let (name, arguments) = head
             .split_once('(')
             .and_then(|(name, rest)| Some((name.trim(), rest.trim_end().strip_suffix(')')?)))
             .ok_or_else(|| {
-                self.complain_key(&path, &format!("`{head}` is not the head of a function"))
+                self.diagnostic_at_key(&path, &format!("`{head}` is not the head of a function"))
                     .with_help("write the name and its arguments: `s(tau)`")
             })?;
         let arguments: Vec<String> = arguments.split(',').map(|a| a.trim().to_owned()).collect();
         if name.is_empty() || arguments.iter().any(String::is_empty) {
             let message = format!("`{head}` lacks a name or an argument");
-            let complaint = self.complain_key(&path, &message);
-            return Err(complaint.with_help("write the name and its arguments: `s(tau)`"));
+            let diagnostic = self.diagnostic_at_key(&path, &message);
+            return Err(diagnostic.with_help("write the name and its arguments: `s(tau)`"));
         }
         let body = Expr::parse(body).map_err(|error| self.in_text(&path, &error))?;
         let declared = self.scope.function(name, &arguments, body);
@@ -79,7 +79,7 @@ impl<'a> Binder<'a> {
         path: &Path,
         text: &NumberText,
         variables: &[&str],
-    ) -> Result<Formula, Complaint> {
+    ) -> Result<Formula, Diagnostic> {
         self.refuse_taken(variables)?;
         let bound = Expr::parse(&text.to_string())
             .and_then(|expr| Formula::bind(&expr, &self.scope, variables));
@@ -89,18 +89,18 @@ impl<'a> Binder<'a> {
     }
 
     /// Refuses a declared name that formulas need for one of their `variables`.
-    fn refuse_taken(&self, variables: &[&str]) -> Result<(), Complaint> {
-        let complain = |path: &Path, name: &str| {
+    fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
+        let diagnostic = |path: &Path, name: &str| {
             let message = format!("`{name}` is a variable of formulas and cannot be declared");
             let help = format!("rename it; the variables are {}", variables.join(", "));
-            Err(self.complain_key(path, &message).with_help(&help))
+            Err(self.diagnostic_at_key(path, &message).with_help(&help))
         };
         for name in variables {
             if self.scope.constants().any(|(constant, _)| constant == *name) {
-                return complain(&Path::top("parameters").then(*name), name);
+                return diagnostic(&Path::top("parameters").then(*name), name);
             }
             if let Some(head) = self.head_of(name) {
-                return complain(&Path::top("functions").then(head.as_str()), name);
+                return diagnostic(&Path::top("functions").then(head.as_str()), name);
             }
         }
         Ok(())
@@ -113,25 +113,25 @@ impl<'a> Binder<'a> {
         texts: &[NumberText],
         dimension: usize,
         variables: &[&str],
-    ) -> Result<Vec<Formula>, Complaint> {
+    ) -> Result<Vec<Formula>, Diagnostic> {
         if texts.len() != dimension {
             let (got, d) = (texts.len(), dimension);
             let message = format!("{got} components in a scene of dimension {d}");
-            return Err(self.complain(path, &message).with_label(&format!("expected {d}")));
+            return Err(self.diagnostic(path, &message).with_label(&format!("expected {d}")));
         }
         let bind = |(i, text)| self.formula(&path.then(i), text, variables);
         texts.iter().enumerate().map(bind).collect()
     }
 
     /// A finite number, given as such or by a formula of parameters.
-    pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Complaint> {
+    pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
         let formula = self.formula(path, text, &[])?;
         let value = formula.constant().unwrap_or(f64::NAN);
         if value.is_finite() {
             return Ok(value);
         }
         let message = format!("`{text}` is {}, which is not finite", shown(value));
-        Err(self.complain(path, &message).with_label("expected a finite number"))
+        Err(self.diagnostic(path, &message).with_label("expected a finite number"))
     }
 
     /// A number above zero.
@@ -140,13 +140,13 @@ impl<'a> Binder<'a> {
         path: &Path,
         text: &NumberText,
         what: What<'_>,
-    ) -> Result<f64, Complaint> {
+    ) -> Result<f64, Diagnostic> {
         let value = self.number(path, text)?;
         if value > 0.0 {
             return Ok(value);
         }
         let message = format!("{what} is {}, and must be above zero", shown(value));
-        Err(self.complain(path, &message).with_label("expected a positive number"))
+        Err(self.diagnostic(path, &message).with_label("expected a positive number"))
     }
 
     /// A whole number from 1 on.
@@ -155,14 +155,14 @@ impl<'a> Binder<'a> {
         path: &Path,
         text: &NumberText,
         what: What<'_>,
-    ) -> Result<u64, Complaint> {
+    ) -> Result<u64, Diagnostic> {
         let value = self.number(path, text)?;
         if (1.0..=MOST).contains(&value) && value.fract() == 0.0 {
             return Ok(value as u64);
         }
         let message = format!("{what} is {}", shown(value));
         let label = format!("expected a whole number from 1 to {MOST:e}");
-        Err(self.complain(path, &message).with_label(&label))
+        Err(self.diagnostic(path, &message).with_label(&label))
     }
 
     /// One number for each of `dimension` axes.
@@ -171,7 +171,7 @@ impl<'a> Binder<'a> {
         path: &Path,
         texts: &[NumberText],
         dimension: usize,
-    ) -> Result<Vec<f64>, Complaint> {
+    ) -> Result<Vec<f64>, Diagnostic> {
         self.vector(path, texts, dimension, &[])?;
         texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
     }
@@ -181,13 +181,15 @@ impl<'a> Binder<'a> {
         &self,
         parameters: &Ordered<NumberText>,
         functions: &Ordered<String>,
-    ) -> Result<(), Complaint> {
+    ) -> Result<(), Diagnostic> {
         let used = self.used.borrow();
         for (name, _) in parameters.as_slice() {
             if !used.contains(name) {
                 let path = Path::top("parameters").then(name.as_str());
                 let message = format!("the parameter `{name}` is never used");
-                return Err(self.complain_key(&path, &message).with_help("remove it, or use it"));
+                return Err(self
+                    .diagnostic_at_key(&path, &message)
+                    .with_help("remove it, or use it"));
             }
         }
         for (head, _) in functions.as_slice() {
@@ -195,7 +197,9 @@ impl<'a> Binder<'a> {
             if !used.contains(name) {
                 let path = Path::top("functions").then(head.as_str());
                 let message = format!("the function `{name}` is never used");
-                return Err(self.complain_key(&path, &message).with_help("remove it, or use it"));
+                return Err(self
+                    .diagnostic_at_key(&path, &message)
+                    .with_help("remove it, or use it"));
             }
         }
         Ok(())
@@ -208,31 +212,31 @@ impl<'a> Binder<'a> {
     }
 
     /// A complaint about the value at `path`.
-    pub(crate) fn complain(&self, path: &Path, message: &str) -> Complaint {
+    pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.value_at(path.steps()) {
-            Some(place) => self.source.complain(place, message),
-            None => Complaint::about(self.source.name(), message),
+            Some(place) => self.source.diagnostic(place, message),
+            None => Diagnostic::about(self.source.name(), message),
         }
     }
 
     /// A complaint about the key at `path`.
-    pub(crate) fn complain_key(&self, path: &Path, message: &str) -> Complaint {
+    pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.key_at(path.steps()) {
-            Some(place) => self.source.complain(place, message),
-            None => self.complain(path, message),
+            Some(place) => self.source.diagnostic(place, message),
+            None => self.diagnostic(path, message),
         }
     }
 
     /// A complaint about part of the formula at `path`, or of the function that it calls.
-    fn in_text(&self, path: &Path, error: &FormulaError) -> Complaint {
+    fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
         let path = function
             .map_or_else(|| path.clone(), |head| Path::top("functions").then(head.as_str()));
-        let complaint = match self.source.within(path.steps(), error.span.clone()) {
-            Some(place) => self.source.complain(place, &error.message),
-            None => self.complain(&path, &error.message),
+        let diagnostic = match self.source.within(path.steps(), error.span.clone()) {
+            Some(place) => self.source.diagnostic(place, &error.message),
+            None => self.diagnostic(&path, &error.message),
         };
-        with_help(complaint, error)
+        with_help(diagnostic, error)
     }
 
     /// The head under which the file declares `function`.
@@ -240,15 +244,15 @@ impl<'a> Binder<'a> {
         self.heads.iter().find(|head| name_in(head) == function)
     }
 
-    fn at_key(&self, path: &Path, error: &FormulaError) -> Complaint {
-        with_help(self.complain_key(path, &error.message), error)
+    fn at_key(&self, path: &Path, error: &FormulaError) -> Diagnostic {
+        with_help(self.diagnostic_at_key(path, &error.message), error)
     }
 }
 
-fn with_help(complaint: Complaint, error: &FormulaError) -> Complaint {
+fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
     match &error.help {
-        Some(help) => complaint.with_help(help),
-        None => complaint,
+        Some(help) => diagnostic.with_help(help),
+        None => diagnostic,
     }
 }
 

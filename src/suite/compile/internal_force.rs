@@ -4,13 +4,13 @@
 //! particle of the left cell is moved through the node, and the internal force on the node is read from the
 //! solver's own P2G.
 
-use super::{evaluator::Binder, expect::cases, path::Path};
+use super::{evaluator::Evaluator, expect::cases, path::Path};
 use crate::{
     mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel},
     suite::{
-        grammar::{ForceExpectWords, ForceMethodWords, InternalForceWords},
+        grammar::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec},
         model::{ForceCase, ForceExpectation, ForcePlan},
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
     verify::ForceRow,
 };
@@ -27,73 +27,76 @@ const VARIABLES: [&str; 2] = ["n_left", "n_right"];
 
 /// Checks an internal-force study.
 pub(crate) fn plan(
-    binder: &Binder<'_>,
-    words: &InternalForceWords,
-) -> Result<ForcePlan, Complaint> {
+    evaluator: &Evaluator<'_>,
+    words: &InternalForceSpec,
+) -> Result<ForcePlan, Diagnostic> {
     let path = Path::top("internal_force");
     let force = &words.internal_force;
     let plan = ForcePlan {
-        cell: binder.positive(&path.then("cell"), &force.cell, "the cell size")?,
-        ppc: binder.count(&path.then("ppc"), &force.ppc, "the number of particles per cell")?,
-        volume: binder.positive(&path.then("volume"), &force.volume, "a particle's volume")?,
-        stress: binder.number(&path.then("stress"), &force.stress)?,
-        positions: binder.count(
+        cell: evaluator.positive(&path.then("cell"), &force.cell, "the cell size")?,
+        ppc: evaluator.count(&path.then("ppc"), &force.ppc, "the number of particles per cell")?,
+        volume: evaluator.positive(&path.then("volume"), &force.volume, "a particle's volume")?,
+        stress: evaluator.number(&path.then("stress"), &force.stress)?,
+        positions: evaluator.count(
             &path.then("positions"),
             &force.positions,
             "the number of positions",
         )?,
-        prediction: binder.formula(&path.then("prediction"), &force.prediction, &VARIABLES)?,
+        prediction: evaluator.formula(&path.then("prediction"), &force.prediction, &VARIABLES)?,
         cases: Vec::new(),
     };
     if plan.ppc.saturating_mul(plan.positions) > MOST_SUMMANDS {
         let (ppc, positions) = (plan.ppc, plan.positions);
         let message = format!("{positions} positions with {ppc} particles per cell each");
         let label = format!("expected at most {MOST_SUMMANDS} particles over all positions");
-        return Err(binder.complain(&path.then("positions"), &message).with_label(&label));
+        return Err(evaluator.diagnostic(&path.then("positions"), &message).with_label(&label));
     }
-    Ok(ForcePlan { cases: cases(binder, words)?, ..plan })
+    Ok(ForcePlan { cases: cases(evaluator, words)?, ..plan })
 }
 
-fn cases(binder: &Binder<'_>, words: &InternalForceWords) -> Result<Vec<ForceCase>, Complaint> {
-    let bases = |ForceMethodWords::Mpm { basis }: &ForceMethodWords| basis.as_slice().to_vec();
+fn cases(
+    evaluator: &Evaluator<'_>,
+    words: &InternalForceSpec,
+) -> Result<Vec<ForceCase>, Diagnostic> {
+    let bases = |ForceMethodSpec::Mpm { basis }: &ForceMethodSpec| basis.as_slice().to_vec();
     let bases: Vec<BasisName> = words.methods.iter().flat_map(bases).collect();
     if bases.is_empty() {
         let path = Path::top("methods");
-        return Err(binder.complain(&path, "a suite without methods has no case"));
+        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
     }
     let names: Vec<String> =
         bases.iter().map(|basis| format!("mpm-{}", basis.name().replace('_', "-"))).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
         let message = format!("the case `{}` appears twice", twice.1);
-        return Err(binder.complain(&Path::top("methods"), &message));
+        return Err(evaluator.diagnostic(&Path::top("methods"), &message));
     }
     let selectors: Vec<_> = words.expect.iter().map(|words| words.case.as_ref()).collect();
-    let owners = cases::assign(binder, &selectors, &names)?;
+    let owners = cases::assign(evaluator, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, &str), usize)| {
         let path = Path::top("expect").then(owner);
         let expected = &words.expect[owner];
         Ok(ForceCase {
             name: name.to_owned(),
             basis,
-            expected: expectation(binder, &path, expected)?,
-            because: cases::because(binder, &path, &expected.because)?,
+            expected: expectation(evaluator, &path, expected)?,
+            because: cases::because(evaluator, &path, &expected.because)?,
         })
     };
     bases.into_iter().zip(names).zip(owners).map(case).collect()
 }
 
 fn expectation(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ForceExpectWords,
-) -> Result<ForceExpectation, Complaint> {
-    let share = |key: &str, text| binder.positive(&path.then(key), text, "the share");
+    words: &ForceExpectSpec,
+) -> Result<ForceExpectation, Diagnostic> {
+    let share = |key: &str, text| evaluator.positive(&path.then(key), text, "the share");
     match (&words.agrees_within, &words.steps_below) {
         (Some(text), None) => share("agrees_within", text).map(ForceExpectation::AgreesWithin),
         (None, Some(text)) => share("steps_below", text).map(ForceExpectation::StepsBelow),
-        _ => Err(binder
-            .complain(path, "one thing can be expected of a force")
+        _ => Err(evaluator
+            .diagnostic(path, "one thing can be expected of a force")
             .with_label("expected either `agrees_within` or `steps_below`")),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     check::{fem_support, size, subject_support},
-    evaluator::{Binder, Parameter},
+    evaluator::{Evaluator, Parameter},
     internal_force,
     load::{damping, viscosity},
     path::Path,
@@ -14,11 +14,11 @@ use super::{
 };
 use crate::suite::{
     grammar::{
-        ConvergenceWords, Head, InternalForceWords, ObserveWords, ReferenceWords, StabilityWords,
+        ConvergenceSpec, Head, InternalForceSpec, ObserveSpec, ReferenceSpec, StabilitySpec,
         StudyName,
     },
     model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite, fingerprint::fingerprint},
-    yaml::{Complaint, Ordered, Source, read},
+    yaml::{Diagnostic, Ordered, Source, read},
 };
 
 /// Instants at which the error is taken unless a suite says otherwise.
@@ -28,8 +28,8 @@ impl Suite {
     /// Reads and checks a suite. No solver runs.
     ///
     /// # Errors
-    /// A [`Complaint`] with the place of the first thing that is wrong.
-    pub fn load(source: &Source) -> Result<Self, Complaint> {
+    /// A [`Diagnostic`] with the place of the first thing that is wrong.
+    pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match study_of(source)? {
             StudyName::Convergence => convergence(source),
             StudyName::InternalForce => internal_force(source),
@@ -40,40 +40,40 @@ impl Suite {
 }
 
 /// The kind of study, which decides what other keys are known.
-fn study_of(source: &Source) -> Result<StudyName, Complaint> {
+fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
     read::<Head>(source).map(|head| head.study)
 }
 
-fn convergence(source: &Source) -> Result<Suite, Complaint> {
-    let words: ConvergenceWords = read(source)?;
-    let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
-    name(&binder, &words.suite)?;
-    let scene = scene::scene(&binder, &words.scene)?;
-    fem_support::check(&binder, &words, &scene)?;
-    let (refine, places) = refine::plan(&binder, &words, &scene)?;
+fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
+    let words: ConvergenceSpec = read(source)?;
+    let (evaluator, parameters) = Evaluator::new(source, &words.parameters, &words.functions)?;
+    name(&evaluator, &words.suite)?;
+    let scene = scene::scene(&evaluator, &words.scene)?;
+    fem_support::check(&evaluator, &words, &scene)?;
+    let (refine, places) = refine::plan(&evaluator, &words, &scene)?;
     let instants = words.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
-        binder.count(&Path::top("run").then("instants"), text, "the number of instants")
+        evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
-    let until = cases::until(&binder, &words.run.until)?;
+    let until = cases::until(&evaluator, &words.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let conduction = rest::conduction(&binder, &words, &scene, latest)?;
+    let conduction = rest::conduction(&evaluator, &words, &scene, latest)?;
     let exact = match &conduction {
         Some(_) => None,
-        None => exact::exact(&binder, &words, &scene, latest)?,
+        None => exact::exact(&evaluator, &words, &scene, latest)?,
     };
     let dimension = scene.dimension();
-    let reference = words.reference.as_ref().map(|words| reference(&binder, words, dimension));
+    let reference = words.reference.as_ref().map(|words| reference(&evaluator, words, dimension));
     let reference = reference.transpose()?.flatten();
-    let same_method_dt = steps::same_method(&binder, &words, &refine, &until, instants)?;
-    law::check(&binder, &words, &scene)?;
-    viscosity::check(&binder, &words, &scene)?;
-    damping::check(&binder, &words, &scene, latest)?;
+    let same_method_dt = steps::same_method(&evaluator, &words, &refine, &until, instants)?;
+    law::check(&evaluator, &words, &scene)?;
+    viscosity::check(&evaluator, &words, &scene)?;
+    damping::check(&evaluator, &words, &scene, latest)?;
     if exact.is_none() && conduction.is_none() && reference.is_none() {
-        conservation_only::check(&binder, &words)?;
+        conservation_only::check(&evaluator, &words)?;
     }
-    let observe = words.observe.as_ref().map(|words| observed(&binder, words, &scene));
+    let observe = words.observe.as_ref().map(|words| observed(&evaluator, words, &scene));
     let scale = words.judge.scale.as_ref().map(|text| {
-        binder.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
+        evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
     let mut plan = ConvergencePlan {
         observe: observe.transpose()?,
@@ -90,31 +90,31 @@ fn convergence(source: &Source) -> Result<Suite, Complaint> {
         crossing_levels: words.judge.crossing_levels,
         cases: Vec::new(),
     };
-    subject_support::check(&binder, &words, &plan)?;
-    size::check(&binder, &words, &plan, &places)?;
-    steps::check(&binder, &plan, &places, &until)?;
-    plan.cases = cases::cases(&binder, &words, &plan, &until)?;
-    binder.refuse_unused(&words.parameters, &words.functions)?;
+    subject_support::check(&evaluator, &words, &plan)?;
+    size::check(&evaluator, &words, &plan, &places)?;
+    steps::check(&evaluator, &plan, &places, &until)?;
+    plan.cases = cases::cases(&evaluator, &words, &plan, &until)?;
+    evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
     Ok(assemble(head, parameters, &words.functions, StudyPlan::Convergence(Box::new(plan))))
 }
 
-fn internal_force(source: &Source) -> Result<Suite, Complaint> {
-    let words: InternalForceWords = read(source)?;
-    let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
-    name(&binder, &words.suite)?;
-    let plan = internal_force::plan(&binder, &words)?;
-    binder.refuse_unused(&words.parameters, &words.functions)?;
+fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
+    let words: InternalForceSpec = read(source)?;
+    let (evaluator, parameters) = Evaluator::new(source, &words.parameters, &words.functions)?;
+    name(&evaluator, &words.suite)?;
+    let plan = internal_force::plan(&evaluator, &words)?;
+    evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
     Ok(assemble(head, parameters, &words.functions, StudyPlan::InternalForce(Box::new(plan))))
 }
 
-fn stability(source: &Source) -> Result<Suite, Complaint> {
-    let words: StabilityWords = read(source)?;
-    let (binder, parameters) = Binder::new(source, &words.parameters, &words.functions)?;
-    name(&binder, &words.suite)?;
-    let plan = stability::plan(&binder, source, &words)?;
-    binder.refuse_unused(&words.parameters, &words.functions)?;
+fn stability(source: &Source) -> Result<Suite, Diagnostic> {
+    let words: StabilitySpec = read(source)?;
+    let (evaluator, parameters) = Evaluator::new(source, &words.parameters, &words.functions)?;
+    name(&evaluator, &words.suite)?;
+    let plan = stability::plan(&evaluator, source, &words)?;
+    evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
     Ok(assemble(head, parameters, &words.functions, StudyPlan::Stability(Box::new(plan))))
 }
@@ -130,43 +130,43 @@ fn assemble(
 }
 
 /// A name becomes part of test and file names.
-fn name(binder: &Binder<'_>, name: &str) -> Result<(), Complaint> {
+fn name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
         return Ok(());
     }
-    let complaint = binder.complain(&Path::top("suite"), "this is not a name for a suite");
-    Err(complaint.with_label("expected lower-case letters, digits and hyphens, at most 64"))
+    let diagnostic = evaluator.diagnostic(&Path::top("suite"), "this is not a name for a suite");
+    Err(diagnostic.with_label("expected lower-case letters, digits and hyphens, at most 64"))
 }
 
 /// The place that is watched: one in the body.
 fn observed(
-    binder: &Binder<'_>,
-    words: &ObserveWords,
+    evaluator: &Evaluator<'_>,
+    words: &ObserveSpec,
     scene: &Scene,
-) -> Result<Vec<f64>, Complaint> {
+) -> Result<Vec<f64>, Diagnostic> {
     let path = Path::top("observe").then("at");
-    let place = binder.point(&path, &words.at, scene.dimension())?;
+    let place = evaluator.point(&path, &words.at, scene.dimension())?;
     for (axis, x) in place.iter().enumerate() {
         let (from, to) = (scene.from[axis], scene.to[axis]);
         if !(from..=to).contains(x) {
             let message = format!("{} is outside the body", shown(*x));
             let label = format!("expected a number from {} to {}", shown(from), shown(to));
-            return Err(binder.complain(&path.then(axis), &message).with_label(&label));
+            return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
         }
     }
     if scene.round.as_ref().is_some_and(|round| !round.holds(&place)) {
-        let complaint = binder.complain(&path, "this place is outside the body");
-        return Err(complaint.with_label("expected a place between the rims"));
+        let diagnostic = evaluator.diagnostic(&path, "this place is outside the body");
+        return Err(diagnostic.with_label("expected a place between the rims"));
     }
     Ok(place)
 }
 
 fn reference(
-    binder: &Binder<'_>,
-    words: &ReferenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ReferenceSpec,
     dimension: usize,
-) -> Result<Option<ReferencePlan>, Complaint> {
+) -> Result<Option<ReferencePlan>, Diagnostic> {
     let path = Path::top("reference");
     let (equation, fem) = match (words.equation, &words.fem) {
         (Some(equation), Some(fem)) => (equation, fem),
@@ -174,20 +174,20 @@ fn reference(
         _ => {
             let message =
                 "a reference is a `fem` computation of an `equation`, or the `same_method`";
-            return Err(binder.complain_key(&path, message));
+            return Err(evaluator.diagnostic_at_key(&path, message));
         }
     };
     if dimension != 1 {
         let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
-        let complaint = binder.complain_key(&path, &message);
-        return Err(complaint.with_help("give this scene an `exact` solution"));
+        let diagnostic = evaluator.diagnostic_at_key(&path, &message);
+        return Err(diagnostic.with_help("give this scene an `exact` solution"));
     }
     let path = path.then("fem");
     Ok(Some(ReferencePlan {
         equation,
         element: fem.element,
         mass: fem.mass,
-        cells: binder.count(&path.then("cells"), &fem.cells, "the number of elements")?,
-        dt: binder.formula(&path.then("dt"), &fem.dt, &["h"])?,
+        cells: evaluator.count(&path.then("cells"), &fem.cells, "the number of elements")?,
+        dt: evaluator.formula(&path.then("dt"), &fem.dt, &["h"])?,
     }))
 }

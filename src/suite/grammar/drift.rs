@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// Bounds on the relative drift of sums over the body.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct DriftWords {
+pub(crate) struct DriftSpec {
     pub(crate) mass: Option<NumberText>,
     pub(crate) momentum: Option<NumberText>,
     pub(crate) angular_momentum: Option<NumberText>,

@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// A study of the internal force.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct InternalForceWords {
+pub(crate) struct InternalForceSpec {
     pub(crate) suite: String,
     #[serde(rename = "study")]
     pub(crate) _study: StudyName,
@@ -22,15 +22,15 @@ pub(crate) struct InternalForceWords {
     pub(crate) parameters: Ordered<NumberText>,
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
-    pub(crate) internal_force: ForceWords,
-    pub(crate) methods: Vec<ForceMethodWords>,
-    pub(crate) expect: Vec<ForceExpectWords>,
+    pub(crate) internal_force: ForceSpec,
+    pub(crate) methods: Vec<ForceMethodSpec>,
+    pub(crate) expect: Vec<ForceExpectSpec>,
 }
 
 /// The set-up of an internal-force study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ForceWords {
+pub(crate) struct ForceSpec {
     pub(crate) cell: NumberText,
     pub(crate) ppc: NumberText,
     pub(crate) volume: NumberText,
@@ -42,14 +42,14 @@ pub(crate) struct ForceWords {
 /// A method of an internal-force study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum ForceMethodWords {
+pub(crate) enum ForceMethodSpec {
     Mpm { basis: OneOrMany<BasisName> },
 }
 
 /// An expectation of an internal-force study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ForceExpectWords {
+pub(crate) struct ForceExpectSpec {
     pub(crate) case: Option<OneOrMany<String>>,
     /// Largest deviation from the prediction, relative to the largest prediction.
     pub(crate) agrees_within: Option<NumberText>,

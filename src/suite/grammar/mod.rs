@@ -13,19 +13,18 @@ pub(crate) mod step;
 pub(crate) mod transfer;
 pub(crate) mod truth;
 
-pub(crate) use drift::DriftWords;
+pub(crate) use drift::DriftSpec;
 pub(crate) use head::{Head, StudyName};
-pub(crate) use internal_force::{ForceExpectWords, ForceMethodWords, InternalForceWords};
-pub(crate) use refine::{RefineWords, RunWords};
+pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
+pub(crate) use refine::{RefineSpec, RunSpec};
 pub(crate) use scene::{
-    AnnulusWords, BodyWords, BoundaryWords, BoxWords, ExpansionWords, HeatWords, LoadWords,
-    OneBodyWords, QuadrilateralWords, RoundWords, SceneWords, SetWords, ThermalWords,
-    ViscosityWords,
+    AnnulusSpec, BodySpec, BoundarySpec, BoxSpec, ExpansionSpec, HeatSpec, LoadSpec, OneBodySpec,
+    QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec, ThermalSpec, ViscositySpec,
 };
-pub(crate) use stability::{FigureWords, StabilityExpectWords, StabilityWords};
-pub(crate) use step::StepWords;
+pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
+pub(crate) use step::StepSpec;
 pub use truth::EquationName;
-pub(crate) use truth::{ExactWords, ManufacturedWords};
+pub(crate) use truth::{ExactSpec, ManufacturedSpec};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::{
@@ -40,7 +39,7 @@ use serde::Deserialize;
 /// A convergence study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ConvergenceWords {
+pub(crate) struct ConvergenceSpec {
     pub(crate) suite: String,
     #[serde(rename = "study")]
     pub(crate) _study: Option<StudyName>,
@@ -52,24 +51,24 @@ pub(crate) struct ConvergenceWords {
     pub(crate) parameters: Ordered<NumberText>,
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
-    pub(crate) scene: SceneWords,
-    pub(crate) exact: Option<ExactWords>,
-    pub(crate) manufactured: Option<ManufacturedWords>,
-    pub(crate) equilibrium: Option<ExactWords>,
-    pub(crate) reference: Option<ReferenceWords>,
-    pub(crate) run: RunWords,
-    pub(crate) refine: RefineWords,
-    pub(crate) methods: Vec<MethodWords>,
+    pub(crate) scene: SceneSpec,
+    pub(crate) exact: Option<ExactSpec>,
+    pub(crate) manufactured: Option<ManufacturedSpec>,
+    pub(crate) equilibrium: Option<ExactSpec>,
+    pub(crate) reference: Option<ReferenceSpec>,
+    pub(crate) run: RunSpec,
+    pub(crate) refine: RefineSpec,
+    pub(crate) methods: Vec<MethodSpec>,
     #[serde(default)]
-    pub(crate) judge: JudgeWords,
-    pub(crate) observe: Option<ObserveWords>,
-    pub(crate) expect: Vec<ExpectWords>,
+    pub(crate) judge: JudgeSpec,
+    pub(crate) observe: Option<ObserveSpec>,
+    pub(crate) expect: Vec<ExpectSpec>,
 }
 
-impl ConvergenceWords {
+impl ConvergenceSpec {
     /// Number of the first entry of `methods` that is an FEM.
     pub(crate) fn fem_method(&self) -> Option<usize> {
-        self.methods.iter().position(|method| matches!(method, MethodWords::Fem { .. }))
+        self.methods.iter().position(|method| matches!(method, MethodSpec::Fem { .. }))
     }
 
     /// Whether a fine FEM computation is asked for.
@@ -80,22 +79,22 @@ impl ConvergenceWords {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ReferenceWords {
+pub(crate) struct ReferenceSpec {
     pub(crate) equation: Option<EquationName>,
-    pub(crate) fem: Option<ReferenceFemWords>,
-    pub(crate) same_method: Option<SameMethodWords>,
+    pub(crate) fem: Option<ReferenceFemSpec>,
+    pub(crate) same_method: Option<SameMethodSpec>,
 }
 
 /// The same method with shorter steps.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SameMethodWords {
+pub(crate) struct SameMethodSpec {
     pub(crate) dt: NumberText,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ReferenceFemWords {
+pub(crate) struct ReferenceFemSpec {
     pub(crate) element: Element,
     pub(crate) mass: Mass,
     pub(crate) cells: NumberText,
@@ -104,7 +103,7 @@ pub(crate) struct ReferenceFemWords {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum MethodWords {
+pub(crate) enum MethodSpec {
     Mpm {
         basis: OneOrMany<BasisName>,
         transfer: OneOrMany<TransferChoice>,
@@ -126,7 +125,7 @@ pub(crate) enum MethodWords {
 
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct JudgeWords {
+pub(crate) struct JudgeSpec {
     #[serde(default)]
     pub(crate) of: Quantity,
     #[serde(default)]
@@ -175,13 +174,13 @@ named! {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ObserveWords {
+pub(crate) struct ObserveSpec {
     pub(crate) at: Vec<NumberText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ExpectWords {
+pub(crate) struct ExpectSpec {
     pub(crate) case: Option<OneOrMany<String>>,
     pub(crate) verdict: Option<String>,
     pub(crate) order: Option<Vec<NumberText>>,
@@ -195,12 +194,12 @@ pub(crate) struct ExpectWords {
     pub(crate) observed_within: Option<NumberText>,
     /// Largest speed towards the end of every level that counts, over the wave speed.
     pub(crate) rest_below: Option<NumberText>,
-    pub(crate) drift: Option<DriftWords>,
+    pub(crate) drift: Option<DriftSpec>,
     /// Bounds on the rate of the energy (1/s).
     pub(crate) energy_rate: Option<Vec<NumberText>>,
     pub(crate) because: String,
     /// What is expected of a full run, where that differs.
-    pub(crate) full: Option<Box<ExpectWords>>,
+    pub(crate) full: Option<Box<ExpectSpec>>,
 }
 
 /// Whether particles change their cell on the finest level.

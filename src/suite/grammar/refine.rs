@@ -1,22 +1,22 @@
 //! The words of a refinement plan.
 
-use super::StepWords;
+use super::StepSpec;
 use crate::suite::yaml::{NumberText, OneOrMany};
 use serde::Deserialize;
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RunWords {
+pub(crate) struct RunSpec {
     pub(crate) until: OneOrMany<NumberText>,
     /// Absent where `refine` lists time steps.
-    pub(crate) dt: Option<StepWords>,
+    pub(crate) dt: Option<StepSpec>,
     pub(crate) instants: Option<NumberText>,
 }
 
 /// What is a list is refined, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RefineWords {
+pub(crate) struct RefineSpec {
     pub(crate) cells: OneOrMany<NumberText>,
     pub(crate) dt: Option<OneOrMany<NumberText>>,
     pub(crate) ppc: Option<OneOrMany<NumberText>>,

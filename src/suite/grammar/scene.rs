@@ -1,75 +1,75 @@
 //! The words of a scene.
 
 use crate::{
-    mpm::{EffectName, MaterialWords, Placement},
+    mpm::{EffectName, MaterialSpec, Placement},
     suite::yaml::{NumberText, Ordered},
 };
 use serde::Deserialize;
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SceneWords {
+pub(crate) struct SceneSpec {
     pub(crate) dimension: NumberText,
-    pub(crate) body: Option<BodyWords>,
+    pub(crate) body: Option<BodySpec>,
     /// Several bodies, in place of `body` and `material`.
-    pub(crate) bodies: Option<Vec<OneBodyWords>>,
-    pub(crate) contact: Option<ContactWords>,
-    pub(crate) grid: Option<BoxWords>,
-    pub(crate) material: Option<MaterialWords<NumberText>>,
+    pub(crate) bodies: Option<Vec<OneBodySpec>>,
+    pub(crate) contact: Option<ContactSpec>,
+    pub(crate) grid: Option<BoxSpec>,
+    pub(crate) material: Option<MaterialSpec<NumberText>>,
     #[serde(default)]
-    pub(crate) boundary: Ordered<BoundaryWords>,
+    pub(crate) boundary: Ordered<BoundarySpec>,
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
     #[serde(default)]
-    pub(crate) sets: Ordered<SetWords>,
+    pub(crate) sets: Ordered<SetSpec>,
     #[serde(default)]
-    pub(crate) loads: Vec<LoadWords>,
+    pub(crate) loads: Vec<LoadSpec>,
 }
 
 /// One of several bodies.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct OneBodyWords {
-    pub(crate) body: BodyWords,
-    pub(crate) material: MaterialWords<NumberText>,
+pub(crate) struct OneBodySpec {
+    pub(crate) body: BodySpec,
+    pub(crate) material: MaterialSpec<NumberText>,
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 
 /// How bodies push each other where they meet.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ContactWords {
+pub(crate) struct ContactSpec {
     /// Coefficient of friction.
     pub(crate) friction: NumberText,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(crate) enum BodyWords {
-    Box(BoxWords),
-    Annulus(AnnulusWords),
-    Disk(RoundWords),
-    Ball(RoundWords),
-    Quadrilateral(QuadrilateralWords),
+pub(crate) enum BodySpec {
+    Box(BoxSpec),
+    Annulus(AnnulusSpec),
+    Disk(RoundSpec),
+    Ball(RoundSpec),
+    Quadrilateral(QuadrilateralSpec),
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct BoxWords {
+pub(crate) struct BoxSpec {
     pub(crate) from: Vec<NumberText>,
     pub(crate) to: Vec<NumberText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct QuadrilateralWords {
+pub(crate) struct QuadrilateralSpec {
     /// Four, counter-clockwise.
     pub(crate) corners: Vec<Vec<NumberText>>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct AnnulusWords {
+pub(crate) struct AnnulusSpec {
     pub(crate) centre: Vec<NumberText>,
     pub(crate) inner: NumberText,
     pub(crate) outer: NumberText,
@@ -77,7 +77,7 @@ pub(crate) struct AnnulusWords {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RoundWords {
+pub(crate) struct RoundSpec {
     pub(crate) centre: Vec<NumberText>,
     pub(crate) radius: NumberText,
 }
@@ -85,7 +85,7 @@ pub(crate) struct RoundWords {
 /// Boundary conditions on a face; a face that is not named is free.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum BoundaryWords {
+pub(crate) enum BoundarySpec {
     /// No displacement.
     Fixed,
     /// No displacement along the normal, no traction along the face.
@@ -101,14 +101,14 @@ pub(crate) enum BoundaryWords {
 /// Material points with a name.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum SetWords {
+pub(crate) enum SetSpec {
     /// Those whose reference positions lie in a box.
-    Box(BoxWords),
+    Box(BoxSpec),
 }
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum LoadWords {
+pub(crate) enum LoadSpec {
     /// Uniform acceleration (m/s2), formulas of t.
     Gravity(Vec<NumberText>),
     /// Rate (1/s) at which velocities decay, a formula of t.
@@ -116,7 +116,7 @@ pub(crate) enum LoadWords {
     /// Share of the force out of balance that opposes the motion, node by node.
     LocalDamping(NumberText),
     /// Pressure against compression.
-    ArtificialViscosity(ViscosityWords),
+    ArtificialViscosity(ViscositySpec),
     /// Force per unit mass (m/s2), formulas of the coordinates and t.
     BodyForce(Vec<NumberText>),
     /// Force per reference area on one face (Pa), formulas of the coordinates and t.
@@ -128,15 +128,15 @@ pub(crate) enum LoadWords {
     /// Velocity of a set (m/s), formulas of the coordinates and t.
     Velocity { on: String, value: Vec<NumberText> },
     /// Conduction of heat.
-    Heat(HeatWords),
+    Heat(HeatSpec),
     /// Strain that temperature makes.
-    ThermalExpansion(ExpansionWords),
+    ThermalExpansion(ExpansionSpec),
 }
 
 /// Thermal expansion.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ExpansionWords {
+pub(crate) struct ExpansionSpec {
     /// alpha (1/K).
     pub(crate) coefficient: NumberText,
     /// Temperature (K) at which a body that is not deformed is free of stress.
@@ -146,7 +146,7 @@ pub(crate) struct ExpansionWords {
 /// Conduction of heat, and what holds on the faces.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct HeatWords {
+pub(crate) struct HeatSpec {
     pub(crate) conductivity: NumberText,
     pub(crate) capacity: NumberText,
     /// Heat that arises (W/kg), a formula of the coordinates and t.
@@ -154,13 +154,13 @@ pub(crate) struct HeatWords {
     /// Initial temperature (K), a formula of the coordinates.
     pub(crate) initial: Option<NumberText>,
     #[serde(default)]
-    pub(crate) boundary: Ordered<ThermalWords>,
+    pub(crate) boundary: Ordered<ThermalSpec>,
 }
 
 /// What holds on a face; formulas are of the coordinates and t.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum ThermalWords {
+pub(crate) enum ThermalSpec {
     /// No heat flows.
     Insulated,
     /// The temperature (K).
@@ -174,12 +174,12 @@ pub(crate) enum ThermalWords {
 /// Coefficients of the artificial viscosity.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ViscosityWords {
+pub(crate) struct ViscositySpec {
     pub(crate) linear: NumberText,
     pub(crate) quadratic: NumberText,
 }
 
-impl LoadWords {
+impl LoadSpec {
     /// The effect that the entry asks for.
     pub(crate) fn effect(&self) -> EffectName {
         match self {

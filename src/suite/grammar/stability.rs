@@ -1,6 +1,6 @@
 //! The words of a stability study.
 
-use super::{MethodWords, SceneWords, StepWords, StudyName};
+use super::{MethodSpec, SceneSpec, StepSpec, StudyName};
 use crate::{
     suite::yaml::{NumberText, OneOrMany, Ordered},
     verify::Stability,
@@ -10,7 +10,7 @@ use serde::Deserialize;
 /// A stability study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StabilityWords {
+pub(crate) struct StabilitySpec {
     pub(crate) suite: String,
     #[serde(rename = "study")]
     pub(crate) _study: StudyName,
@@ -22,23 +22,23 @@ pub(crate) struct StabilityWords {
     pub(crate) parameters: Ordered<NumberText>,
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
-    pub(crate) scene: SceneWords,
-    pub(crate) particles: ParticleWords,
-    pub(crate) run: StabilityRunWords,
+    pub(crate) scene: SceneSpec,
+    pub(crate) particles: ParticleSpec,
+    pub(crate) run: StabilityRunSpec,
     /// One parameter, and the values that it takes.
     pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
-    pub(crate) critical: Option<CriticalWords>,
+    pub(crate) critical: Option<CriticalSpec>,
     /// Figures that the report shows.
     #[serde(default)]
     pub(crate) show: Vec<crate::verify::RunFigure>,
-    pub(crate) methods: Vec<MethodWords>,
-    pub(crate) expect: Vec<StabilityExpectWords>,
+    pub(crate) methods: Vec<MethodSpec>,
+    pub(crate) expect: Vec<StabilityExpectSpec>,
 }
 
 /// How the body is filled.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ParticleWords {
+pub(crate) struct ParticleSpec {
     pub(crate) cells: NumberText,
     pub(crate) ppc: NumberText,
     /// What every particle is moved by (m), before anything starts.
@@ -51,8 +51,8 @@ pub(crate) struct ParticleWords {
 /// How it is run.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StabilityRunWords {
-    pub(crate) dt: StepWords,
+pub(crate) struct StabilityRunSpec {
+    pub(crate) dt: StepSpec,
     /// Another length of a step, which takes turns with `dt`.
     pub(crate) alternate: Option<NumberText>,
     /// Steps of one length before it is the turn of the other.
@@ -72,7 +72,7 @@ pub(crate) struct StabilityRunWords {
 /// The parameter whose limit is sought, and where.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct CriticalWords {
+pub(crate) struct CriticalSpec {
     pub(crate) parameter: String,
     pub(crate) from: NumberText,
     pub(crate) to: NumberText,
@@ -81,21 +81,21 @@ pub(crate) struct CriticalWords {
 /// An expectation of a stability study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StabilityExpectWords {
+pub(crate) struct StabilityExpectSpec {
     pub(crate) case: Option<OneOrMany<String>>,
     /// Of every row, or one for each.
     pub(crate) verdict: Option<OneOrMany<Stability>>,
     /// The limit that is sought.
-    pub(crate) critical: Option<FigureWords>,
+    pub(crate) critical: Option<FigureSpec>,
     #[serde(default)]
-    pub(crate) figures: Ordered<FigureWords>,
+    pub(crate) figures: Ordered<FigureSpec>,
     pub(crate) because: String,
 }
 
 /// What a figure must be.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct FigureWords {
+pub(crate) struct FigureSpec {
     /// A closed form, of the parameters.
     pub(crate) is: Option<NumberText>,
     /// Largest deviation from it: a share of it, or of one if it is smaller.

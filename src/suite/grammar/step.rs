@@ -9,7 +9,7 @@ use std::fmt;
 
 /// Length of a step.
 #[derive(Debug, Clone)]
-pub(crate) enum StepWords {
+pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
     /// The share of the longest safe step.
@@ -25,7 +25,7 @@ struct Rule {
     courant: NumberText,
 }
 
-impl<'de> Deserialize<'de> for StepWords {
+impl<'de> Deserialize<'de> for StepSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(LengthOrRule)
     }
@@ -33,39 +33,39 @@ impl<'de> Deserialize<'de> for StepWords {
 
 struct LengthOrRule;
 
-fn length<'de, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<StepWords, E> {
-    NumberText::deserialize(value.into_deserializer()).map(StepWords::Length)
+fn length<'de, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<StepSpec, E> {
+    NumberText::deserialize(value.into_deserializer()).map(StepSpec::Length)
 }
 
 impl<'de> Visitor<'de> for LengthOrRule {
-    type Value = StepWords;
+    type Value = StepSpec;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a time step, `auto`, or `{courant: ...}`")
     }
 
-    fn visit_str<E: Error>(self, text: &str) -> Result<StepWords, E> {
-        if text == "auto" { Ok(StepWords::Auto) } else { length(text) }
+    fn visit_str<E: Error>(self, text: &str) -> Result<StepSpec, E> {
+        if text == "auto" { Ok(StepSpec::Auto) } else { length(text) }
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StepWords, A::Error> {
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StepSpec, A::Error> {
         Rule::deserialize(MapAccessDeserializer::new(map))
-            .map(|rule| StepWords::Courant(rule.courant))
+            .map(|rule| StepSpec::Courant(rule.courant))
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<StepWords, E> {
+    fn visit_i64<E: Error>(self, value: i64) -> Result<StepSpec, E> {
         length(value)
     }
 
-    fn visit_u64<E: Error>(self, value: u64) -> Result<StepWords, E> {
+    fn visit_u64<E: Error>(self, value: u64) -> Result<StepSpec, E> {
         length(value)
     }
 
-    fn visit_u128<E: Error>(self, value: u128) -> Result<StepWords, E> {
+    fn visit_u128<E: Error>(self, value: u128) -> Result<StepSpec, E> {
         length(value)
     }
 
-    fn visit_f64<E: Error>(self, value: f64) -> Result<StepWords, E> {
+    fn visit_f64<E: Error>(self, value: f64) -> Result<StepSpec, E> {
         length(value)
     }
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// A solution, or the state in which the body comes to rest.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ExactWords {
+pub(crate) struct ExactSpec {
     /// Both together, of a body that moves.
     pub(crate) equation: Option<EquationName>,
     pub(crate) displacement: Option<Vec<NumberText>>,
@@ -17,7 +17,7 @@ pub(crate) struct ExactWords {
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct ManufacturedWords {
+pub(crate) struct ManufacturedSpec {
     pub(crate) displacement: Option<Vec<NumberText>>,
     pub(crate) temperature: Option<NumberText>,
 }

@@ -13,7 +13,7 @@ pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 
 use self::{heat::SceneHeat, method::Method, refine_plan::RefinePlan, stability::StabilityPlan};
 use super::{
-    compile::scene::boundary::Hold,
+    compile::scene::boundary::BoundaryCondition,
     grammar::{CrossingLevels, EquationName, NormName},
 };
 use crate::{
@@ -174,7 +174,7 @@ pub struct SceneFace {
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
     /// What holds it.
-    pub hold: Hold,
+    pub hold: BoundaryCondition,
     /// Traction (Pa, per reference area), formulas of the coordinates and t.
     pub traction: Option<Vec<Formula>>,
     /// Pressure (Pa, per present area), a formula of the coordinates and t.

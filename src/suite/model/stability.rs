@@ -2,7 +2,7 @@
 
 use super::method::Method;
 use crate::{
-    suite::{grammar::StabilityWords, yaml::Source},
+    suite::{grammar::StabilitySpec, yaml::Source},
     verify::{RunFigure, StabilityExpectation},
 };
 
@@ -29,7 +29,7 @@ pub struct StabilityPlan {
 #[derive(Debug, Clone)]
 pub(crate) struct Recipe {
     pub(crate) source: Source,
-    pub(crate) words: StabilityWords,
+    pub(crate) words: StabilitySpec,
 }
 
 /// One case of a stability study.

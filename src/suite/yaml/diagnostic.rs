@@ -10,10 +10,10 @@ const MAX_WORDS: usize = 240;
 
 /// One mistake in a file: what it is, where it is, and what would be right.
 ///
-/// `Display` shows it as `rustc` would, with the line and a caret; [`Complaint::one_line`] is
+/// `Display` shows it as `rustc` would, with the line and a caret; [`Diagnostic::one_line`] is
 /// for editors and logs.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Complaint(Box<Parts>);
+pub struct Diagnostic(Box<Parts>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Parts {
@@ -32,7 +32,7 @@ struct Excerpt {
     underlined: Range<usize>,
 }
 
-impl Complaint {
+impl Diagnostic {
     /// A complaint about a file as a whole.
     pub fn about(file: &str, message: &str) -> Self {
         Self(Box::new(Parts {
@@ -49,13 +49,13 @@ impl Complaint {
         let place = Place::of(text, range);
         let bytes = place.bytes();
         let line = line_around(text, bytes.start);
-        let mut complaint = Self::about(file, message);
-        complaint.0.excerpt = Some(Excerpt {
+        let mut diagnostic = Self::about(file, message);
+        diagnostic.0.excerpt = Some(Excerpt {
             place,
             line: text[line.clone()].to_owned(),
             underlined: bytes.start - line.start..bytes.end - line.start,
         });
-        complaint
+        diagnostic
     }
 
     /// Adds the words under the caret: what was expected there.
@@ -128,13 +128,13 @@ impl Complaint {
     }
 }
 
-impl fmt::Display for Complaint {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&Renderer::plain().render(&[self.group()]))
     }
 }
 
-impl std::error::Error for Complaint {}
+impl std::error::Error for Diagnostic {}
 
 /// Words that are safe on a terminal: one line, nothing invisible, not too long.
 fn printable(words: &str) -> String {

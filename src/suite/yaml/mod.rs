@@ -46,7 +46,7 @@ pub(crate) mod words;
 #[cfg(test)]
 mod tests;
 
-pub use diagnostic::Complaint;
+pub use diagnostic::Diagnostic;
 pub(crate) use exchange::{read_again, written};
 pub use locate::Step;
 pub use number_text::NumberText;

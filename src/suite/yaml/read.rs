@@ -1,6 +1,6 @@
 //! From a checked text to a typed value.
 
-use super::{Complaint, Source, shape, translate};
+use super::{Diagnostic, Source, shape, translate};
 use serde::de::DeserializeOwned;
 
 /// Reads a file into a type.
@@ -12,9 +12,9 @@ use serde::de::DeserializeOwned;
 ///
 /// # Errors
 /// The first mistake in the file, with its place.
-pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Complaint> {
+pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
     let parser = serde_yaml::Deserializer::from_str(source.text());
     shape::check(source)
         .and_then(|()| serde_yaml::with::singleton_map_recursive::deserialize(parser))
-        .map_err(|error| translate::complaint(source, &error))
+        .map_err(|error| translate::diagnostic(source, &error))
 }

@@ -1,14 +1,14 @@
 //! How far a scalar reaches, by the rules of its style.
 
 use super::{
-    Complaint,
+    Diagnostic,
     scalar::{Scalar, Style},
     scan::Scanner,
 };
 use std::ops::Range;
 
 impl Scanner<'_> {
-    pub(crate) fn plain_scalar(&mut self) -> Result<(), Complaint> {
+    pub(crate) fn plain_scalar(&mut self) -> Result<(), Diagnostic> {
         self.may_be_key();
         let start = self.at;
         let mut end = start;
@@ -33,7 +33,7 @@ impl Scanner<'_> {
     }
 
     /// Passes blanks and line breaks; whether there was a break since the last word.
-    fn blanks_in_plain(&mut self, mut after_break: bool) -> Result<bool, Complaint> {
+    fn blanks_in_plain(&mut self, mut after_break: bool) -> Result<bool, Diagnostic> {
         while let Some(byte) = self.byte(0) {
             match byte {
                 b'\t' if after_break && self.column() < self.least_column() => {
@@ -67,7 +67,7 @@ impl Scanner<'_> {
         self.indents.last().map_or(0, |indent| indent + 1)
     }
 
-    pub(crate) fn quoted_scalar(&mut self, quote: u8) -> Result<(), Complaint> {
+    pub(crate) fn quoted_scalar(&mut self, quote: u8) -> Result<(), Diagnostic> {
         self.may_be_key();
         let start = self.at;
         let escapes = quote == b'"';
@@ -76,7 +76,7 @@ impl Scanner<'_> {
             match self.byte(0) {
                 None => {
                     return Err(self
-                        .complain(start..start + 1, "this quote is never closed")
+                        .diagnostic(start..start + 1, "this quote is never closed")
                         .with_label("no matching quote"));
                 }
                 Some(b'\n') => self.line_break(),

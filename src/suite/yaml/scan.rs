@@ -7,11 +7,11 @@
 //! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
 //! quotes that are never closed, of which the parser would only notice the end of the file.
 
-use super::{Complaint, scalar::Scalar};
+use super::{Diagnostic, scalar::Scalar};
 use std::ops::Range;
 
 /// The scalars of a text in their order, or the reason why it is refused.
-pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Complaint> {
+pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
     let mut scanner = Scanner {
         name,
         text,
@@ -60,7 +60,7 @@ enum Next {
 }
 
 impl Scanner<'_> {
-    fn step(&mut self) -> Result<Next, Complaint> {
+    fn step(&mut self) -> Result<Next, Diagnostic> {
         self.skip_blanks()?;
         let Some(byte) = self.byte(0) else {
             self.all_closed()?;
@@ -84,7 +84,7 @@ impl Scanner<'_> {
         self.token(byte)
     }
 
-    fn token(&mut self, byte: u8) -> Result<Next, Complaint> {
+    fn token(&mut self, byte: u8) -> Result<Next, Diagnostic> {
         let indicator = self.blank(1);
         match byte {
             b'[' | b'{' => self.bracket()?,
@@ -103,7 +103,7 @@ impl Scanner<'_> {
         Ok(Next::More)
     }
 
-    fn skip_blanks(&mut self) -> Result<(), Complaint> {
+    fn skip_blanks(&mut self) -> Result<(), Diagnostic> {
         while let Some(byte) = self.byte(0) {
             match byte {
                 b' ' | b'\r' => self.at += 1,
@@ -120,18 +120,18 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    fn bracket(&mut self) -> Result<(), Complaint> {
+    fn bracket(&mut self) -> Result<(), Diagnostic> {
         self.may_be_key();
         self.open.push(self.at);
         self.pass(true);
         self.nesting()
     }
 
-    fn closing_bracket(&mut self, byte: u8) -> Result<(), Complaint> {
+    fn closing_bracket(&mut self, byte: u8) -> Result<(), Diagnostic> {
         let opening = if byte == b']' { '[' } else { '{' };
         let Some(start) = self.open.pop() else {
             let message = format!("`{}` without a `{opening}` before it", byte as char);
-            return Err(self.complain(self.here(), &message));
+            return Err(self.diagnostic(self.here(), &message));
         };
         if !self.text[start..].starts_with(opening) {
             return Err(self.crossed(start, byte));
@@ -141,7 +141,7 @@ impl Scanner<'_> {
     }
 
     /// `- ` and `? `, which open a block list or map at their own column.
-    fn block_indicator(&mut self) -> Result<Next, Complaint> {
+    fn block_indicator(&mut self) -> Result<Next, Diagnostic> {
         if self.in_flow() {
             self.pass(false);
             return Ok(Next::More);
@@ -156,7 +156,7 @@ impl Scanner<'_> {
     }
 
     /// `:`, which shows that what came before it on the line is a key of a block map.
-    fn value_indicator(&mut self) -> Result<Next, Complaint> {
+    fn value_indicator(&mut self) -> Result<Next, Diagnostic> {
         let key = self.possible_key.take().filter(|key| *key >= self.line_start);
         match key {
             _ if self.in_flow() => {
@@ -176,7 +176,7 @@ impl Scanner<'_> {
         Ok(Next::More)
     }
 
-    fn document_mark(&mut self, byte: u8) -> Result<Next, Complaint> {
+    fn document_mark(&mut self, byte: u8) -> Result<Next, Diagnostic> {
         self.all_closed()?;
         self.document = match (byte, self.document) {
             (b'-', Document::Before) => Document::Inside,
@@ -191,7 +191,7 @@ impl Scanner<'_> {
         Ok(Next::More)
     }
 
-    fn indent(&mut self, column: usize) -> Result<(), Complaint> {
+    fn indent(&mut self, column: usize) -> Result<(), Diagnostic> {
         if self.indents.last().is_none_or(|indent| *indent < column) {
             self.indents.push(column);
         }

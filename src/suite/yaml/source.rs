@@ -1,6 +1,6 @@
 //! A suite file in memory, checked before anything interprets it.
 
-use super::{Complaint, Place, scalar::Scalar, scan::scan};
+use super::{Diagnostic, Place, scalar::Scalar, scan::scan};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::ops::Range;
@@ -23,7 +23,7 @@ impl Source {
     /// # Errors
     /// If there is no such file, if it is a folder, too large or not UTF-8, and for all that
     /// [`Source::from_text`] refuses.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, Complaint> {
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
         let name = path.as_ref().display().to_string();
         let bytes = bytes_of(path.as_ref(), &name)?;
         match String::from_utf8(bytes) {
@@ -38,7 +38,7 @@ impl Source {
     /// If the text is too large, nests too deeply, is indented with tabs, holds control
     /// characters, brackets or quotes that are never closed, anchors, aliases, tags, or more
     /// than one document.
-    pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Complaint> {
+    pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Diagnostic> {
         let (name, mut text) = (name.into(), text.into());
         if text.len() > MAX_BYTES {
             return Err(too_large(&name, Some(text.len() as u64)));
@@ -63,8 +63,8 @@ impl Source {
     }
 
     /// A complaint about a place in this file.
-    pub fn complain(&self, place: Place, message: &str) -> Complaint {
-        Complaint::at(&self.name, &self.text, place.bytes(), message)
+    pub fn diagnostic(&self, place: Place, message: &str) -> Diagnostic {
+        Diagnostic::at(&self.name, &self.text, place.bytes(), message)
     }
 
     /// The first scalar that starts at or after a byte.
@@ -83,12 +83,12 @@ impl Source {
     }
 }
 
-fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Complaint> {
-    let unreadable = |error: &io::Error| Complaint::about(name, &unreadable(error));
+fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
+    let unreadable = |error: &io::Error| Diagnostic::about(name, &unreadable(error));
     let metadata = fs::metadata(path).map_err(|error| unreadable(&error))?;
     if metadata.is_dir() {
-        let complaint = Complaint::about(name, "this is a folder, not a suite file");
-        return Err(complaint.with_help("name a file in it"));
+        let diagnostic = Diagnostic::about(name, "this is a folder, not a suite file");
+        return Err(diagnostic.with_help("name a file in it"));
     }
     if metadata.len() > MAX_BYTES as u64 {
         return Err(too_large(name, Some(metadata.len())));
@@ -109,7 +109,7 @@ fn unreadable(error: &io::Error) -> String {
     }
 }
 
-fn too_large(name: &str, bytes: Option<u64>) -> Complaint {
+fn too_large(name: &str, bytes: Option<u64>) -> Diagnostic {
     let limit = MAX_BYTES / 1024;
     let message = match bytes {
         Some(bytes) => {
@@ -117,21 +117,21 @@ fn too_large(name: &str, bytes: Option<u64>) -> Complaint {
         }
         None => format!("the file is too large: at most {limit} KiB"),
     };
-    Complaint::about(name, &message)
+    Diagnostic::about(name, &message)
 }
 
-fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Complaint {
+fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
     let text = String::from_utf8_lossy(bytes);
     let end = offset + char::REPLACEMENT_CHARACTER.len_utf8();
     let message = format!("the file is not UTF-8 text: byte {offset} does not fit");
-    let complaint = Complaint::at(name, &text, offset..end, &message);
+    let diagnostic = Diagnostic::at(name, &text, offset..end, &message);
     let utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     let was = if utf16 { " (it looks like UTF-16)" } else { "" };
-    complaint.with_help(&format!("save the file as UTF-8{was}"))
+    diagnostic.with_help(&format!("save the file as UTF-8{was}"))
 }
 
 /// Refuses what no editor shows: control characters, and line breaks known to YAML alone.
-fn characters(name: &str, text: &str) -> Result<(), Complaint> {
+fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
     let bad = text.char_indices().find(|(at, c)| match c {
         '\t' | '\n' => false,
         '\r' => !text[at + 1..].starts_with('\n'),
@@ -140,7 +140,7 @@ fn characters(name: &str, text: &str) -> Result<(), Complaint> {
     });
     let Some((at, c)) = bad else { return Ok(()) };
     let message = format!("character U+{:04X} is not allowed", u32::from(c));
-    Err(Complaint::at(name, text, at..at + c.len_utf8(), &message)
+    Err(Diagnostic::at(name, text, at..at + c.len_utf8(), &message)
         .with_label("an invisible character")
         .with_help("delete it"))
 }

@@ -1,13 +1,13 @@
 //! The errors of the YAML library, in the words of someone who writes a suite.
 
 use super::{
-    Complaint, Source,
+    Diagnostic, Source,
     refusal::refused,
     words::{expected, found, listed, nearest, syntax},
 };
 
 /// Turns an error of the library into a complaint at the same place.
-pub(crate) fn complaint(source: &Source, error: &serde_yaml::Error) -> Complaint {
+pub(crate) fn diagnostic(source: &Source, error: &serde_yaml::Error) -> Diagnostic {
     let text = error.to_string();
     let offset = error.location().map_or(source.text().len(), |location| location.index());
     let fault = Fault { source, offset };
@@ -52,9 +52,9 @@ struct Fault<'a> {
 }
 
 impl<'a> Fault<'a> {
-    fn at_token(self, message: &str) -> Complaint {
+    fn at_token(self, message: &str) -> Diagnostic {
         let range = self.source.token_at(self.offset);
-        Complaint::at(self.source.name(), self.source.text(), range, message)
+        Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
     /// The same at the first name after a bracket.
@@ -69,7 +69,7 @@ impl<'a> Fault<'a> {
         (Self { offset, ..self }, name.unwrap_or("this"))
     }
 
-    fn unknown(self, problem: &str) -> Option<Complaint> {
+    fn unknown(self, problem: &str) -> Option<Diagnostic> {
         let (kind, rest) = match problem.strip_prefix("unknown field `") {
             Some(rest) => ("key", rest),
             None => ("name", problem.strip_prefix("unknown variant `")?),
@@ -90,7 +90,7 @@ impl<'a> Fault<'a> {
         )
     }
 
-    fn missing(self, path: &str, problem: &str) -> Option<Complaint> {
+    fn missing(self, path: &str, problem: &str) -> Option<Diagnostic> {
         let key = problem.strip_prefix("missing field `")?.strip_suffix('`')?;
         let owner = path.rsplit('.').next().unwrap_or_default();
         let inside = if owner.is_empty() { String::new() } else { format!(" in `{owner}`") };
@@ -101,27 +101,27 @@ impl<'a> Fault<'a> {
         )
     }
 
-    fn wrong_type(self, problem: &str) -> Option<Complaint> {
+    fn wrong_type(self, problem: &str) -> Option<Diagnostic> {
         let what = problem
             .strip_prefix("invalid type: ")
             .or_else(|| problem.strip_prefix("invalid value: "))?;
         let (unexpected, wanted) = what.rsplit_once(", expected ")?;
-        if let Some(complaint) = self.wrong_settings(unexpected, wanted) {
-            return Some(complaint);
+        if let Some(diagnostic) = self.wrong_settings(unexpected, wanted) {
+            return Some(diagnostic);
         }
         let wanted = expected(wanted);
-        let complaint = self
+        let diagnostic = self
             .at_token(&format!("expected {wanted}, found {}", found(unexpected)))
             .with_label(&format!("{wanted} is expected here"));
         Some(if self.is_quoted_number() {
-            complaint.with_help("remove the quotes")
+            diagnostic.with_help("remove the quotes")
         } else {
-            complaint
+            diagnostic
         })
     }
 
     /// A named choice with settings where it has none, without where it needs some, or several.
-    fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Complaint> {
+    fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {
             (_, "unit variant") => Some(
@@ -139,12 +139,12 @@ impl<'a> Fault<'a> {
         }
     }
 
-    fn not_one_name(self) -> Complaint {
+    fn not_one_name(self) -> Diagnostic {
         self.at_token("one name with its settings is expected here, found none or several")
             .with_help("write `{NAME: {...}}`; a list holds several")
     }
 
-    fn wrong_length(self, problem: &str) -> Option<Complaint> {
+    fn wrong_length(self, problem: &str) -> Option<Diagnostic> {
         let (length, wanted) =
             problem.strip_prefix("invalid length ")?.split_once(", expected ")?;
         if wanted == "map containing 1 entry" {

@@ -7,7 +7,7 @@
 //! turned: the exponent is one over its slope, and so are the ends of the interval (the fiducial limits
 //! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
 
-use super::{part::Part, sample::Tried};
+use super::{part::Part, sample::Sample};
 use crate::verify::order::fit::{Interval, Line, Point};
 
 /// Fewest points with an interval.
@@ -47,15 +47,15 @@ impl Exponent {
     /// The exponent over the levels of `part` that are asymptotic, or over all of it where these are
     /// fewer than three; `order` and `growth` are those of theory. None without three levels, or where
     /// the error is not certain to fall.
-    pub fn of(tried: &[Tried], part: &Part, order: f64, growth: f64) -> Option<Self> {
+    pub fn of(tried: &[Sample], part: &Part, order: f64, growth: f64) -> Option<Self> {
         let levels = &tried[part.levels.clone()];
-        let asymptotic: Vec<Tried> = levels.iter().filter(|one| one.asymptotic).copied().collect();
+        let asymptotic: Vec<Sample> = levels.iter().filter(|one| one.asymptotic).copied().collect();
         let levels = if asymptotic.len() >= FEWEST { &asymptotic[..] } else { levels };
         if levels.len() < FEWEST {
             return None;
         }
-        let slope = |x: fn(&Tried) -> f64, y: fn(&Tried) -> f64| {
-            let point = |(level, one): (usize, &Tried)| Point {
+        let slope = |x: fn(&Sample) -> f64, y: fn(&Sample) -> f64| {
+            let point = |(level, one): (usize, &Sample)| Point {
                 level,
                 x: libm::log(x(one)),
                 y: libm::log(y(one)),

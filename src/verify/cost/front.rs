@@ -1,13 +1,13 @@
 //! The Pareto front: settings that no other one beats in both error and work.
 
-use super::sample::Tried;
+use super::sample::Sample;
 
 /// Share by which an error must be smaller to be worth more work: methods whose errors agree to more
 /// digits than anybody reads are not traded for each other.
 pub(super) const WORTH: f64 = 0.01;
 
 /// Indices of what is on the front, from the least work to the least error. Of equals the first counts.
-pub fn pareto_front(tried: &[Tried]) -> Vec<usize> {
+pub fn pareto_front(tried: &[Sample]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..tried.len()).filter(|k| tried[*k].counts()).collect();
     let key = |k: usize| (tried[k].work, tried[k].error);
     order.sort_by(|a, b| {

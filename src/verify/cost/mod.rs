@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`tried`](Tried) | what one level gave and took |
+//! | [`tried`](Sample) | what one level gave and took |
 //! | [`part`](Part) | the levels over which a method converges |
 //! | [`reach`](Reach) | the work at which an error is reached |
 //! | [`exponent`](Exponent) | what one more digit costs, beside theory |
@@ -10,7 +10,7 @@
 //! | [`ranking`](Ranking) | all of it for the methods of one problem |
 //! | [`timing`](Timing) | seconds that were measured |
 //! | [`model`](Model) | seconds that are predicted |
-//! | [`priced`](Priced) | a suite whose levels have been timed |
+//! | [`priced`](TimedSuite) | a suite whose levels have been timed |
 //!
 //! Work is any number that adds up: particle-node transfers, which are the same everywhere, or
 //! seconds. Nothing is extrapolated: an error that no level reaches is not reached.
@@ -31,10 +31,10 @@ pub use exponent::{Agreement, Exponent};
 pub use front::pareto_front;
 pub use model::{Load, Model};
 pub use part::{End, Part};
-pub use ranking::{Contender, Ranked, Ranking, rankings};
+pub use ranking::{MethodCost, Ranked, Ranking, rankings};
 pub use reach::Reach;
-pub use sample::Tried;
-pub use timed_suite::{Bid, Priced};
+pub use sample::Sample;
+pub use timed_suite::{Bid, TimedSuite};
 pub use timing::{Machine, Timing};
 
 /// The errors, over the size of the solution, that tables ask for.

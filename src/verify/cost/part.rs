@@ -3,7 +3,7 @@
 //! Between two of them an error may be interpolated; anywhere else it may be an accident (an error
 //! that passes through zero, a floor that sways) which the next finer grid takes back.
 
-use super::sample::Tried;
+use super::sample::Sample;
 use std::ops::Range;
 
 /// Least order between neighbours that is a fall.
@@ -58,7 +58,7 @@ impl End {
 impl Part {
     /// The converging part of levels from coarse to fine: of several the one with the largest fall.
     /// Empty if there is none; its end then says why.
-    pub fn of(tried: &[Tried]) -> Self {
+    pub fn of(tried: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;
         for end in 1..=tried.len() {
@@ -81,7 +81,7 @@ impl Part {
     }
 }
 
-fn falls(coarse: &Tried, fine: &Tried) -> bool {
+fn falls(coarse: &Sample, fine: &Sample) -> bool {
     if !(coarse.has_logarithm() && fine.has_logarithm()) {
         return false;
     }
@@ -90,7 +90,7 @@ fn falls(coarse: &Tried, fine: &Tried) -> bool {
 }
 
 /// What the level after the last one of a part does.
-fn end(tried: &[Tried], next: usize) -> End {
+fn end(tried: &[Sample], next: usize) -> End {
     let Some(finer) = tried.get(next) else { return End::Levels };
     if finer.failed || !finer.error.is_finite() {
         End::Failed

@@ -6,21 +6,21 @@ use super::{
     front::pareto_front,
     part::{End, Part},
     reach::Reach,
-    sample::Tried,
+    sample::Sample,
 };
 use crate::verify::outcome::{CaseOutcome, Convergence, LevelOutcome};
 use std::cmp::Ordering;
 
 /// A method with its levels, coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Contender {
+pub struct MethodCost {
     /// Its name.
     pub name: String,
     /// What was run.
-    pub tried: Vec<Tried>,
+    pub tried: Vec<Sample>,
     /// The order of the error in theory.
     pub formal_order: f64,
-    /// The growth of the work in theory, see [`Yardstick`](crate::verify::Yardstick).
+    /// The growth of the work in theory, see [`ErrorScale`](crate::verify::ErrorScale).
     pub growth: f64,
 }
 
@@ -28,7 +28,7 @@ pub struct Contender {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// The method.
-    pub contender: Contender,
+    pub contender: MethodCost,
     /// Where it converges.
     pub part: Part,
     /// Where it reaches each of the targets.
@@ -58,16 +58,16 @@ pub struct Ranking {
 
 impl Ranking {
     /// Ranks `contenders` by what they take for each of `targets`.
-    pub fn new(problem: String, size: f64, targets: &[f64], contenders: Vec<Contender>) -> Self {
-        let all: Vec<(usize, usize, Tried)> = contenders
+    pub fn new(problem: String, size: f64, targets: &[f64], contenders: Vec<MethodCost>) -> Self {
+        let all: Vec<(usize, usize, Sample)> = contenders
             .iter()
             .enumerate()
             .flat_map(|(c, one)| one.tried.iter().enumerate().map(move |(k, t)| (c, k, *t)))
             .collect();
-        let every: Vec<Tried> = all.iter().map(|(_, _, tried)| *tried).collect();
+        let every: Vec<Sample> = all.iter().map(|(_, _, tried)| *tried).collect();
         let front: Vec<(usize, usize)> =
             pareto_front(&every).into_iter().map(|i| (all[i].0, all[i].1)).collect();
-        let rank = |(c, contender): (usize, Contender)| {
+        let rank = |(c, contender): (usize, MethodCost)| {
             let of_front = front.iter().filter(|(owner, _)| *owner == c);
             let mut levels: Vec<usize> = of_front.map(|(_, level)| *level).collect();
             levels.sort_unstable();
@@ -86,7 +86,7 @@ impl Ranking {
     }
 }
 
-fn ranked(contender: Contender, targets: &[f64], front: Vec<usize>) -> Ranked {
+fn ranked(contender: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
     let tried = &contender.tried;
     let part = Part::of(tried);
     let reaches: Vec<Reach> = targets.iter().map(|t| Reach::of(tried, &part, *t)).collect();
@@ -130,7 +130,7 @@ pub fn rankings(
     cases: &[CaseOutcome],
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
 ) -> Vec<Ranking> {
-    let mut problems: Vec<(&str, f64, Vec<Contender>)> = Vec::new();
+    let mut problems: Vec<(&str, f64, Vec<MethodCost>)> = Vec::new();
     for case in cases {
         let Some(study) = case.convergence().filter(|study| study.compared) else { continue };
         let size = study.yardstick.size;
@@ -147,7 +147,7 @@ pub fn rankings(
             None => problems.push((problem, size, vec![one])),
         }
     }
-    let rank = |(problem, size, contenders): (&str, f64, Vec<Contender>)| {
+    let rank = |(problem, size, contenders): (&str, f64, Vec<MethodCost>)| {
         Ranking::new(problem.to_owned(), size, &TARGETS, contenders)
     };
     problems.into_iter().map(rank).collect()
@@ -157,9 +157,9 @@ fn contender(
     case: &CaseOutcome,
     study: &Convergence,
     work: &impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
-) -> Contender {
+) -> MethodCost {
     let window = study.judgement.window.as_deref().unwrap_or_default();
-    let tried = |(k, level): (usize, &LevelOutcome)| Tried {
+    let tried = |(k, level): (usize, &LevelOutcome)| Sample {
         spacing: level.spacing,
         error: level.error / study.yardstick.size,
         work: work(case, k, level),
@@ -167,7 +167,7 @@ fn contender(
         asymptotic: window.contains(&k),
         failed: level.run.failure.is_some(),
     };
-    Contender {
+    MethodCost {
         name: case.case.clone(),
         tried: study.levels.iter().enumerate().map(tried).collect(),
         formal_order: study.formal_order,

@@ -1,6 +1,6 @@
 //! The work at which a method reaches an error.
 
-use super::{part::Part, sample::Tried};
+use super::{part::Part, sample::Sample};
 
 /// Where an error is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +25,7 @@ pub enum Reach {
 
 impl Reach {
     /// Where levels from coarse to fine, converging over `part`, reach the error `target`.
-    pub fn of(tried: &[Tried], part: &Part, target: f64) -> Self {
+    pub fn of(tried: &[Sample], part: &Part, target: f64) -> Self {
         let mut counted = tried.iter().filter(|one| one.counts());
         let unbroken = tried.iter().all(|one| !one.failed);
         if let Some(first) = counted.next()

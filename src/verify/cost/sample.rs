@@ -2,7 +2,7 @@
 
 /// A setting that was run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tried {
+pub struct Sample {
     /// The spacing that is refined.
     pub spacing: f64,
     /// Error over the size of the solution.
@@ -17,7 +17,7 @@ pub struct Tried {
     pub failed: bool,
 }
 
-impl Tried {
+impl Sample {
     /// Whether the level says what an error costs. Written so that NaN does not.
     pub fn counts(&self) -> bool {
         let sound = self.error >= 0.0 && self.error.is_finite();

@@ -1,16 +1,16 @@
 //! Series whose answers are known.
 
-use super::{Agreement, Contender, End, Exponent, Part, Ranking, Reach, TARGETS, Tried};
+use super::{Agreement, End, Exponent, MethodCost, Part, Ranking, Reach, Sample, TARGETS};
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 use rstest::rstest;
 
-fn level(spacing: f64, error: f64, work: f64) -> Tried {
-    Tried { spacing, error, work, usable: true, asymptotic: true, failed: false }
+fn level(spacing: f64, error: f64, work: f64) -> Sample {
+    Sample { spacing, error, work, usable: true, asymptotic: true, failed: false }
 }
 
 /// error = h^p, work = h^-g, with h = 1/2, 1/4, ...
-fn power(p: f64, g: f64, levels: i32) -> Vec<Tried> {
+fn power(p: f64, g: f64, levels: i32) -> Vec<Sample> {
     let one = |k: i32| {
         let h = libm::exp2(-f64::from(k));
         level(h, libm::pow(h, p), libm::pow(h, -g))
@@ -18,7 +18,7 @@ fn power(p: f64, g: f64, levels: i32) -> Vec<Tried> {
     (1..=levels).map(one).collect()
 }
 
-fn errors(errors: &[f64]) -> Vec<Tried> {
+fn errors(errors: &[f64]) -> Vec<Sample> {
     let one = |(k, e): (usize, &f64)| level(libm::exp2(-(k as f64)), *e, libm::exp2(k as f64));
     errors.iter().enumerate().map(one).collect()
 }
@@ -50,7 +50,7 @@ fn a_level_that_failed_or_does_not_count_ends_the_part() {
     assert_eq!(Part::of(&tried), Part { levels: 0..0, end: End::Failed });
 }
 
-fn reach(tried: &[Tried], target: f64) -> Reach {
+fn reach(tried: &[Sample], target: f64) -> Reach {
     Reach::of(tried, &Part::of(tried), target)
 }
 
@@ -124,8 +124,8 @@ fn levels_outside_the_window_do_not_make_the_exponent() {
     assert_relative_eq!(found.observed.value, -1.5, max_relative = 1e-12);
 }
 
-fn contender(name: &str, tried: Vec<Tried>) -> Contender {
-    Contender { name: name.to_owned(), tried, formal_order: 2.0, growth: 2.0 }
+fn contender(name: &str, tried: Vec<Sample>) -> MethodCost {
+    MethodCost { name: name.to_owned(), tried, formal_order: 2.0, growth: 2.0 }
 }
 
 fn names(ranking: &Ranking) -> Vec<&str> {
@@ -135,7 +135,7 @@ fn names(ranking: &Ranking) -> Vec<&str> {
 #[test]
 fn the_finest_target_decides_and_who_reaches_less_comes_last() {
     let scaled = |factor: f64, levels: i32| {
-        let dearer = |one: Tried| Tried { work: factor * one.work, ..one };
+        let dearer = |one: Sample| Sample { work: factor * one.work, ..one };
         power(2.0, 2.0, levels).into_iter().map(dearer).collect::<Vec<_>>()
     };
     let contenders = vec![
@@ -154,11 +154,11 @@ fn the_finest_target_decides_and_who_reaches_less_comes_last() {
     assert_eq!((short.front.len(), dear.front.len(), broken.front.len()), (4, 0, 0));
 }
 
-fn series() -> impl Strategy<Value = Vec<Tried>> {
+fn series() -> impl Strategy<Value = Vec<Sample>> {
     let number = prop_oneof![4 => 1e-9..1.0_f64, 1 => Just(f64::NAN), 1 => Just(0.0)];
     let one = (number, 1e-3..1e9_f64, any::<bool>(), 0..8_u8);
     prop::collection::vec(one, 0..9).prop_map(|all| {
-        let level = |(k, (error, work, usable, chance)): (usize, (f64, f64, bool, u8))| Tried {
+        let level = |(k, (error, work, usable, chance)): (usize, (f64, f64, bool, u8))| Sample {
             usable: usable || chance > 2,
             failed: chance == 0,
             ..level(libm::exp2(-(k as f64)), error, work)
@@ -198,7 +198,7 @@ proptest! {
     #[test]
     fn the_front_is_the_front(tried in series()) {
         let front = super::pareto_front(&tried);
-        let beats = |a: &Tried, b: &Tried| {
+        let beats = |a: &Sample, b: &Sample| {
             a.work <= b.work && a.error <= b.error && (a.work, a.error) != (b.work, b.error)
         };
         let counted = || tried.iter().filter(|one| one.counts());
@@ -215,9 +215,9 @@ proptest! {
     /// No unit of work or spacing changes an answer.
     #[test]
     fn units_do_not_matter(tried in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
-        let other: Vec<Tried> = tried
+        let other: Vec<Sample> = tried
             .iter()
-            .map(|one| Tried { work: unit * one.work, spacing: one.spacing / 8.0, ..*one })
+            .map(|one| Sample { work: unit * one.work, spacing: one.spacing / 8.0, ..*one })
             .collect();
         prop_assert_eq!(Part::of(&tried), Part::of(&other));
         match (reach(&tried, target).work(), reach(&other, target).work()) {

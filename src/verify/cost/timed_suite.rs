@@ -9,7 +9,7 @@ use crate::verify::outcome::{CaseOutcome, LevelOutcome, SuiteOutcome};
 
 /// A suite with the seconds of its levels.
 #[derive(Debug, Clone)]
-pub struct Priced {
+pub struct TimedSuite {
     /// What has come out. Cases besides the suite's own are variants of them.
     pub outcome: SuiteOutcome,
     /// For each case and level what it has to do, and how long that took; none of what could not be set
@@ -19,7 +19,7 @@ pub struct Priced {
     pub machine: Machine,
 }
 
-impl Priced {
+impl TimedSuite {
     /// The rankings by seconds.
     pub fn by_seconds(&self) -> Vec<Ranking> {
         rankings(&self.outcome.cases, |case, level, _| {
@@ -30,7 +30,7 @@ impl Priced {
     /// The rankings by transfers.
     pub fn by_transfers(&self) -> Vec<Ranking> {
         let transfers =
-            |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.census.transfers as f64;
+            |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
         rankings(&self.outcome.cases, transfers)
     }
 

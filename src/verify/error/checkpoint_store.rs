@@ -6,7 +6,7 @@
 use crate::subject::{Checkpoint, Memory, Subject};
 
 /// Keeps the state of one run.
-pub trait Keeper {
+pub trait CheckpointStore {
     /// What an earlier run like this one has left, if anything.
     fn left(&mut self) -> Option<Vec<u8>>;
 
@@ -22,9 +22,9 @@ pub trait Keeper {
 }
 
 /// Keeps nothing.
-pub struct Nobody;
+pub struct NoCheckpoints;
 
-impl Keeper for Nobody {
+impl CheckpointStore for NoCheckpoints {
     fn left(&mut self) -> Option<Vec<u8>> {
         None
     }
@@ -48,7 +48,7 @@ pub(crate) fn resumed<W: Memory, E>(
     mut make: impl FnMut() -> Result<Box<dyn Subject>, E>,
     watch: impl Fn(&dyn Subject) -> W,
     steps: u64,
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
 ) -> Result<(Box<dyn Subject>, W, u64), E> {
     let mut subject = make()?;
     let mut watching = watch(subject.as_ref());
@@ -68,7 +68,7 @@ pub(crate) fn resumed<W: Memory, E>(
 
 /// Keeps the state after `done` of `steps` steps, if it is time and the subject can say it.
 pub(crate) fn keep_if_due(
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
     (mut done, steps): (u64, u64),
     watch: &mut impl Memory,
     subject: &mut dyn Subject,

@@ -5,7 +5,7 @@ use crate::exact::Truth;
 
 /// What errors of a case are compared by, and how its work must grow.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Yardstick {
+pub struct ErrorScale {
     /// Which problem is solved, in words: the end of the run, and the truth. Only cases of one problem
     /// are compared.
     pub problem: String,

@@ -1,7 +1,7 @@
 //! One subject on one level, held against the truth.
 
 use super::{
-    checkpoint_store::{Keeper, Nobody, keep_if_due, resumed},
+    checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed},
     clock::Clock,
     norm::{Norms, larger},
     observer::{History, displacement_at},
@@ -41,8 +41,8 @@ pub fn run(
     clock: &Clock,
     comparison: &Comparison<'_>,
 ) -> Run {
-    let watch = Watch::new(subject, truth, comparison);
-    go(subject, watch, clock, 0, &mut Nobody)
+    let watch = RunMonitor::new(subject, truth, comparison);
+    go(subject, watch, clock, 0, &mut NoCheckpoints)
 }
 
 /// The same run of a subject that `make` makes, from where `keeper` has something that was left of it.
@@ -54,19 +54,19 @@ pub fn resume<E>(
     truth: &dyn Truth,
     clock: &Clock,
     comparison: &Comparison<'_>,
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
 ) -> Result<Run, E> {
-    let watch = |subject: &dyn Subject| Watch::new(subject, truth, comparison);
+    let watch = |subject: &dyn Subject| RunMonitor::new(subject, truth, comparison);
     let (mut subject, watch, done) = resumed(make, watch, clock.steps, keeper)?;
     Ok(go(subject.as_mut(), watch, clock, done, keeper))
 }
 
 fn go(
     subject: &mut dyn Subject,
-    mut watch: Watch<'_>,
+    mut watch: RunMonitor<'_>,
     clock: &Clock,
     done: u64,
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
 ) -> Run {
     for step in done + 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
@@ -79,7 +79,7 @@ fn go(
 }
 
 /// The state of the comparison while a subject runs.
-struct Watch<'a> {
+struct RunMonitor<'a> {
     truth: &'a dyn Truth,
     comparison: &'a Comparison<'a>,
     samples: Samples,
@@ -93,7 +93,7 @@ struct Watch<'a> {
     history: Option<(usize, History)>,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> RunMonitor<'a> {
     fn new(subject: &dyn Subject, truth: &'a dyn Truth, comparison: &'a Comparison<'a>) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
@@ -165,7 +165,7 @@ impl<'a> Watch<'a> {
             drift: self.balance.as_ref().map(Balance::drift),
             energy_rate: energy_rate(&self.account),
             account: self.account,
-            census: subject.census(),
+            counters: subject.counters(),
             steps: clock.steps,
             failure: None,
             observed_error: place.zip(displacement.as_ref()).map(distance),
@@ -185,7 +185,7 @@ impl<'a> Watch<'a> {
             drift: self.balance.map(|_| Drift::NONE),
             energy_rate: None,
             account: self.account,
-            census: subject.census(),
+            counters: subject.counters(),
             steps: step,
             failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
             history: None,
@@ -197,7 +197,7 @@ impl<'a> Watch<'a> {
 }
 
 /// What is seen at an instant is seen anew at the next one, and the last step ends at one.
-impl Memory for Watch<'_> {
+impl Memory for RunMonitor<'_> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {
             truth: _,
@@ -241,7 +241,7 @@ pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subject::Census;
+    use crate::subject::RunCounters;
     use approx::assert_relative_eq;
 
     /// One label whose speed goes up and down while its displacement fades.
@@ -262,9 +262,9 @@ mod tests {
             samples.velocity.push(libm::cos(self.0));
         }
 
-        fn census(&self) -> Census {
+        fn counters(&self) -> RunCounters {
             let (particles, crossings, left_domain) = (None, None, None);
-            Census { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
+            RunCounters { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{norm::Norms, observer::History};
 use crate::{
-    subject::{Census, Totals},
+    subject::{RunCounters, Totals},
     verify::{conservation::Drift, order::fit::Interval},
 };
 use serde::{Deserialize, Serialize};
@@ -25,7 +25,7 @@ pub struct Run {
     /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
     pub energy_rate: Option<Interval>,
     /// Counters at the end, or at the failure.
-    pub census: Census,
+    pub counters: RunCounters,
     /// Steps taken.
     pub steps: u64,
     /// Why and when the run ended early.

@@ -4,16 +4,16 @@ use super::{axis::Axis, format_number::figures};
 
 /// An order that theory gives, and the range in which the observed one must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Claim {
+pub struct OrderHypothesis {
     /// The order of the method in theory.
     pub formal_order: f64,
-    /// The range of the observed order; `formal_order` -+ [`Claim::TOLERANCE`] if not given.
+    /// The range of the observed order; `formal_order` -+ [`OrderHypothesis::TOLERANCE`] if not given.
     pub expected: Option<(f64, f64)>,
     /// What is refined: names the spacing in sentences, changes no figure.
     pub axis: Axis,
 }
 
-impl Claim {
+impl OrderHypothesis {
     /// How far the observed order may lie from the formal one if no range is given: a fifth of
     /// the gap between two methods whose orders differ by a half.
     pub const TOLERANCE: f64 = 0.1;
@@ -67,20 +67,20 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    #[case(Claim::formal(2.0))]
-    #[case(Claim::within(2.0, 1.6, 2.6))]
-    #[case(Claim::within(2.0, 2.0, 2.0))]
-    fn testable(#[case] claim: Claim) {
+    #[case(OrderHypothesis::formal(2.0))]
+    #[case(OrderHypothesis::within(2.0, 1.6, 2.6))]
+    #[case(OrderHypothesis::within(2.0, 2.0, 2.0))]
+    fn testable(#[case] claim: OrderHypothesis) {
         assert_eq!(claim.complaint(), None);
     }
 
     #[rstest]
-    #[case(Claim::formal(f64::NAN), "[NaN, NaN] is not a range of orders")]
-    #[case(Claim::formal(0.0), "[-0.1, 0.1] is not a range of orders")]
-    #[case(Claim::within(2.0, 2.1, 1.9), "[2.1, 1.9] is not a range of orders")]
-    #[case(Claim::within(2.0, 1.0, f64::INFINITY), "[1, inf] is not a range of orders")]
-    #[case(Claim::within(60.0, 10.0, 110.0), "too wide to test anything")]
-    fn not_testable(#[case] claim: Claim, #[case] expected: &str) {
+    #[case(OrderHypothesis::formal(f64::NAN), "[NaN, NaN] is not a range of orders")]
+    #[case(OrderHypothesis::formal(0.0), "[-0.1, 0.1] is not a range of orders")]
+    #[case(OrderHypothesis::within(2.0, 2.1, 1.9), "[2.1, 1.9] is not a range of orders")]
+    #[case(OrderHypothesis::within(2.0, 1.0, f64::INFINITY), "[1, inf] is not a range of orders")]
+    #[case(OrderHypothesis::within(60.0, 10.0, 110.0), "too wide to test anything")]
+    fn not_testable(#[case] claim: OrderHypothesis, #[case] expected: &str) {
         let complaint = claim.complaint().unwrap();
         assert!(complaint.contains(expected), "{complaint}");
     }

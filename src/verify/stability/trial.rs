@@ -15,7 +15,7 @@ use crate::{
     verify::{
         conservation::{Balance, Conserved, Drift},
         error::{
-            checkpoint_store::{Keeper, Nobody, keep_if_due, resumed},
+            checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed},
             norm::larger,
         },
     },
@@ -29,8 +29,8 @@ const EVERY: u64 = 16;
 /// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
 /// unstable or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
-    let watch = Watch::new(subject, *scales);
-    go(subject, watch, dt, (0, steps), &mut Nobody)
+    let watch = TrialMonitor::new(subject, *scales);
+    go(subject, watch, dt, (0, steps), &mut NoCheckpoints)
 }
 
 /// The same trial of a subject that `make` makes, from where `keeper` has something that was left of it.
@@ -42,19 +42,19 @@ pub fn resume_trial<E>(
     dt: &[f64],
     steps: u64,
     scales: &Scales,
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
 ) -> Result<Trial, E> {
-    let watch = |subject: &dyn Subject| Watch::new(subject, *scales);
+    let watch = |subject: &dyn Subject| TrialMonitor::new(subject, *scales);
     let (mut subject, watch, done) = resumed(make, watch, steps, keeper)?;
     Ok(go(subject.as_mut(), watch, dt, (done, steps), keeper))
 }
 
 fn go(
     subject: &mut dyn Subject,
-    mut watch: Watch,
+    mut watch: TrialMonitor,
     dt: &[f64],
     (done, steps): (u64, u64),
-    keeper: &mut dyn Keeper,
+    keeper: &mut dyn CheckpointStore,
 ) -> Trial {
     let scales = watch.scales;
     let mut lengths = dt.iter().cycle().skip(done as usize % dt.len().max(1));
@@ -80,7 +80,7 @@ fn go(
     watch.ended(subject, verdict, None, steps)
 }
 
-struct Watch {
+struct TrialMonitor {
     scales: Scales,
     time: f64,
     samples: Samples,
@@ -97,7 +97,7 @@ struct Watch {
     null_most: f64,
 }
 
-impl Watch {
+impl TrialMonitor {
     fn new(subject: &dyn Subject, scales: Scales) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
@@ -182,7 +182,7 @@ impl Watch {
             kinetic_kept: kinetic(subject, self.scales.centred) / self.kinetic_start,
             momentum: drift.of(Conserved::Momentum),
             angular_momentum: drift.of(Conserved::AngularMomentum),
-            least_j: subject.census().min_j,
+            least_j: subject.counters().min_j,
             speed: self.speed,
             null_share: self.null / self.kinetic,
             largest_null_share: self.null_most / self.kinetic,
@@ -194,7 +194,7 @@ impl Watch {
     }
 }
 
-impl Memory for Watch {
+impl Memory for TrialMonitor {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {
             scales: _,

@@ -1,7 +1,7 @@
 //! Does the interval that the judge reports contain the true order as often as it says?
 
 use super::Random;
-use crate::verify::{Claim, Level, judge};
+use crate::verify::{Level, OrderHypothesis, judge};
 
 const SERIES: usize = 10_000;
 
@@ -31,7 +31,7 @@ fn count(cells: &[f64], seed: u64) -> Count {
     for _ in 0..SERIES {
         let order = random.between(1.0, 3.0);
         let series = noisy(&mut random, cells, order);
-        let judgement = judge(&series, &Claim::formal(order));
+        let judgement = judge(&series, &OrderHypothesis::formal(order));
         match judgement.order {
             Some(found) => {
                 count.covered += usize::from(found.low <= order && order <= found.high);

@@ -8,7 +8,7 @@ mod series;
 
 use std::f64::consts::PI;
 
-use super::{Claim, Judgement, Level, judge};
+use super::{Judgement, Level, OrderHypothesis, judge};
 
 /// Spacings 1, 1/2, 1/4, ... with these errors.
 fn halvings(errors: &[f64]) -> Vec<Level> {
@@ -23,7 +23,7 @@ fn halved(levels: usize, error: impl Fn(f64) -> f64) -> Vec<Level> {
 }
 
 fn judged(errors: &[f64], order: f64) -> Judgement {
-    judge(&halvings(errors), &Claim::formal(order))
+    judge(&halvings(errors), &OrderHypothesis::formal(order))
 }
 
 /// A small random generator of its own (xorshift64*, Vigna 2016), so that every platform and

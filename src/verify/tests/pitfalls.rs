@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
 use super::{Random, halved, judged};
-use crate::verify::{Claim, Level, Norms, Richardson, RichardsonClass, Verdict, judge};
+use crate::verify::{Level, Norms, OrderHypothesis, Richardson, RichardsonClass, Verdict, judge};
 
 #[test]
 fn a_growing_error_has_a_negative_order() {
@@ -23,9 +23,9 @@ fn a_non_finite_figure_fails_on_any_level(
     let mut series = halved(5, |h| h * h);
     series[level].error = figure;
     series[level].usable = usable;
-    assert_eq!(judge(&series, &Claim::formal(2.0)).verdict, Verdict::Failed);
+    assert_eq!(judge(&series, &OrderHypothesis::formal(2.0)).verdict, Verdict::Failed);
     series[level] = Level::new(figure, 1.0);
-    assert_eq!(judge(&series, &Claim::formal(2.0)).verdict, Verdict::Failed);
+    assert_eq!(judge(&series, &OrderHypothesis::formal(2.0)).verdict, Verdict::Failed);
 }
 
 #[rstest]
@@ -33,7 +33,7 @@ fn a_non_finite_figure_fails_on_any_level(
 #[case(60.0)]
 fn an_order_above_theory_is_no_success(#[case] order: f64) {
     let series = halved(5, |h| libm::pow(h, order));
-    assert_eq!(judge(&series, &Claim::formal(2.0)).verdict, Verdict::TooGood);
+    assert_eq!(judge(&series, &OrderHypothesis::formal(2.0)).verdict, Verdict::TooGood);
 }
 
 /// With a ratio of two assumed, the last pair of this order-2 series would show an order of 0.83.
@@ -41,7 +41,7 @@ fn an_order_above_theory_is_no_success(#[case] order: f64) {
 fn the_true_ratio_of_spacings_is_used() {
     let cells = [5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 120.0, 160.0];
     let series = cells.map(|n| Level::new(25.0 / n, 3.0 / (n * n)));
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     for order in &judgement.pairwise[1..] {
         assert_abs_diff_eq!(order.unwrap(), 2.0, epsilon = 1e-12);
@@ -49,11 +49,11 @@ fn the_true_ratio_of_spacings_is_used() {
 }
 
 #[rstest]
-#[case::tolerance_of_100(Claim::within(2.0, -98.0, 102.0))]
-#[case::wide_but_positive(Claim::within(2.0, 0.5, 3.5))]
-#[case::nan(Claim::within(2.0, f64::NAN, f64::NAN))]
-#[case::nan_formal_order(Claim::formal(f64::NAN))]
-fn a_claim_that_everything_meets_is_refused(#[case] claim: Claim) {
+#[case::tolerance_of_100(OrderHypothesis::within(2.0, -98.0, 102.0))]
+#[case::wide_but_positive(OrderHypothesis::within(2.0, 0.5, 3.5))]
+#[case::nan(OrderHypothesis::within(2.0, f64::NAN, f64::NAN))]
+#[case::nan_formal_order(OrderHypothesis::formal(f64::NAN))]
+fn a_claim_that_everything_meets_is_refused(#[case] claim: OrderHypothesis) {
     let judgement = judge(&halved(5, |h| h * h), &claim);
     assert_eq!(judgement.verdict, Verdict::Failed, "{}", judgement.reason);
 }
@@ -90,7 +90,7 @@ fn the_confidence_interval_is_computed() {
     let half_width = |levels: usize, sigma: f64| {
         let mut series = halved(levels, |h| h * h);
         Random(7).disturb(&mut series, sigma);
-        judge(&series, &Claim::formal(2.0)).order.unwrap().half_width()
+        judge(&series, &OrderHypothesis::formal(2.0)).order.unwrap().half_width()
     };
     assert_abs_diff_eq!(half_width(6, 0.04) / half_width(6, 0.01), 4.0, epsilon = 1e-9);
     assert!(half_width(9, 0.02) < half_width(4, 0.02));
@@ -104,7 +104,7 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
     let noise = [1.04, 0.96, 0.97, 1.04, 1.0];
     let mut series = halved(5, |h| libm::pow(h, order));
     series.iter_mut().zip(noise).for_each(|(level, noise)| level.error *= noise);
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert!((judgement.order.unwrap().value - 2.0).abs() < 0.1);
     assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
     assert!(judgement.reason.contains("sticks out"));
@@ -116,7 +116,7 @@ fn an_outlier_is_kept_wherever_it_lies() {
     for outlier in 1..7 {
         let mut series = halved(8, |h| h * h);
         series[outlier].error *= 5.0;
-        let judgement = judge(&series, &Claim::formal(2.0));
+        let judgement = judge(&series, &OrderHypothesis::formal(2.0));
         assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
         assert_eq!(judgement.window, Some((0..8).collect()));
     }

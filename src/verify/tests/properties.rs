@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::Random;
-use crate::verify::{Claim, Level, Verdict, judge};
+use crate::verify::{Level, OrderHypothesis, Verdict, judge};
 
 /// Series of all kinds: falling, flat, growing, with a floor, with noise from none to wild.
 fn series() -> impl Strategy<Value = Vec<Level>> {
@@ -43,7 +43,7 @@ proptest! {
         h_unit in -30.0..30.0_f64,
         formal in 0.5..3.0_f64,
     ) {
-        let claim = Claim::formal(formal);
+        let claim = OrderHypothesis::formal(formal);
         let (error_unit, h_unit) = (libm::exp(error_unit), libm::exp(h_unit));
         let scaled: Vec<Level> = series
             .iter()
@@ -63,13 +63,13 @@ proptest! {
     fn the_order_of_levels_changes_nothing(series in series(), turn in 0_usize..10) {
         let mut turned = series.clone();
         turned.rotate_left(turn % series.len());
-        let claim = Claim::formal(2.0);
+        let claim = OrderHypothesis::formal(2.0);
         prop_assert_eq!(judge(&series, &claim), judge(&turned, &claim));
     }
 
     #[test]
     fn converging_means_what_it_says(series in series(), formal in 0.5..3.0_f64) {
-        let judgement = judge(&series, &Claim::formal(formal));
+        let judgement = judge(&series, &OrderHypothesis::formal(formal));
         if judgement.verdict == Verdict::Converging {
             let order = judgement.order.unwrap();
             prop_assert!(order.low >= formal - 0.1 && order.high <= formal + 0.1);
@@ -80,13 +80,13 @@ proptest! {
 
     #[test]
     fn nothing_panics(levels in prop::collection::vec(anything(), 0..9), formal in any::<f64>()) {
-        judge(&levels, &Claim::formal(formal));
-        judge(&levels, &Claim::formal(2.0));
+        judge(&levels, &OrderHypothesis::formal(formal));
+        judge(&levels, &OrderHypothesis::formal(2.0));
     }
 
     #[test]
     fn no_magnitude_panics(levels in prop::collection::vec(any_magnitude(), 0..9)) {
-        let judgement = judge(&levels, &Claim::formal(2.0));
+        let judgement = judge(&levels, &OrderHypothesis::formal(2.0));
         prop_assert_eq!(judgement.pairwise.len(), judgement.levels.len());
         prop_assert!(!judgement.reason.is_empty() && !judgement.reason.contains('\n'));
     }
@@ -99,7 +99,7 @@ fn subnormal_errors_have_an_order() {
         let h = libm::exp2(f64::from(k));
         Level::new(h, least * h)
     });
-    let judgement = judge(&series, &Claim::formal(1.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(1.0));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
 }
 
@@ -110,7 +110,7 @@ fn spacings_that_cannot_be_told_apart_fail() {
         h = h.next_up();
         Level::new(h, error)
     });
-    let judgement = judge(&series, &Claim::formal(1.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(1.0));
     assert_eq!(judgement.verdict, Verdict::Failed);
     assert_eq!(judgement.reason, "the spacings cannot be told apart");
 }

@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
 use super::{Random, halved, judged};
-use crate::verify::{Claim, Level, Verdict, judge};
+use crate::verify::{Level, OrderHypothesis, Verdict, judge};
 
 const POWERS_OF_4: [f64; 6] = [1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25, 0.000_976_562_5];
 
@@ -14,7 +14,7 @@ fn a_pure_order_is_converging(
     #[values(4, 5, 8)] levels: usize,
 ) {
     let series = halved(levels, |h| 7.0 * libm::pow(h, order));
-    let judgement = judge(&series, &Claim::formal(order));
+    let judgement = judge(&series, &OrderHypothesis::formal(order));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     assert_eq!(judgement.window, Some((0..levels).collect()));
     assert_abs_diff_eq!(judgement.order.unwrap().value, order, epsilon = 1e-12);
@@ -25,7 +25,7 @@ fn noise_of_two_per_cent_keeps_the_verdict(#[values(1.0, 5.0 / 3.0, 2.0, 3.0)] o
     let mut random = Random(1);
     let mut series = halved(7, |h| libm::pow(h, order));
     random.disturb(&mut series, 0.02);
-    let judgement = judge(&series, &Claim::formal(order));
+    let judgement = judge(&series, &OrderHypothesis::formal(order));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
 }
 
@@ -42,7 +42,7 @@ fn a_pure_order_against_another(
     #[case] formal: f64,
     #[case] expected: Verdict,
 ) {
-    let judgement = judge(&halved(6, |h| libm::pow(h, order)), &Claim::formal(formal));
+    let judgement = judge(&halved(6, |h| libm::pow(h, order)), &OrderHypothesis::formal(formal));
     assert_eq!(judgement.verdict, expected, "{}", judgement.reason);
 }
 
@@ -77,20 +77,20 @@ fn a_series_of_halvings(#[case] errors: &[f64], #[case] expected: Verdict) {
 #[case::large_second_term(0.1, Verdict::PreAsymptotic)]
 #[case::second_term_everywhere(1000.0, Verdict::TooLow)]
 fn a_second_term_of_lower_order(#[case] c: f64, #[case] expected: Verdict) {
-    let judgement = judge(&halved(6, |h| h * h + c * h), &Claim::formal(2.0));
+    let judgement = judge(&halved(6, |h| h * h + c * h), &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, expected, "{}", judgement.reason);
 }
 
 #[test]
 fn a_term_of_higher_order_is_left_behind_on_coarse_levels() {
-    let judgement = judge(&halved(8, |h| h * h + h * h * h * h), &Claim::formal(2.0));
+    let judgement = judge(&halved(8, |h| h * h + h * h * h * h), &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     assert!(judgement.window.unwrap()[0] > 0);
 }
 
 #[test]
 fn a_plateau_of_another_axis_is_a_floor_and_the_order_before_is_kept() {
-    let judgement = judge(&halved(12, |h| h * h + 1e-4), &Claim::formal(2.0));
+    let judgement = judge(&halved(12, |h| h * h + 1e-4), &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::AtFloor, "{}", judgement.reason);
     assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.03);
 }
@@ -106,21 +106,21 @@ fn a_superconvergent_first_pair_is_left_out_of_the_window() {
 #[test]
 fn levels_out_of_order_are_sorted() {
     let mut series = halved(6, |h| h * h);
-    let sorted = judge(&series, &Claim::formal(2.0));
+    let sorted = judge(&series, &OrderHypothesis::formal(2.0));
     series.swap(0, 4);
     series.swap(1, 5);
-    assert_eq!(judge(&series, &Claim::formal(2.0)), sorted);
+    assert_eq!(judge(&series, &OrderHypothesis::formal(2.0)), sorted);
 }
 
 #[test]
 fn a_level_given_twice_counts_once_and_contradicting_levels_fail() {
     let mut series = halved(4, |h| h * h);
     series[3] = series[2].clone();
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::TooFewLevels);
     assert_eq!(judgement.levels.len(), 3);
     series[3].error *= 1.5;
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Failed);
 }
 
@@ -129,7 +129,7 @@ fn crossing_levels_are_shown_and_do_not_count() {
     let mut series = halved(5, |h| h * h);
     let crossing = [(0.05, 0.03), (0.04, 0.2), (0.03, 0.9)];
     series.extend(crossing.map(|(h, error)| Level::new(h, error).unusable()));
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     assert_eq!(judgement.window, Some(vec![0, 1, 2, 3, 4]));
     assert!(judgement.pairwise[7].unwrap() < 0.0);
@@ -139,11 +139,11 @@ fn crossing_levels_are_shown_and_do_not_count() {
 fn an_unusable_level_in_between_is_skipped_and_one_that_failed_is_not() {
     let mut series = halved(6, |h| h * h);
     series[2] = Level::new(0.25, 5.0).unusable();
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     assert_eq!(judgement.window, Some(vec![0, 1, 3, 4, 5]));
     series[2] = series[2].clone().failing("particle 7 left the domain at t = 0.2");
-    let judgement = judge(&series, &Claim::formal(2.0));
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Failed);
     assert_eq!(judgement.reason, "h = 0.25: particle 7 left the domain at t = 0.2");
 }

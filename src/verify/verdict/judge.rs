@@ -17,7 +17,7 @@ use std::ops::Range;
 use super::{error_trend, name::Verdict, reason::Reason};
 use crate::verify::order::{
     fit::{Interval, Line, Point},
-    hypothesis::Claim,
+    hypothesis::OrderHypothesis,
     level::{Level, arrange},
     pairwise::pairwise,
     window,
@@ -33,7 +33,7 @@ const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
 /// A drift counts if the order changes along the window by more than the width of the usual
 /// expected range,
-const DRIFT: f64 = 2.0 * Claim::TOLERANCE;
+const DRIFT: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
 /// and if noise would show it only once in a thousand series.
 const DRIFT_RISK: f64 = 0.001;
@@ -60,7 +60,7 @@ pub struct Judgement {
 }
 
 /// Judges the errors of a refinement study against a claimed order.
-pub fn judge(levels: &[Level], claim: &Claim) -> Judgement {
+pub fn judge(levels: &[Level], claim: &OrderHypothesis) -> Judgement {
     let (levels, complaint) = arrange(levels, claim.axis);
     let finding = match complaint.or_else(|| claim.complaint()) {
         Some(complaint) => Finding::without_order(Verdict::Failed, Reason::Failed(complaint)),
@@ -118,7 +118,7 @@ impl Series {
         }
     }
 
-    fn finding(&self, claim: &Claim) -> Finding {
+    fn finding(&self, claim: &OrderHypothesis) -> Finding {
         let usable = self.points.len() + self.zeros.len();
         if usable < FEWEST_LEVELS {
             let reason = Reason::TooFew { usable };
@@ -148,21 +148,21 @@ impl Series {
     }
 
     /// An exact zero is an error at or below round-off.
-    fn zero(&self, claim: &Claim) -> Option<Finding> {
+    fn zero(&self, claim: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);
         let flat = error_trend::flat_tail(&self.points[..end], claim.formal_order);
         Some(self.before_floor(from, flat.unwrap_or(end), claim))
     }
 
-    fn flat(&self, claim: &Claim) -> Option<Finding> {
+    fn flat(&self, claim: &OrderHypothesis) -> Option<Finding> {
         let start = error_trend::flat_tail(&self.points, claim.formal_order)?;
         Some(self.before_floor(self.points[start].level, start, claim))
     }
 
     /// At a floor that begins with the level `from`; the order is that of the asymptotic part of
     /// the points before `end`.
-    fn before_floor(&self, from: usize, end: usize, claim: &Claim) -> Finding {
+    fn before_floor(&self, from: usize, end: usize, claim: &OrderHypothesis) -> Finding {
         let window = window::asymptotic(&self.points, end, claim.formal_order);
         self.floor(from, window.map_or(0..end, |window| window.range))
     }
@@ -174,7 +174,7 @@ impl Series {
         Finding::over(Verdict::AtFloor, Reason::Floor { from }, points, line)
     }
 
-    fn asymptotic(&self, claim: &Claim) -> Finding {
+    fn asymptotic(&self, claim: &OrderHypothesis) -> Finding {
         let Some(window) = window::asymptotic(&self.points, self.points.len(), claim.formal_order)
         else {
             let complaint = "the spacings cannot be told apart".into();
@@ -191,7 +191,7 @@ impl Series {
 }
 
 /// The last two questions.
-fn settled(window: &Window, points: &[Point], claim: &Claim) -> (Verdict, Reason) {
+fn settled(window: &Window, points: &[Point], claim: &OrderHypothesis) -> (Verdict, Reason) {
     let order = window.line.order();
     let range @ (low, high) = claim.range();
     let narrow = order.half_width() <= SETTLED.max(SETTLED_FRACTION * order.value);

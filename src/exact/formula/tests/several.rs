@@ -7,11 +7,11 @@ use super::{
     bind,
     random::{grow, same, tree},
 };
-use crate::exact::formula::{Formula, Several};
+use crate::exact::formula::{Formula, NumberBatch};
 
 /// Holds the values at eight places against those at each of them, bit for bit.
 fn agree(formula: &Formula, x: &[f64], y: f64) -> Result<(), TestCaseError> {
-    let found = formula.eval(&[Several::new(|lane| x[lane]), Several::from(y)]);
+    let found = formula.eval(&[NumberBatch::new(|lane| x[lane]), NumberBatch::from(y)]);
     for (lane, x) in x.iter().enumerate() {
         let alone = formula.eval(&[*x, y]);
         prop_assert!(same(found.get(lane), alone), "{} and {alone} at {x}", found.get(lane));
@@ -23,7 +23,7 @@ proptest! {
     #[test]
     fn several_values_have_the_bits_of_each(
         tree in tree(),
-        x in prop::collection::vec(-3.0..3.0, Several::LEN),
+        x in prop::collection::vec(-3.0..3.0, NumberBatch::LEN),
         y in -3.0..3.0,
     ) {
         agree(&grow(&tree.text()), &x, y)?;

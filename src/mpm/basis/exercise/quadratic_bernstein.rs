@@ -8,7 +8,7 @@
 use super::{
     contract::{Basis, Domain},
     product::Product,
-    weights_1d::Along,
+    weights_1d::Weights1d,
 };
 use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
 
@@ -38,13 +38,13 @@ impl Basis for QuadraticBernstein {
         mut see: impl FnMut(&Product<D, 3>),
     ) {
         let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-        see(&Product(array(Along::NONE, |axis| {
+        see(&Product(array(Weights1d::NONE, |axis| {
             let xi = xi[axis];
             let weight = [(1.0 - xi) * (1.0 - xi), 2.0 * xi * (1.0 - xi), xi * xi];
             let slope = [2.0 * xi - 2.0, 2.0 - 4.0 * xi, 2.0 * xi];
             let slope = array(0.0, |k| slope[k] * grid.inverse_h());
             let offset = array(0.0, |k| (0.5 * k as f64 - xi) * grid.h);
-            Along::new(2 * cell[axis], weight, slope, offset)
+            Weights1d::new(2 * cell[axis], weight, slope, offset)
         })));
     }
 

@@ -22,7 +22,7 @@ use crate::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Kernel, Shown},
+        kernel::contract::{Kernel, ParticleField},
         particles::Particles,
     },
     subject::Column,
@@ -152,7 +152,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
                 density * (spot.volume / mass[k])
             },
         );
-        kernel.p2g_momentum(points, Shown { v: &points.v, affine: None }, grid, momentum);
+        kernel.p2g_momentum(points, ParticleField { v: &points.v, affine: None }, grid, momentum);
         2
     }
 

@@ -43,16 +43,16 @@ fn texts_are_escaped() {
 
 const KEYS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
-    (Mark::Shown, "outside the window"),
+    (Mark::ParticleField, "outside the window"),
     (Mark::Crossing, "particles changed cell"),
     (Mark::Failed, "failed or not finite"),
 ];
 
 #[rstest]
 #[case(&[Mark::Window])]
-#[case(&[Mark::Shown, Mark::Crossing])]
+#[case(&[Mark::ParticleField, Mark::Crossing])]
 #[case(&[Mark::Failed])]
-#[case(&[Mark::Window, Mark::Shown, Mark::Crossing, Mark::Failed])]
+#[case(&[Mark::Window, Mark::ParticleField, Mark::Crossing, Mark::Failed])]
 fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
     let points = marks.iter().zip(1_u8..).map(|(&mark, i)| Point {
         h: 0.5 / f64::from(i),

@@ -28,7 +28,7 @@ pub(super) fn convergence(series: Vec<Series>, orders: &[f64]) -> Convergence {
 /// A clean order with a plateau, one which turns where particles cross, one which fails.
 pub(super) fn three_series() -> Convergence {
     let plateau = series("displacement", 7, |i, h| {
-        let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::Shown };
+        let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::ParticleField };
         (0.3 * h * h + 4e-5, mark)
     });
     let crossing = series("velocity", 7, |i, h| match i {
@@ -37,7 +37,7 @@ pub(super) fn three_series() -> Convergence {
     });
     let failing = series("stress", 7, |i, h| match i {
         6 => (f64::NAN, Mark::Window),
-        0 => (6.0 * h, Mark::Shown),
+        0 => (6.0 * h, Mark::ParticleField),
         _ => (9.0 * libm::pow(h, 5.0 / 3.0), Mark::Window),
     });
     convergence(vec![plateau, crossing, failing], &[2.0, 5.0 / 3.0])
@@ -48,7 +48,7 @@ pub(super) fn eight_long_names() -> Convergence {
         let name = format!("basis {k}: cubic B-spline, APIC, dt = {k}/8 CFL");
         series(&name, 5, |i, h| {
             let factor = libm::pow(2.3, f64::from(k));
-            let mark = if i == 0 { Mark::Shown } else { Mark::Window };
+            let mark = if i == 0 { Mark::ParticleField } else { Mark::Window };
             (1e-2 * factor * libm::pow(h, 1.0 + 0.15 * f64::from(k)), mark)
         })
     });
@@ -57,7 +57,7 @@ pub(super) fn eight_long_names() -> Convergence {
 
 pub(super) fn less_than_a_decade() -> Convergence {
     let one = series("total energy", 3, |_, h| (0.05 + 0.4 * h, Mark::Window));
-    let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::Shown));
+    let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::ParticleField));
     convergence(vec![one, two], &[1.0])
 }
 

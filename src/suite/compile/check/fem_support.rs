@@ -1,38 +1,43 @@
 //! What the FEM bar cannot do: refused before anything runs.
 
 use crate::suite::{
-    compile::{evaluator::Binder, path::Path, scene::boundary::Hold},
-    grammar::ConvergenceWords,
+    compile::{evaluator::Evaluator, path::Path, scene::boundary::BoundaryCondition},
+    grammar::ConvergenceSpec,
     model::Scene,
-    yaml::Complaint,
+    yaml::Diagnostic,
 };
 
 /// Refuses conditions that the bar does not know, if the suite asks for one.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if !words.has_fem_reference() && words.fem_method().is_none() {
         return Ok(());
     }
     let path = Path::top("scene");
     let help = "remove the FEM, also as `reference`, or the condition";
     for face in &scene.faces {
-        if matches!(face.hold, Hold::Periodic | Hold::Friction(_) | Hold::Velocity(_)) {
+        if matches!(
+            face.hold,
+            BoundaryCondition::Periodic
+                | BoundaryCondition::Friction(_)
+                | BoundaryCondition::Velocity(_)
+        ) {
             let message = format!(
                 "the {} face {}, and the FEM knows fixed and free ends only",
                 face.name,
                 face.hold.verb()
             );
             let at = path.then("boundary").then(face.name);
-            return Err(binder.complain(&at, &message).with_help(help));
+            return Err(evaluator.diagnostic(&at, &message).with_help(help));
         }
     }
     if let Some(set) = scene.sets.iter().find(|set| set.velocity.is_some()) {
         let message = format!("the set `{}` is driven, which the FEM cannot do", set.name);
         let at = path.then("sets").then(set.name.as_str());
-        return Err(binder.complain_key(&at, &message).with_help(help));
+        return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
     }
     Ok(())
 }

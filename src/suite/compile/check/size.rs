@@ -4,16 +4,16 @@ use crate::{
     study::build::dispatch::is_vacant,
     suite::{
         compile::{
-            evaluator::Binder, path::Path, run::refine::Place, scene::boundary::Hold,
-            wording::shown,
+            evaluator::Evaluator, path::Path, run::refine::Place,
+            scene::boundary::BoundaryCondition, wording::shown,
         },
-        grammar::{ConvergenceWords, MethodWords},
+        grammar::{ConvergenceSpec, MethodSpec},
         model::{
             ConvergencePlan, Scene,
             grid_size::{cell_size, grid_axis, per_axis},
             refine_plan::LevelPlan,
         },
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
 };
 
@@ -25,36 +25,36 @@ const ROUNDING: f64 = 1e-6;
 
 /// Refuses a level that is too large, or on which a held face has no nodes.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     plan: &ConvergencePlan,
     places: &[Place],
-) -> Result<(), Complaint> {
-    reference(binder, plan)?;
-    if words.methods.iter().all(|method| matches!(method, MethodWords::Fem { .. })) {
+) -> Result<(), Diagnostic> {
+    reference(evaluator, plan)?;
+    if words.methods.iter().all(|method| matches!(method, MethodSpec::Fem { .. })) {
         return Ok(());
     }
     for (level, place) in plan.refine.levels.iter().zip(places) {
         if let Some((what, amount)) = too_large(&plan.scene, *level) {
             let cells = level.cells;
             let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
-            let complaint = binder.complain(&place.size, &message);
-            return Err(complaint.with_label(&format!("expected at most {MOST:e} {what}")));
+            let diagnostic = evaluator.diagnostic(&place.size, &message);
+            return Err(diagnostic.with_label(&format!("expected at most {MOST:e} {what}")));
         }
-        vacant(binder, &place.size, &plan.scene, *level)?;
-        held_faces(binder, &place.size, &plan.scene, level.cells)?;
-        sets(binder, &place.size, &plan.scene, *level)?;
+        vacant(evaluator, &place.size, &plan.scene, *level)?;
+        held_faces(evaluator, &place.size, &plan.scene, level.cells)?;
+        sets(evaluator, &place.size, &plan.scene, *level)?;
     }
     Ok(())
 }
 
 /// Refuses a round body that is smaller than the spacing of its particles.
 fn vacant(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     scene: &Scene,
     level: LevelPlan,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     if !per_axis.is_some_and(|n| is_vacant(scene, level.h, n)) {
         return Ok(());
@@ -62,7 +62,7 @@ fn vacant(
     let cells = level.cells;
     let message = format!("with {cells} cells along the first axis no particle lies in the body");
     let label = "expected cells small enough for the body to hold one";
-    Err(binder.complain(path, &message).with_label(label))
+    Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
 /// What the level has too many of, and how many.
@@ -88,17 +88,17 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
 /// The nodes that are held lie on the last face of the grid, which must be that of the body; a
 /// periodic grid must end where it was told to.
 pub(crate) fn held_faces(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     scene: &Scene,
     cells: u64,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let h = cell_size(scene, cells);
     for face in scene.faces.iter().filter(|face| !face.hold.is_free() && face.high) {
         let (origin, along) = grid_axis(scene, face.axis, h);
         let end = origin + along * h;
         let body = match (&face.hold, &scene.grid) {
-            (Hold::Periodic, Some((_, to))) => to[face.axis],
+            (BoundaryCondition::Periodic, Some((_, to))) => to[face.axis],
             _ => scene.to[face.axis],
         };
         if (end - body).abs() > ROUNDING * h {
@@ -109,7 +109,7 @@ pub(crate) fn held_faces(
                 shown(body)
             );
             let label = format!("expected cells of which a whole number fits, not {h} m");
-            return Err(binder.complain(path, &message).with_label(&label));
+            return Err(evaluator.diagnostic(path, &message).with_label(&label));
         }
     }
     Ok(())
@@ -117,11 +117,11 @@ pub(crate) fn held_faces(
 
 /// A set of particles has at least one.
 fn sets(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     scene: &Scene,
     level: LevelPlan,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let cells = level.cells;
     for set in &scene.sets {
         // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
@@ -136,14 +136,14 @@ fn sets(
             let message = format!(
                 "with {cells} cells along the first axis the set `{name}` holds no particle"
             );
-            return Err(binder.complain(path, &message).with_label("expected more cells"));
+            return Err(evaluator.diagnostic(path, &message).with_label("expected more cells"));
         }
     }
     Ok(())
 }
 
 /// A reference keeps its state at every instant.
-fn reference(binder: &Binder<'_>, plan: &ConvergencePlan) -> Result<(), Complaint> {
+fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
     let kept = fine.cells as f64 * plan.instants as f64;
     if kept <= MOST {
@@ -153,5 +153,5 @@ fn reference(binder: &Binder<'_>, plan: &ConvergencePlan) -> Result<(), Complain
         format!("{} elements at {} instants are too many to keep", fine.cells, plan.instants);
     let path = Path::top("reference").then("fem").then("cells");
     let label = format!("expected at most {MOST:e} elements times instants");
-    Err(binder.complain(&path, &message).with_label(&label))
+    Err(evaluator.diagnostic(&path, &message).with_label(&label))
 }

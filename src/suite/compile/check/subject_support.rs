@@ -2,20 +2,20 @@
 
 use crate::{
     suite::{
-        compile::{evaluator::Binder, path::Path},
-        grammar::ConvergenceWords,
+        compile::{evaluator::Evaluator, path::Path},
+        grammar::ConvergenceSpec,
         model::{ConvergencePlan, method::Method},
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
     verify::Limits,
 };
 
 /// Refuses to judge a quantity that the reference FEM does not give.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     plan: &ConvergencePlan,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if !plan.of.is_optional() {
         return Ok(());
     }
@@ -23,13 +23,13 @@ pub(crate) fn check(
     let help = "judge the displacement or the velocity";
     if plan.reference.is_some() {
         let message = format!("a reference has no {name} to compare with, which this suite judges");
-        return Err(binder.complain_key(&Path::top("reference"), &message).with_help(help));
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message).with_help(help));
     }
     match words.fem_method() {
         Some(i) => {
             let message = format!("the reference FEM gives no {name}, which this suite judges");
-            let complaint = binder.complain(&Path::top("methods").then(i), &message);
-            Err(complaint.with_help(help))
+            let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), &message);
+            Err(diagnostic.with_help(help))
         }
         None => Ok(()),
     }
@@ -37,16 +37,16 @@ pub(crate) fn check(
 
 /// Refuses the reference FEM, as method or as reference, for a scene with an effect that it lacks.
 pub(crate) fn fem_lacks(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     effect: &str,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let message = format!("the reference FEM has no {effect}, and the scene has");
     if words.has_fem_reference() {
-        return Err(binder.complain_key(&Path::top("reference"), &message));
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message));
     }
     match words.fem_method() {
-        Some(i) => Err(binder.complain(&Path::top("methods").then(i), &message)),
+        Some(i) => Err(evaluator.diagnostic(&Path::top("methods").then(i), &message)),
         None => Ok(()),
     }
 }
@@ -54,11 +54,11 @@ pub(crate) fn fem_lacks(
 /// Refuses to bound the drift of sums that the reference FEM does not give; `path` is that of the
 /// expectation.
 pub(crate) fn check_drift(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     limits: &Limits,
     method: Method,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
     if !asks || matches!(method, Method::Mpm { .. }) {
@@ -68,6 +68,6 @@ pub(crate) fn check_drift(
         Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
         _ => "the reference FEM does not give the sums whose drift is bound here",
     };
-    let complaint = binder.complain_key(&path.then(key), message);
-    Err(complaint.with_help("let this expectation speak of MPM cases only"))
+    let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+    Err(diagnostic.with_help("let this expectation speak of MPM cases only"))
 }

@@ -4,12 +4,12 @@ use super::limits::limits;
 use crate::{
     suite::{
         compile::{
-            check::subject_support, evaluator::Binder, interval::interval, path::Path,
+            check::subject_support, evaluator::Evaluator, interval::interval, path::Path,
             wording::suggestion,
         },
-        grammar::{CrossingsName, ExpectWords},
+        grammar::{CrossingsName, ExpectSpec},
         model::{ConvergencePlan, method::Method},
-        yaml::{Complaint, NumberText, OneOrMany},
+        yaml::{Diagnostic, NumberText, OneOrMany},
     },
     verify::{Expectation, Verdict},
 };
@@ -20,24 +20,24 @@ type Expected = (Expectation, Option<Expectation>);
 
 /// One expectation for each of the `cases`, in their order.
 pub(crate) fn expectations(
-    binder: &Binder<'_>,
-    words: &[ExpectWords],
+    evaluator: &Evaluator<'_>,
+    words: &[ExpectSpec],
     plan: &ConvergencePlan,
     cases: &[(&str, Method)],
-) -> Result<Vec<Expected>, Complaint> {
+) -> Result<Vec<Expected>, Diagnostic> {
     let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
     let selectors: Vec<_> = words.iter().map(|words| words.case.as_ref()).collect();
-    let owners = assign(binder, &selectors, &names)?;
-    let both = |(i, words): (usize, &ExpectWords)| {
+    let owners = assign(evaluator, &selectors, &names)?;
+    let both = |(i, words): (usize, &ExpectSpec)| {
         let path = Path::top("expect").then(i);
-        Ok((expectation(binder, &path, words, plan)?, in_full(binder, &path, words, plan)?))
+        Ok((expectation(evaluator, &path, words, plan)?, in_full(evaluator, &path, words, plan)?))
     };
     let parsed = words.iter().enumerate().map(both).collect::<Result<Vec<Expected>, _>>()?;
     for (&owner, (_, method)) in owners.iter().zip(cases) {
         let path = Path::top("expect").then(owner);
-        subject_support::check_drift(binder, &path, &parsed[owner].0.limits, *method)?;
+        subject_support::check_drift(evaluator, &path, &parsed[owner].0.limits, *method)?;
         if let Some(full) = &parsed[owner].1 {
-            subject_support::check_drift(binder, &path.then("full"), &full.limits, *method)?;
+            subject_support::check_drift(evaluator, &path.then("full"), &full.limits, *method)?;
         }
     }
     Ok(owners.into_iter().map(|owner| parsed[owner].clone()).collect())
@@ -45,10 +45,10 @@ pub(crate) fn expectations(
 
 /// For each case the one entry of `expect` that speaks of it.
 pub(crate) fn assign(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
     names: &[&str],
-) -> Result<Vec<usize>, Complaint> {
+) -> Result<Vec<usize>, Diagnostic> {
     let path = Path::top("expect");
     let speaks = |i: usize, name: &str| {
         selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
@@ -57,9 +57,9 @@ pub(crate) fn assign(
         let globs = selector.map_or(&[][..], OneOrMany::as_slice);
         let idle = |glob: &String| !names.iter().any(|name| matches(glob, name));
         if let Some(k) = globs.iter().position(idle) {
-            let at = binder.alternative(&path.then(i).then("case"), k);
-            let complaint = binder.complain(&at, &format!("`{}` fits no case", globs[k]));
-            return Err(complaint.with_help(&format!("cases: {}", names.join(", "))));
+            let at = evaluator.alternative(&path.then(i).then("case"), k);
+            let diagnostic = evaluator.diagnostic(&at, &format!("`{}` fits no case", globs[k]));
+            return Err(diagnostic.with_help(&format!("cases: {}", names.join(", "))));
         }
     }
     let owner = |name: &&str| {
@@ -68,11 +68,11 @@ pub(crate) fn assign(
             [only] => Ok(only),
             [] => {
                 let message = format!("nothing is expected of the case `{name}`");
-                Err(binder.complain_key(&path, &message))
+                Err(evaluator.diagnostic_at_key(&path, &message))
             }
             [_, second, ..] => {
                 let message = format!("a second expectation for the case `{name}`");
-                Err(binder.complain(&path.then(second), &message))
+                Err(evaluator.diagnostic(&path.then(second), &message))
             }
         }
     };
@@ -95,43 +95,45 @@ fn matches(glob: &str, name: &str) -> bool {
 
 /// What is expected of a full run, where an entry says that it differs.
 fn in_full(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpectWords,
+    words: &ExpectSpec,
     plan: &ConvergencePlan,
-) -> Result<Option<Expectation>, Complaint> {
+) -> Result<Option<Expectation>, Diagnostic> {
     let Some(full) = &words.full else { return Ok(None) };
     let path = path.then("full");
     for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
         if given {
             let message = format!("what is expected of a full run has no `{key}` of its own");
-            return Err(binder.complain_key(&path.then(key), &message).with_help("remove it"));
+            return Err(evaluator
+                .diagnostic_at_key(&path.then(key), &message)
+                .with_help("remove it"));
         }
     }
-    expectation(binder, &path, full, plan).map(Some)
+    expectation(evaluator, &path, full, plan).map(Some)
 }
 
 fn expectation(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpectWords,
+    words: &ExpectSpec,
     plan: &ConvergencePlan,
-) -> Result<Expectation, Complaint> {
-    let limits = limits(binder, path, words, plan)?;
+) -> Result<Expectation, Diagnostic> {
+    let limits = limits(evaluator, path, words, plan)?;
     let verdict = match &words.verdict {
-        Some(word) => Some(verdict(binder, &path.then("verdict"), word)?),
+        Some(word) => Some(verdict(evaluator, &path.then("verdict"), word)?),
         None if words.order.is_some() => Some(Verdict::Converging),
         None if !limits.is_empty() => None,
         None => {
-            let complaint =
-                binder.complain(path, "this expects neither an order nor a verdict nor a bound");
+            let diagnostic = evaluator
+                .diagnostic(path, "this expects neither an order nor a verdict nor a bound");
             let help = "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`";
-            return Err(complaint.with_help(help));
+            return Err(diagnostic.with_help(help));
         }
     };
-    let because = because(binder, path, &words.because)?;
+    let because = because(evaluator, path, &words.because)?;
     let bounds = |key: &str, words: &Option<Vec<NumberText>>| {
-        words.as_ref().map(|pair| interval(binder, &path.then(key), pair)).transpose()
+        words.as_ref().map(|pair| interval(evaluator, &path.then(key), pair)).transpose()
     };
     Ok(Expectation {
         verdict,
@@ -145,21 +147,25 @@ fn expectation(
 }
 
 /// The reason of an expectation, which must say something.
-pub(crate) fn because(binder: &Binder<'_>, path: &Path, text: &str) -> Result<String, Complaint> {
+pub(crate) fn because(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &str,
+) -> Result<String, Diagnostic> {
     let text = text.trim();
     if !text.is_empty() {
         return Ok(text.to_owned());
     }
-    let complaint = binder.complain(&path.then("because"), "an expectation needs its reason");
-    Err(complaint.with_label("expected words"))
+    let diagnostic = evaluator.diagnostic(&path.then("because"), "an expectation needs its reason");
+    Err(diagnostic.with_label("expected words"))
 }
 
-fn verdict(binder: &Binder<'_>, path: &Path, word: &str) -> Result<Verdict, Complaint> {
+fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict, Diagnostic> {
     Verdict::from_str(word).map_err(|_| {
         let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
         let known = known.each_ref().map(String::as_str);
-        let complaint = binder.complain(path, &format!("`{word}` is not a verdict"));
-        complaint.with_help(&suggestion("verdicts", word, &known))
+        let diagnostic = evaluator.diagnostic(path, &format!("`{word}` is not a verdict"));
+        diagnostic.with_help(&suggestion("verdicts", word, &known))
     })
 }
 

@@ -2,23 +2,23 @@
 
 use crate::{
     suite::{
-        compile::{check::energy, evaluator::Binder, interval::interval, path::Path},
-        grammar::{DriftWords, ExpectWords},
+        compile::{check::energy, evaluator::Evaluator, interval::interval, path::Path},
+        grammar::{DriftSpec, ExpectSpec},
         model::ConvergencePlan,
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
     verify::{Conserved, Limits},
 };
 
 /// The limits of the expectation at `path`.
 pub(crate) fn limits(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpectWords,
+    words: &ExpectSpec,
     plan: &ConvergencePlan,
-) -> Result<Limits, Complaint> {
+) -> Result<Limits, Diagnostic> {
     let bound = |key: &str, text: &Option<NumberText>| {
-        text.as_ref().map(|text| binder.positive(&path.then(key), text, "a bound")).transpose()
+        text.as_ref().map(|text| evaluator.positive(&path.then(key), text, "a bound")).transpose()
     };
     let limits = Limits {
         error_below: bound("error_below", &words.error_below)?,
@@ -26,14 +26,14 @@ pub(crate) fn limits(
         observed_within: bound("observed_within", &words.observed_within)?,
         rest_below: bound("rest_below", &words.rest_below)?,
         drift: match &words.drift {
-            Some(words) => drifts(binder, &path.then("drift"), words, plan)?,
+            Some(words) => drifts(evaluator, &path.then("drift"), words, plan)?,
             None => Vec::new(),
         },
         energy_rate: match &words.energy_rate {
             Some(words) => {
                 let path = path.then("energy_rate");
-                energy::check(binder, &path, plan)?;
-                Some(interval(binder, &path, words)?)
+                energy::check(evaluator, &path, plan)?;
+                Some(interval(evaluator, &path, words)?)
             }
             None => None,
         },
@@ -42,26 +42,27 @@ pub(crate) fn limits(
         && most < least
     {
         let message = format!("no error is below {most:e} and above {least:e}");
-        return Err(binder.complain(&path.then("error_above"), &message));
+        return Err(evaluator.diagnostic(&path.then("error_above"), &message));
     }
     if limits.observed_within.is_some() && plan.observe.is_none() {
-        let complaint = binder.complain_key(&path.then("observed_within"), "nothing is observed");
-        return Err(complaint.with_help("add `observe: {at: [...]}` to the suite"));
+        let diagnostic =
+            evaluator.diagnostic_at_key(&path.then("observed_within"), "nothing is observed");
+        return Err(diagnostic.with_help("add `observe: {at: [...]}` to the suite"));
     }
     if limits.rest_below.is_some() && !plan.exact.as_ref().is_some_and(|truth| truth.at_rest) {
         let message = "the truth is no state of rest";
-        let complaint = binder.complain_key(&path.then("rest_below"), message);
-        return Err(complaint.with_help("state it under `equilibrium`"));
+        let diagnostic = evaluator.diagnostic_at_key(&path.then("rest_below"), message);
+        return Err(diagnostic.with_help("state it under `equilibrium`"));
     }
     Ok(limits)
 }
 
 fn drifts(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &DriftWords,
+    words: &DriftSpec,
     plan: &ConvergencePlan,
-) -> Result<Vec<(Conserved, f64)>, Complaint> {
+) -> Result<Vec<(Conserved, f64)>, Diagnostic> {
     let mut drifts = Vec::new();
     for &sum in Conserved::ALL {
         let text = match sum {
@@ -76,17 +77,17 @@ fn drifts(
         let path = path.then(sum.name());
         if sum == Conserved::AngularMomentum && plan.scene.dimension() == 1 {
             let message = "there is no angular momentum in 1-D";
-            return Err(binder.complain_key(&path, message));
+            return Err(evaluator.diagnostic_at_key(&path, message));
         }
         if sum == Conserved::Energy {
-            energy::check(binder, &path, plan)?;
+            energy::check(evaluator, &path, plan)?;
         }
-        drifts.push((sum, binder.positive(&path, text, "a bound")?));
+        drifts.push((sum, evaluator.positive(&path, text, "a bound")?));
     }
     if drifts.is_empty() {
         let names: Vec<&str> = Conserved::ALL.iter().map(|sum| sum.name()).collect();
-        let complaint = binder.complain(path, "this bounds no drift");
-        return Err(complaint.with_help(&format!("name some of: {}", names.join(", "))));
+        let diagnostic = evaluator.diagnostic(path, "this bounds no drift");
+        return Err(diagnostic.with_help(&format!("name some of: {}", names.join(", "))));
     }
     Ok(drifts)
 }

@@ -4,11 +4,11 @@ use crate::{
     exact::formula::Formula,
     suite::{
         compile::{
-            check::subject_support::fem_lacks, evaluator::Binder, path::Path, wording::shown,
+            check::subject_support::fem_lacks, evaluator::Evaluator, path::Path, wording::shown,
         },
-        grammar::{ConvergenceWords, LoadWords},
+        grammar::{ConvergenceSpec, LoadSpec},
         model::Scene,
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
 };
 
@@ -18,31 +18,31 @@ const TIMES: u32 = 1000;
 /// Refuses a rate that is negative at some time up to `until` (s), the FEM, which has no damping,
 /// and a manufactured force beside a local damping, which would oppose it too.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if scene.local_damping.is_some() && words.manufactured.is_some() {
         let message = "local damping opposes the whole force, and a part of it is manufactured";
-        let complaint = binder.complain_key(&Path::top("manufactured"), message);
-        return Err(complaint.with_help("state the motion under `exact`, or use `damping`"));
+        let diagnostic = evaluator.diagnostic_at_key(&Path::top("manufactured"), message);
+        return Err(diagnostic.with_help("state the motion under `exact`, or use `damping`"));
     }
     if let Some(rate) = &scene.damping {
-        never_negative(binder, words, rate, until)?;
+        never_negative(evaluator, words, rate, until)?;
     } else if scene.local_damping.is_none() {
         return Ok(());
     }
-    fem_lacks(binder, words, "damping")
+    fem_lacks(evaluator, words, "damping")
 }
 
 fn never_negative(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     rate: &Formula,
     until: f64,
-) -> Result<(), Complaint> {
-    let load = words.scene.loads.iter().position(|load| matches!(load, LoadWords::Damping(_)));
+) -> Result<(), Diagnostic> {
+    let load = words.scene.loads.iter().position(|load| matches!(load, LoadSpec::Damping(_)));
     let path = Path::top("scene").then("loads").then(load.unwrap_or(0)).then("damping");
     for k in 0..=TIMES {
         let t = until * f64::from(k) / f64::from(TIMES);
@@ -50,7 +50,7 @@ fn never_negative(
         if !(alpha >= 0.0 && alpha.is_finite()) {
             let message = format!("the rate of damping is {} at t = {}", shown(alpha), shown(t));
             let label = "expected zero or a positive number (1/s)";
-            return Err(binder.complain(&path, &message).with_label(label));
+            return Err(evaluator.diagnostic(&path, &message).with_label(label));
         }
     }
     Ok(())
@@ -58,19 +58,19 @@ fn never_negative(
 
 /// Gives the scene a local damping, a share of the force out of balance.
 pub(crate) fn add_local(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     text: &NumberText,
     scene: &mut Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if scene.local_damping.is_some() {
-        return Err(binder.complain(path, "local damping appears twice"));
+        return Err(evaluator.diagnostic(path, "local damping appears twice"));
     }
-    let share = binder.number(path, text)?;
+    let share = evaluator.number(path, text)?;
     if !(0.0..1.0).contains(&share) {
         let message = format!("the share of local damping is {}", shown(share));
         let label = "expected zero or a number below 1";
-        return Err(binder.complain(path, &message).with_label(label));
+        return Err(evaluator.diagnostic(path, &message).with_label(label));
     }
     scene.local_damping = Some(share);
     Ok(())

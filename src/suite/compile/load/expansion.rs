@@ -4,22 +4,22 @@ use crate::{
     exact::Expansion,
     mpm::{MaterialPlan, ThermalExpansion},
     suite::{
-        compile::{evaluator::Binder, path::Path, truth::law},
-        grammar::ExpansionWords,
+        compile::{evaluator::Evaluator, path::Path, truth::law},
+        grammar::ExpansionSpec,
         model::Scene,
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
 };
 
 /// The expansion that `words` at `path` give to a scene.
 pub(crate) fn expansion(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpansionWords,
+    words: &ExpansionSpec,
     scene: &Scene,
-) -> Result<Expansion, Complaint> {
+) -> Result<Expansion, Diagnostic> {
     if scene.expansion.is_some() {
-        return Err(binder.complain_key(path, "thermal expansion appears twice"));
+        return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
     }
     let name = scene.material.name();
     let elastic = matches!(
@@ -30,8 +30,8 @@ pub(crate) fn expansion(
     );
     if !elastic {
         let message = format!("the stress of a heated `{name}` body is not known");
-        let complaint = binder.complain_key(path, &message);
-        return Err(complaint.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
+        let diagnostic = evaluator.diagnostic_at_key(path, &message);
+        return Err(diagnostic.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
     }
     let split = law::manufactured(&scene.material).is_ok();
     let poisson = scene.material.elasticity().map_or(0.0, |(_, poisson)| poisson);
@@ -41,13 +41,13 @@ pub(crate) fn expansion(
             "in {d}-D a heated `{name}` body would be held along the axes that are left out, and its \
              Poisson's ratio is {poisson}"
         );
-        let complaint = binder.complain_key(path, &message);
-        return Err(complaint.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));
+        let diagnostic = evaluator.diagnostic_at_key(path, &message);
+        return Err(diagnostic.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));
     }
     let coefficient = path.then("coefficient");
     Ok(Expansion {
-        coefficient: binder.positive(&coefficient, &words.coefficient, "the coefficient")?,
-        reference: binder.number(&path.then("reference"), &words.reference)?,
+        coefficient: evaluator.positive(&coefficient, &words.coefficient, "the coefficient")?,
+        reference: evaluator.number(&path.then("reference"), &words.reference)?,
     })
 }
 

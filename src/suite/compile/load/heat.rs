@@ -9,66 +9,67 @@ use crate::{
     suite::{
         compile::{
             coordinates::coordinates_and_time,
-            evaluator::Binder,
+            evaluator::Evaluator,
             path::Path,
-            scene::boundary::{Hold, face},
+            scene::boundary::{BoundaryCondition, face},
         },
-        grammar::{ConvergenceWords, HeatWords, MethodWords, ThermalWords},
+        grammar::{ConvergenceSpec, HeatSpec, MethodSpec, ThermalSpec},
         model::{Scene, SceneFace, heat::SceneHeat},
-        yaml::{Complaint, NumberText, OneOrMany},
+        yaml::{Diagnostic, NumberText, OneOrMany},
     },
 };
 
 /// The conduction that `words` at `path` give to a scene.
 pub(crate) fn heat(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &HeatWords,
+    words: &HeatSpec,
     scene: &Scene,
-) -> Result<SceneHeat, Complaint> {
+) -> Result<SceneHeat, Diagnostic> {
     let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");
     if let Some(kind) = scene.round.as_ref().map(Round::name).or(panel) {
         let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
-        return Err(binder.complain_key(path, &message));
+        return Err(evaluator.diagnostic_at_key(path, &message));
     }
     if scene.heat.is_some() {
-        return Err(binder.complain_key(path, "heat appears twice"));
+        return Err(evaluator.diagnostic_at_key(path, "heat appears twice"));
     }
     let variables = coordinates_and_time(scene.dimension());
     let formula = |key: &str, text: &Option<NumberText>| {
-        text.as_ref().map(|text| binder.formula(&path.then(key), text, &variables)).transpose()
+        text.as_ref().map(|text| evaluator.formula(&path.then(key), text, &variables)).transpose()
     };
-    let number = |key: &str, text: &NumberText, what| binder.positive(&path.then(key), text, what);
+    let number =
+        |key: &str, text: &NumberText, what| evaluator.positive(&path.then(key), text, what);
     Ok(SceneHeat {
         conductivity: number("conductivity", &words.conductivity, "the conductivity")?,
         capacity: number("capacity", &words.capacity, "the heat capacity")?,
         source: formula("source", &words.source)?,
         initial: formula("initial", &words.initial)?,
-        faces: faces(binder, &path.then("boundary"), words, scene)?,
+        faces: faces(evaluator, &path.then("boundary"), words, scene)?,
     })
 }
 
 fn faces(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &HeatWords,
+    words: &HeatSpec,
     scene: &Scene,
-) -> Result<Vec<ThermalFace>, Complaint> {
+) -> Result<Vec<ThermalFace>, Diagnostic> {
     let ends = |face: &SceneFace| ThermalFace {
         name: face.name,
         axis: face.axis,
         high: face.high,
         condition: match face.hold {
-            Hold::Periodic => ThermalCondition::Periodic,
+            BoundaryCondition::Periodic => ThermalCondition::Periodic,
             _ => ThermalCondition::Insulated,
         },
     };
     let mut faces: Vec<ThermalFace> = scene.faces.iter().map(ends).collect();
     for (name, words) in words.boundary.as_slice() {
         let at = path.then(name.as_str());
-        let i = face(binder, &at, name, scene.dimension(), true)?;
-        on_grid(binder, &at, words, &scene.faces[i])?;
-        faces[i].condition = condition(binder, &at, words, scene.dimension())?;
+        let i = face(evaluator, &at, name, scene.dimension(), true)?;
+        on_grid(evaluator, &at, words, &scene.faces[i])?;
+        faces[i].condition = condition(evaluator, &at, words, scene.dimension())?;
     }
     Ok(faces)
 }
@@ -76,43 +77,47 @@ fn faces(
 /// Temperatures are held, and heat enters, at the nodes of the grid's face: the body must end there,
 /// and stay.
 fn on_grid(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ThermalWords,
+    words: &ThermalSpec,
     face: &SceneFace,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.verb());
-    if matches!(face.hold, Hold::Periodic) {
+    if matches!(face.hold, BoundaryCondition::Periodic) {
         let message = format!("the {name} face {verb}, and has no temperature of its own");
-        return Err(binder.complain_key(path, &message));
+        return Err(evaluator.diagnostic_at_key(path, &message));
     }
-    let stays = matches!(face.hold, Hold::Fixed | Hold::Roller | Hold::AtRest);
-    if stays || matches!(words, ThermalWords::Insulated) {
+    let stays = matches!(
+        face.hold,
+        BoundaryCondition::Fixed | BoundaryCondition::Roller | BoundaryCondition::AtRest
+    );
+    if stays || matches!(words, ThermalSpec::Insulated) {
         return Ok(());
     }
     let message = format!("the {name} face {verb}, and heat enters at the face of the grid");
-    let complaint = binder.complain_key(path, &message);
-    Err(complaint.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
+    let diagnostic = evaluator.diagnostic_at_key(path, &message);
+    Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }
 
 fn condition(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ThermalWords,
+    words: &ThermalSpec,
     dimension: usize,
-) -> Result<ThermalCondition, Complaint> {
+) -> Result<ThermalCondition, Diagnostic> {
     let variables = coordinates_and_time(dimension);
-    let formula = |path: &Path, text| binder.formula(path, text, &variables);
+    let formula = |path: &Path, text| evaluator.formula(path, text, &variables);
     Ok(match words {
-        ThermalWords::Insulated => ThermalCondition::Insulated,
-        ThermalWords::Temperature(text) => {
+        ThermalSpec::Insulated => ThermalCondition::Insulated,
+        ThermalSpec::Temperature(text) => {
             ThermalCondition::Temperature(formula(&path.then("temperature"), text)?)
         }
-        ThermalWords::Flux(text) => ThermalCondition::Flux(formula(&path.then("flux"), text)?),
-        ThermalWords::Convection { coefficient, ambient } => {
+        ThermalSpec::Flux(text) => ThermalCondition::Flux(formula(&path.then("flux"), text)?),
+        ThermalSpec::Convection { coefficient, ambient } => {
             let path = path.then("convection");
             let at = path.then("coefficient");
-            let coefficient = binder.positive(&at, coefficient, "the coefficient of convection")?;
+            let coefficient =
+                evaluator.positive(&at, coefficient, "the coefficient of convection")?;
             let ambient = formula(&path.then("ambient"), ambient)?;
             ThermalCondition::Convection { coefficient, ambient }
         }
@@ -122,33 +127,35 @@ fn condition(
 /// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
 /// none where neither is there.
 pub(crate) fn problem(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     temperature: Option<&NumberText>,
     scene: &Scene,
     rest: Rest,
-) -> Result<Option<Conduction>, Complaint> {
+) -> Result<Option<Conduction>, Diagnostic> {
     let path = path.then("temperature");
     let (heat, text) = match (&scene.heat, temperature) {
         (Some(heat), Some(text)) => (heat, text),
         (None, None) => return Ok(None),
         (None, Some(_)) => {
-            let complaint = binder.complain_key(&path, "a temperature, and the scene has no heat");
-            return Err(complaint.with_help("add `heat` to `loads`"));
+            let diagnostic =
+                evaluator.diagnostic_at_key(&path, "a temperature, and the scene has no heat");
+            return Err(diagnostic.with_help("add `heat` to `loads`"));
         }
         (Some(_), None) => {
             let at = Path::top("scene").then("loads");
-            let complaint = binder.complain_key(&at, "heat flows, and no temperature is stated");
-            return Err(complaint.with_help("state `temperature` under `exact` or `manufactured`"));
+            let diagnostic =
+                evaluator.diagnostic_at_key(&at, "heat flows, and no temperature is stated");
+            return Err(diagnostic.with_help("state `temperature` under `exact` or `manufactured`"));
         }
     };
     let dimension = scene.dimension();
-    let formula = binder.formula(&path, text, &coordinates_and_time(dimension))?;
+    let formula = evaluator.formula(&path, text, &coordinates_and_time(dimension))?;
     let Rest { motion, manufactured, until, tolerance } = rest;
     if manufactured && heat.source.is_some() {
         let message = "the source follows from the temperature, and the scene states one besides";
         let help = "remove the `source`, or state the temperature under `exact` to have it checked";
-        return Err(binder.complain_key(&path, message).with_help(help));
+        return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
     }
     Ok(Some(Conduction {
         from: scene.from.clone(),
@@ -169,36 +176,36 @@ pub(crate) fn problem(
 
 /// Refuses methods that know nothing of heat.
 pub(crate) fn methods(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if scene.heat.is_none() {
         return Ok(());
     }
     if words.reference.is_some() {
         let message = "a reference knows nothing of heat, which flows in the scene";
-        return Err(binder.complain_key(&Path::top("reference"), message));
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), message));
     }
     for (i, method) in words.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         match method {
-            MethodWords::Heat { .. } => {}
-            MethodWords::Fem { .. } => {
+            MethodSpec::Heat { .. } => {}
+            MethodSpec::Fem { .. } => {
                 let message = "the reference FEM knows nothing of heat, which flows in the scene";
-                return Err(binder.complain(&path, message));
+                return Err(evaluator.diagnostic(&path, message));
             }
-            MethodWords::Mpm { transfer, frame, .. } => {
+            MethodSpec::Mpm { transfer, frame, .. } => {
                 let frames = frame.as_ref().map_or(&[][..], OneOrMany::as_slice);
                 if frames.contains(&FrameName::Total) {
                     let message = "heat flows in the body as it is now, which a total-Lagrangian \
                                    grid does not see";
-                    return Err(binder.complain(&path.then("mpm").then("frame"), message));
+                    return Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message));
                 }
                 if transfer.as_slice().iter().any(|transfer| transfer.kind() == Kind::Cells) {
                     let message = "heat is summed over particles, and a transfer that integrates \
                                    over cells has other nodal masses";
-                    return Err(binder.complain(&path.then("mpm").then("transfer"), message));
+                    return Err(evaluator.diagnostic(&path.then("mpm").then("transfer"), message));
                 }
             }
         }
@@ -220,13 +227,13 @@ pub(crate) struct Rest {
 
 /// Holds the temperature that is stated at `path` against its problem.
 pub(crate) fn check(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     problem: &Conduction,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     problem.check().map_err(|violation| {
-        let complaint = binder.complain(&path.then("temperature"), &violation.to_string());
-        complaint
+        let diagnostic = evaluator.diagnostic(&path.then("temperature"), &violation.to_string());
+        diagnostic
             .with_label("this is not a solution of the problem that the scene states")
             .with_help("correct the formula, or `heat`: numbers, source, boundary, initial state")
     })

@@ -6,13 +6,13 @@ use crate::{
     study::build::conditions::{of_place_and_time, side, with_time},
     suite::{
         compile::{
-            evaluator::Binder,
+            evaluator::Evaluator,
             path::Path,
             scene::{boundary::face, sets},
         },
-        grammar::LoadWords,
+        grammar::LoadSpec,
         model::{Scene, SceneFace},
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
 };
 
@@ -21,24 +21,25 @@ use crate::{
 /// # Errors
 /// A complaint about a face that is not there, or not free, or has a load already.
 pub(crate) fn add(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    load: &LoadWords,
+    load: &LoadSpec,
     variables: &[&str],
     scene: &mut Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     match load {
-        LoadWords::Traction { on, value, at } => {
+        LoadSpec::Traction { on, value, at } => {
             let path = path.then("traction");
-            let number = free(binder, &path.then("on"), "traction", on, scene)?;
-            let value = binder.vector(&path.then("value"), value, scene.dimension(), variables)?;
+            let number = free(evaluator, &path.then("on"), "traction", on, scene)?;
+            let value =
+                evaluator.vector(&path.then("value"), value, scene.dimension(), variables)?;
             let face = &mut scene.faces[number];
             (face.traction, face.placement) = (Some(value), at.unwrap_or_default());
         }
-        LoadWords::Pressure { on, value, at } => {
+        LoadSpec::Pressure { on, value, at } => {
             let path = path.then("pressure");
-            let number = free(binder, &path.then("on"), "pressure", on, scene)?;
-            let value = binder.formula(&path.then("value"), value, variables)?;
+            let number = free(evaluator, &path.then("on"), "pressure", on, scene)?;
+            let value = evaluator.formula(&path.then("value"), value, variables)?;
             let face = &mut scene.faces[number];
             (face.pressure, face.placement) = (Some(value), at.unwrap_or_default());
         }
@@ -49,14 +50,14 @@ pub(crate) fn add(
 
 /// Number of the face called `name`, if it can carry a load.
 fn free(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     load: &str,
     name: &str,
     scene: &Scene,
-) -> Result<usize, Complaint> {
-    sets::refuse_surface_load(binder, path, load, name, &scene.sets)?;
-    let number = face(binder, path, name, scene.dimension(), false)?;
+) -> Result<usize, Diagnostic> {
+    sets::refuse_surface_load(evaluator, path, load, name, &scene.sets)?;
+    let number = face(evaluator, path, name, scene.dimension(), false)?;
     let face = &scene.faces[number];
     let has = match (&face.traction, &face.pressure) {
         _ if !face.hold.is_free() => face.hold.verb(),
@@ -64,7 +65,7 @@ fn free(
         (None, Some(_)) => "has a pressure already",
         (None, None) => return Ok(number),
     };
-    Err(binder.complain(path, &format!("the face `{name}` {has}")))
+    Err(evaluator.diagnostic(path, &format!("the face `{name}` {has}")))
 }
 
 /// What acts on the faces of the body.

@@ -4,11 +4,11 @@ use crate::{
     mpm::{ArtificialViscosity, LinearElastic, MaterialPlan},
     suite::{
         compile::{
-            check::subject_support::fem_lacks, evaluator::Binder, path::Path, wording::shown,
+            check::subject_support::fem_lacks, evaluator::Evaluator, path::Path, wording::shown,
         },
-        grammar::{ConvergenceWords, ViscosityWords},
+        grammar::{ConvergenceSpec, ViscositySpec},
         model::Scene,
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
 };
 
@@ -37,22 +37,22 @@ fn wave_speed(material: &MaterialPlan, density: f64) -> f64 {
 
 /// Gives the scene an artificial viscosity.
 pub(crate) fn add(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ViscosityWords,
+    words: &ViscositySpec,
     scene: &mut Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if scene.viscosity.is_some() {
-        return Err(binder.complain(path, "artificial viscosity appears twice"));
+        return Err(evaluator.diagnostic(path, "artificial viscosity appears twice"));
     }
     let coefficient = |key: &str, text: &NumberText| {
         let path = path.then(key);
-        let value = binder.number(&path, text)?;
+        let value = evaluator.number(&path, text)?;
         if value >= 0.0 {
             return Ok(value);
         }
         let message = format!("a coefficient of viscosity is {}", shown(value));
-        Err(binder.complain(&path, &message).with_label("expected zero or a positive number"))
+        Err(evaluator.diagnostic(&path, &message).with_label("expected zero or a positive number"))
     };
     let linear = coefficient("linear", &words.linear)?;
     let quadratic = coefficient("quadratic", &words.quadratic)?;
@@ -62,12 +62,12 @@ pub(crate) fn add(
 
 /// Refuses the FEM, which has no artificial viscosity.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if scene.viscosity.is_none() {
         return Ok(());
     }
-    fem_lacks(binder, words, "artificial viscosity")
+    fem_lacks(evaluator, words, "artificial viscosity")
 }

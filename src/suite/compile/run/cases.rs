@@ -5,16 +5,16 @@ use crate::{
     mpm::{FrameName, MassName, combine, combine_bodies},
     suite::{
         compile::{
-            evaluator::Binder,
+            evaluator::Evaluator,
             expect::cases,
             path::Path,
-            scene::boundary::Hold,
+            scene::boundary::BoundaryCondition,
             truth::{conservation_only, law},
             wording::shown,
         },
-        grammar::{ConvergenceWords, EquationName, MethodWords},
+        grammar::{ConvergenceSpec, EquationName, MethodSpec},
         model::{Against, Case, ConvergencePlan, SceneFace, method::Method},
-        yaml::{Complaint, NumberText, OneOrMany},
+        yaml::{Diagnostic, NumberText, OneOrMany},
     },
     verify::Axis,
 };
@@ -24,18 +24,18 @@ const MOST_CASES: usize = 1000;
 
 /// The ends of the runs: how names write them, and value (s).
 pub(crate) fn until(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     words: &OneOrMany<NumberText>,
-) -> Result<Vec<(String, f64)>, Complaint> {
+) -> Result<Vec<(String, f64)>, Diagnostic> {
     let path = Path::top("run").then("until");
     let mut ends: Vec<(String, f64)> = Vec::new();
     for (i, text) in words.as_slice().iter().enumerate() {
-        let path = binder.alternative(&path, i);
-        let until = binder.positive(&path, text, "the end of the run")?;
+        let path = evaluator.alternative(&path, i);
+        let until = evaluator.positive(&path, text, "the end of the run")?;
         let text = shown(until);
         if ends.iter().any(|(known, _)| *known == text) {
             let message = format!("the end {text} s appears twice");
-            return Err(binder.complain(&path, &message).with_label("the second time"));
+            return Err(evaluator.diagnostic(&path, &message).with_label("the second time"));
         }
         ends.push((text, until));
     }
@@ -44,16 +44,16 @@ pub(crate) fn until(
 
 /// All cases of a suite with what is expected of each.
 pub(crate) fn cases(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     plan: &ConvergencePlan,
     until: &[(String, f64)],
-) -> Result<Vec<Case>, Complaint> {
+) -> Result<Vec<Case>, Diagnostic> {
     let mut drafts = Vec::new();
     for (i, method) in words.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
-        possible(binder, &path, method, plan)?;
-        few(binder, &path, drafts.len(), method, until.len())?;
+        possible(evaluator, &path, method, plan)?;
+        few(evaluator, &path, drafts.len(), method, until.len())?;
         for (name, method) in methods(method, own_law(plan)) {
             if let Method::Mpm { basis, transfer, mass, frame, start, .. } = method {
                 let contact = plan.scene.contact.is_some();
@@ -64,14 +64,14 @@ pub(crate) fn cases(
                 }
                 known.map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
-                    binder.complain(&path, &reason).with_help(help)
+                    evaluator.diagnostic(&path, &reason).with_help(help)
                 })?;
             }
             for draft in runs(&name, method, plan, until) {
                 if drafts.iter().any(|known: &Draft| known.name == draft.name) {
                     let message = format!("the case `{}` appears twice", draft.name);
-                    let complaint = binder.complain(&path, &message);
-                    return Err(complaint.with_label("the second time"));
+                    let diagnostic = evaluator.diagnostic(&path, &message);
+                    return Err(diagnostic.with_label("the second time"));
                 }
                 drafts.push(draft);
             }
@@ -79,10 +79,10 @@ pub(crate) fn cases(
     }
     if drafts.is_empty() {
         let path = Path::top("methods");
-        return Err(binder.complain(&path, "a suite without methods has no case"));
+        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
     }
     let named: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
-    let expectations = cases::expectations(binder, &words.expect, plan, &named)?;
+    let expectations = cases::expectations(evaluator, &words.expect, plan, &named)?;
     let with = |(draft, (expectation, expectation_in_full)): (Draft, _)| Case {
         name: draft.name,
         method: draft.method,
@@ -132,15 +132,15 @@ fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f6
 
 /// Refuses a product of lists that is too long, before it is unfolded.
 fn few(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     already: usize,
-    words: &MethodWords,
+    words: &MethodSpec,
     ends: usize,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let optional = |length: Option<usize>| length.unwrap_or(1);
     let lengths = match words {
-        MethodWords::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
             basis.as_slice().len(),
             transfer.as_slice().len(),
             scheme.as_slice().len(),
@@ -148,8 +148,8 @@ fn few(
             optional(mass.as_ref().map(|list| list.as_slice().len())),
             optional(frame.as_ref().map(|list| list.as_slice().len())),
         ],
-        MethodWords::Heat { basis } => vec![basis.as_slice().len()],
-        MethodWords::Fem { element, mass, law, start, sampling } => vec![
+        MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
+        MethodSpec::Fem { element, mass, law, start, sampling } => vec![
             element.as_slice().len(),
             mass.as_slice().len(),
             optional(law.as_ref().map(|list| list.as_slice().len())),
@@ -163,51 +163,52 @@ fn few(
     }
     let message = format!("these lists unfold into {more} cases");
     let label = format!("expected at most {MOST_CASES} in a suite");
-    Err(binder.complain(path, &message).with_label(&label))
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
 /// Refuses combinations that mean nothing before anything runs.
 fn possible(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &MethodWords,
+    words: &MethodSpec,
     plan: &ConvergencePlan,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     match words {
-        MethodWords::Fem { .. } if plan.scene.dimension() != 1 => {
+        MethodSpec::Fem { .. } if plan.scene.dimension() != 1 => {
             let d = plan.scene.dimension();
-            Err(binder.complain(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
+            Err(evaluator.diagnostic(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
         }
-        MethodWords::Fem { .. } if !plan.scene.bodies.is_empty() => {
-            Err(binder.complain(path, "the reference FEM is one bar, and the scene lists bodies"))
+        MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => {
+            Err(evaluator
+                .diagnostic(path, "the reference FEM is one bar, and the scene lists bodies"))
         }
-        MethodWords::Mpm { mass: Some(mass), .. }
+        MethodSpec::Mpm { mass: Some(mass), .. }
             if mass.as_slice().contains(&MassName::Consistent) && driven(plan) =>
         {
             let message = "the consistent mass matrix is solved for walls at rest, and a face is \
                            driven";
-            Err(binder.complain(&path.then("mpm").then("mass"), message))
+            Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message))
         }
-        MethodWords::Mpm { mass: Some(mass), .. }
+        MethodSpec::Mpm { mass: Some(mass), .. }
             if mass.as_slice().contains(&MassName::Consistent) && rubs(plan) =>
         {
             let message = "friction is measured by what a held node would do, of which a consistent \
                            mass matrix has no row";
-            Err(binder.complain(&path.then("mpm").then("mass"), message))
+            Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message))
         }
-        MethodWords::Mpm { frame: Some(frame), .. }
+        MethodSpec::Mpm { frame: Some(frame), .. }
             if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
         {
             let message = "a total-Lagrangian body stays in its reference place, and the periodic \
                            grid is not as long";
-            Err(binder.complain(&path.then("mpm").then("frame"), message))
+            Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message))
         }
-        MethodWords::Fem { .. } if plan.refine.axis == Axis::Particles => {
-            Err(binder.complain(path, "particles per cell are refined, and an FEM has none"))
+        MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {
+            Err(evaluator.diagnostic(path, "particles per cell are refined, and an FEM has none"))
         }
-        MethodWords::Mpm { .. } | MethodWords::Heat { .. } if !plan.refine.has_particles() => {
-            Err(binder
-                .complain(path, "MPM needs particles, and `refine` says no `ppc`")
+        MethodSpec::Mpm { .. } | MethodSpec::Heat { .. } if !plan.refine.has_particles() => {
+            Err(evaluator
+                .diagnostic(path, "MPM needs particles, and `refine` says no `ppc`")
                 .with_help("add `ppc: 4` to `refine`"))
         }
         _ => Ok(()),
@@ -215,11 +216,11 @@ fn possible(
 }
 
 fn driven(plan: &ConvergencePlan) -> bool {
-    plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Velocity(_)))
+    plan.scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Velocity(_)))
 }
 
 fn rubs(plan: &ConvergencePlan) -> bool {
-    plan.scene.faces.iter().any(|face| matches!(face.hold, Hold::Friction(_)))
+    plan.scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Friction(_)))
 }
 
 /// Whether a period of the grid is not that of the body's reference place.
@@ -229,7 +230,7 @@ fn stretched(plan: &ConvergencePlan) -> bool {
         let length = scene.to[face.axis] - scene.from[face.axis];
         (scene.period(face.axis) - length).abs() > 1e-12 * length
     };
-    scene.faces.iter().any(|face| matches!(face.hold, Hold::Periodic) && apart(face))
+    scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Periodic) && apart(face))
 }
 
 /// The law of an FEM case that names none: that of the scene's material. Where there is none, such

@@ -5,7 +5,7 @@ use crate::{
     mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
     subject::Start,
     suite::{
-        grammar::{EquationName, MethodWords},
+        grammar::{EquationName, MethodSpec},
         model::method::Method,
         yaml::OneOrMany,
     },
@@ -13,9 +13,9 @@ use crate::{
 
 /// The product of one entry of `methods`. A choice enters the name where there is one, or where
 /// it always has to be made.
-pub(crate) fn methods(words: &MethodWords, own_law: EquationName) -> Vec<(String, Method)> {
+pub(crate) fn methods(words: &MethodSpec, own_law: EquationName) -> Vec<(String, Method)> {
     match words {
-        MethodWords::Mpm { basis, transfer, scheme, start, mass, frame } => {
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => {
             let mut all = Vec::new();
             let starts = choices(start.as_ref(), Start::AtZero, Start::name);
             let masses = choices(mass.as_ref(), MassName::Lumped, MassName::name);
@@ -34,11 +34,11 @@ pub(crate) fn methods(words: &MethodWords, own_law: EquationName) -> Vec<(String
             }
             all
         }
-        MethodWords::Heat { basis } => named(basis, BasisName::name)
+        MethodSpec::Heat { basis } => named(basis, BasisName::name)
             .into_iter()
             .map(|(name, basis)| (format!("heat{name}"), Method::Heat { basis }))
             .collect(),
-        MethodWords::Fem { element, mass, law, start, sampling } => {
+        MethodSpec::Fem { element, mass, law, start, sampling } => {
             let mut all = Vec::new();
             let laws = choices(law.as_ref(), own_law, EquationName::name);
             let starts = choices(start.as_ref(), Start::AtZero, Start::name);

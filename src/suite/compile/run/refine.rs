@@ -4,14 +4,14 @@ use super::step_rule;
 use crate::{
     exact::formula::Formula,
     suite::{
-        compile::{evaluator::Binder, path::Path},
-        grammar::{ConvergenceWords, RefineWords},
+        compile::{evaluator::Evaluator, path::Path},
+        grammar::{ConvergenceSpec, RefineSpec},
         model::{
             Scene,
             grid_size::{cell_size, per_axis},
             refine_plan::{LevelPlan, RefinePlan},
         },
-        yaml::{Complaint, NumberText, OneOrMany},
+        yaml::{Diagnostic, NumberText, OneOrMany},
     },
     verify::Axis,
 };
@@ -30,25 +30,26 @@ struct Entry<T> {
 
 /// The levels of a suite, and the places that complaints about each point at.
 pub(crate) fn plan(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<(RefinePlan, Vec<Place>), Complaint> {
-    let axis = axis(binder, &words.refine)?;
-    no_idle_expectation(binder, words)?;
+) -> Result<(RefinePlan, Vec<Place>), Diagnostic> {
+    let axis = axis(evaluator, &words.refine)?;
+    no_idle_expectation(evaluator, words)?;
     let d = scene.dimension();
-    let cells = counts(binder, &listed(binder, words, Axis::Space, axis), "cells")?;
-    let ppc = counts(binder, &listed(binder, words, Axis::Particles, axis), "particles per cell")?;
+    let cells = counts(evaluator, &listed(evaluator, words, Axis::Space, axis), "cells")?;
+    let ppc =
+        counts(evaluator, &listed(evaluator, words, Axis::Particles, axis), "particles per cell")?;
     for entry in &ppc {
-        equally_spaced(binder, entry, d)?;
+        equally_spaced(evaluator, entry, d)?;
     }
     let at_run = Path::top("run").then("dt");
-    let rule = words.run.dt.as_ref().map(|words| step_rule::share(binder, &at_run, words));
+    let rule = words.run.dt.as_ref().map(|words| step_rule::share(evaluator, &at_run, words));
     let rule = rule.transpose()?.flatten();
-    step_rule::check(binder, &words.methods, rule)?;
+    step_rule::check(evaluator, &words.methods, rule)?;
     let stated = words.run.dt.as_ref();
-    let stated = stated.map(|words| step_rule::formula_text(binder, &at_run, words, scene));
-    let dt = steps(binder, words, axis, stated.transpose()?.as_ref())?;
+    let stated = stated.map(|words| step_rule::formula_text(evaluator, &at_run, words, scene));
+    let dt = steps(evaluator, words, axis, stated.transpose()?.as_ref())?;
     let count = cells.len().max(ppc.len()).max(dt.len());
     let level = |k: usize| {
         let cells = of_level(&cells, k)?.value;
@@ -71,12 +72,15 @@ pub(crate) fn plan(
 }
 
 /// What is expected of a full run needs one.
-fn no_idle_expectation(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+fn no_idle_expectation(
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
+) -> Result<(), Diagnostic> {
     let idle = words.expect.iter().position(|entry| entry.full.is_some());
     let (Some(i), None) = (idle, &words.refine.full) else { return Ok(()) };
     let path = Path::top("expect").then(i).then("full");
-    let complaint = binder.complain_key(&path, "there is no full run to expect this of");
-    Err(complaint.with_help("list its levels under `full` in `refine`"))
+    let diagnostic = evaluator.diagnostic_at_key(&path, "there is no full run to expect this of");
+    Err(diagnostic.with_help("list its levels under `full` in `refine`"))
 }
 
 /// The entry of level `k`: its own, or the one that all levels share.
@@ -89,24 +93,24 @@ fn is_list(words: Option<&OneOrMany<NumberText>>) -> bool {
 }
 
 /// What is refined. Of two lists only cells and time steps go together, level by level.
-fn axis(binder: &Binder<'_>, words: &RefineWords) -> Result<Axis, Complaint> {
+fn axis(evaluator: &Evaluator<'_>, words: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = Path::top("refine");
     let [cells, dt, ppc] = [Some(&words.cells), words.dt.as_ref(), words.ppc.as_ref()].map(is_list);
     if ppc && (cells || dt) {
-        let complaint = binder.complain(&path.then("ppc"), "two things are refined at once");
+        let diagnostic = evaluator.diagnostic(&path.then("ppc"), "two things are refined at once");
         let help = "particles per cell are refined alone: give one number of cells and one `dt`";
-        return Err(complaint.with_help(help));
+        return Err(diagnostic.with_help(help));
     }
     let lengths = [Some(&words.cells), words.dt.as_ref()]
         .map(|list| list.map_or(0, |list| list.as_slice().len()));
     if cells && dt && lengths[0] != lengths[1] {
         let message = format!("{} time steps for {} levels of cells", lengths[1], lengths[0]);
-        let complaint = binder.complain(&path.then("dt"), &message);
-        return Err(complaint.with_label("expected one for each").with_help(FORMULA));
+        let diagnostic = evaluator.diagnostic(&path.then("dt"), &message);
+        return Err(diagnostic.with_label("expected one for each").with_help(FORMULA));
     }
     if let (true, Some(_)) = (cells && dt, &words.full) {
         let message = "one list of further levels cannot refine both cells and time steps";
-        return Err(binder.complain_key(&path.then("full"), message).with_help(FORMULA));
+        return Err(evaluator.diagnostic_at_key(&path.then("full"), message).with_help(FORMULA));
     }
     Ok(match (dt && !cells, ppc) {
         (true, _) => Axis::Time,
@@ -119,8 +123,8 @@ const FORMULA: &str = "or give the time step in `run`, as a formula of h";
 
 /// The entries of one key of `refine`, followed by those of `full` if it is the key that is refined.
 fn listed<'w>(
-    binder: &Binder<'_>,
-    words: &'w ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &'w ConvergenceSpec,
     key: Axis,
     refined: Axis,
 ) -> Vec<Entry<&'w NumberText>> {
@@ -134,7 +138,7 @@ fn listed<'w>(
     let entries = |name: &str, list: Option<&'w OneOrMany<NumberText>>| {
         let path = Path::top("refine").then(name);
         let texts = list.map_or(&[][..], OneOrMany::as_slice).iter().enumerate();
-        let entry = |(i, value)| Entry { value, at: binder.alternative(&path, i) };
+        let entry = |(i, value)| Entry { value, at: evaluator.alternative(&path, i) };
         texts.map(entry).collect::<Vec<_>>()
     };
     let mut all = entries(name, list);
@@ -144,20 +148,20 @@ fn listed<'w>(
 
 /// Counts that grow from level to level.
 fn counts(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     texts: &[Entry<&NumberText>],
     what: &str,
-) -> Result<Vec<Entry<u64>>, Complaint> {
+) -> Result<Vec<Entry<u64>>, Diagnostic> {
     let mut counts: Vec<Entry<u64>> = Vec::new();
     for Entry { value, at } in texts {
-        let count = binder.count(at, value, &format!("the number of {what}"))?;
+        let count = evaluator.count(at, value, &format!("the number of {what}"))?;
         if counts.iter().any(|known| known.value == count) {
             let message = format!("a level with {count} {what} appears twice");
-            return Err(binder.complain(at, &message).with_label("the second time"));
+            return Err(evaluator.diagnostic(at, &message).with_label("the second time"));
         }
         if let Some(coarser) = counts.last().filter(|coarser| coarser.value > count) {
             let message = format!("a level with {count} {what} after one with {}", coarser.value);
-            return Err(binder.complain(at, &message).with_label(COARSE_TO_FINE));
+            return Err(evaluator.diagnostic(at, &message).with_label(COARSE_TO_FINE));
         }
         counts.push(Entry { value: count, at: at.clone() });
     }
@@ -167,45 +171,48 @@ fn counts(
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 fn equally_spaced(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     ppc: &Entry<u64>,
     dimension: usize,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if per_axis(ppc.value, dimension).is_some() {
         return Ok(());
     }
     let message = format!("{} particles per cell cannot be equally spaced", ppc.value);
     let label = format!("expected n^{dimension} in {dimension}-D");
-    Err(binder.complain(&ppc.at, &message).with_label(&label))
+    Err(evaluator.diagnostic(&ppc.at, &message).with_label(&label))
 }
 
 /// The time steps: one in `run`, or a list in `refine`.
 fn steps(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     axis: Axis,
     stated: Option<&NumberText>,
-) -> Result<Vec<Entry<Formula>>, Complaint> {
+) -> Result<Vec<Entry<Formula>>, Diagnostic> {
     let at_run = Path::top("run").then("dt");
     let at_refine = Path::top("refine").then("dt");
     let texts = match (stated, &words.refine.dt) {
         (Some(_), Some(_)) => {
-            let complaint = binder.complain_key(&at_refine, "`run` states the time step already");
-            return Err(complaint.with_help("keep one of them"));
+            let diagnostic =
+                evaluator.diagnostic_at_key(&at_refine, "`run` states the time step already");
+            return Err(diagnostic.with_help("keep one of them"));
         }
         (None, None) => {
-            let complaint = binder.complain_key(&Path::top("run"), "a run needs a time step");
-            return Err(complaint.with_help("add `dt`, or a list of them to `refine`"));
+            let diagnostic =
+                evaluator.diagnostic_at_key(&Path::top("run"), "a run needs a time step");
+            return Err(diagnostic.with_help("add `dt`, or a list of them to `refine`"));
         }
         (None, Some(list)) if list.as_slice().len() == 1 => {
-            let complaint = binder.complain_key(&at_refine, "one time step refines nothing");
-            return Err(complaint.with_help("move it to `run`, or list several"));
+            let diagnostic =
+                evaluator.diagnostic_at_key(&at_refine, "one time step refines nothing");
+            return Err(diagnostic.with_help("move it to `run`, or list several"));
         }
         (Some(value), None) => vec![Entry { value, at: at_run }],
-        (None, Some(_)) => listed(binder, words, Axis::Time, axis),
+        (None, Some(_)) => listed(evaluator, words, Axis::Time, axis),
     };
     let bind = |Entry { value, at }: Entry<&NumberText>| {
-        Ok(Entry { value: binder.formula(&at, value, &["h"])?, at })
+        Ok(Entry { value: evaluator.formula(&at, value, &["h"])?, at })
     };
     texts.into_iter().map(bind).collect()
 }

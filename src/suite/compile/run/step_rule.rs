@@ -9,14 +9,14 @@
 use crate::{
     study::build::dispatch,
     suite::{
-        compile::{evaluator::Binder, path::Path},
-        grammar::{MethodWords, StepWords},
+        compile::{evaluator::Evaluator, path::Path},
+        grammar::{MethodSpec, StepSpec},
         model::{
             Case, ConvergencePlan, Scene,
             method::Method,
             refine_plan::{Extent, LevelPlan},
         },
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
     verify::Clock,
 };
@@ -41,28 +41,28 @@ const NEAR: f64 = 0.6;
 
 /// The share of the longest safe step that `words` at `path` ask for, if they are a rule.
 pub(crate) fn share(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StepWords,
-) -> Result<Option<f64>, Complaint> {
+    words: &StepSpec,
+) -> Result<Option<f64>, Diagnostic> {
     match words {
-        StepWords::Length(_) => Ok(None),
-        StepWords::Auto => Ok(Some(AUTO)),
-        StepWords::Courant(text) => {
-            binder.positive(&path.then("courant"), text, "the share of the stable step").map(Some)
-        }
+        StepSpec::Length(_) => Ok(None),
+        StepSpec::Auto => Ok(Some(AUTO)),
+        StepSpec::Courant(text) => evaluator
+            .positive(&path.then("courant"), text, "the share of the stable step")
+            .map(Some),
     }
 }
 
 /// The step (s) as a formula of h: as stated, or, by a rule, what it is without looking at the particles.
 pub(crate) fn formula_text(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StepWords,
+    words: &StepSpec,
     scene: &Scene,
-) -> Result<NumberText, Complaint> {
-    let share = match (words, share(binder, path, words)?) {
-        (StepWords::Length(text), _) => return Ok(text.clone()),
+) -> Result<NumberText, Diagnostic> {
+    let share = match (words, share(evaluator, path, words)?) {
+        (StepSpec::Length(text), _) => return Ok(text.clone()),
         (_, share) => share.unwrap_or(AUTO),
     };
     let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
@@ -71,20 +71,20 @@ pub(crate) fn formula_text(
         return Ok(NumberText::Formula(format!("{share}*h/{speed}")));
     }
     let message = "a time step is chosen by the speed of waves, and this body has none";
-    Err(binder.complain(path, message).with_label("expected a number"))
+    Err(evaluator.diagnostic(path, message).with_label("expected a number"))
 }
 
 /// Refuses methods whose steps no rule can choose.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    methods: &[MethodWords],
+    evaluator: &Evaluator<'_>,
+    methods: &[MethodSpec],
     rule: Option<f64>,
-) -> Result<(), Complaint> {
-    let other = methods.iter().position(|method| !matches!(method, MethodWords::Mpm { .. }));
+) -> Result<(), Diagnostic> {
+    let other = methods.iter().position(|method| !matches!(method, MethodSpec::Mpm { .. }));
     let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
     let message = "the time step is chosen by a rule, which is one for the steps of MPM in motion";
-    let complaint = binder.complain(&Path::top("methods").then(i), message);
-    Err(complaint
+    let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
+    Err(diagnostic
         .with_help("state `dt` as a number or a formula of h, or put this into a suite of its own"))
 }
 

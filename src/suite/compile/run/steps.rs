@@ -3,10 +3,10 @@
 use super::refine::{COARSE_TO_FINE, Place};
 use crate::{
     suite::{
-        compile::{evaluator::Binder, path::Path, wording::shown},
-        grammar::ConvergenceWords,
+        compile::{evaluator::Evaluator, path::Path, wording::shown},
+        grammar::ConvergenceSpec,
         model::{ConvergencePlan, grid_size::cell_size, refine_plan::RefinePlan},
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
     verify::{Axis, Clock},
 };
@@ -17,29 +17,29 @@ const SHORTER: f64 = 8.0;
 
 /// The time step (s) of the same method, where a suite compares with it.
 pub(crate) fn same_method(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     refine: &RefinePlan,
     until: &[(String, f64)],
     instants: u64,
-) -> Result<Option<f64>, Complaint> {
+) -> Result<Option<f64>, Diagnostic> {
     let same = words.reference.as_ref().and_then(|reference| reference.same_method.as_ref());
     let (Some(same), Some(finest)) = (same, refine.levels.last()) else { return Ok(None) };
     let path = Path::top("reference").then("same_method");
     if refine.axis != Axis::Time {
         let message = "the same method with shorter steps knows the error of the time step only";
-        let complaint = binder.complain_key(&path, message);
-        return Err(complaint.with_help("list time steps under `dt` in `refine`"));
+        let diagnostic = evaluator.diagnostic_at_key(&path, message);
+        return Err(diagnostic.with_help("list time steps under `dt` in `refine`"));
     }
     let path = path.then("dt");
-    let dt = binder.formula(&path, &same.dt, &["h"])?.eval(&[finest.h]);
+    let dt = evaluator.formula(&path, &same.dt, &["h"])?.eval(&[finest.h]);
     for (_, until) in until {
         let clock = |dt| Clock::new(*until, dt, instants).map_or(0.0, |clock| clock.steps as f64);
         if !(clock(dt) >= SHORTER * clock(finest.dt)) {
             let message =
                 format!("the time step is {}, the finest level's {}", shown(dt), shown(finest.dt));
             let label = format!("expected at most 1/{SHORTER} of that, and at most 1e9 steps");
-            return Err(binder.complain(&path, &message).with_label(&label));
+            return Err(evaluator.diagnostic(&path, &message).with_label(&label));
         }
     }
     Ok(Some(dt))
@@ -48,18 +48,18 @@ pub(crate) fn same_method(
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is
 /// refined.
 pub(crate) fn check(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
     places: &[Place],
     until: &[(String, f64)],
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     for (_, until) in until {
         let mut coarser: Option<(f64, Clock)> = None;
         for (level, place) in plan.refine.levels.iter().zip(places) {
-            let clock = clock(binder, &place.dt, plan, *until, (level.cells, level.dt))?;
+            let clock = clock(evaluator, &place.dt, plan, *until, (level.cells, level.dt))?;
             if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
                 if let Some(coarser) = coarser {
-                    finer(binder, &place.dt, plan, coarser, (level.dt, clock))?;
+                    finer(evaluator, &place.dt, plan, coarser, (level.dt, clock))?;
                 }
                 coarser = Some((level.dt, clock));
             }
@@ -67,43 +67,43 @@ pub(crate) fn check(
         if let Some(fine) = &plan.reference {
             let path = Path::top("reference").then("fem").then("dt");
             let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
-            clock(binder, &path, plan, *until, (fine.cells, dt))?;
+            clock(evaluator, &path, plan, *until, (fine.cells, dt))?;
         }
     }
     Ok(())
 }
 
 fn clock(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     plan: &ConvergencePlan,
     until: f64,
     (cells, dt): (u64, f64),
-) -> Result<Clock, Complaint> {
+) -> Result<Clock, Diagnostic> {
     Clock::new(until, dt, plan.instants).ok_or_else(|| {
         let message = format!("with {cells} cells the time step is {}", shown(dt));
         let label = "expected a positive step, and at most 1e9 of them";
-        binder.complain(path, &message).with_label(label)
+        evaluator.diagnostic(path, &message).with_label(label)
     })
 }
 
 /// Steps end at instants, which can make two wanted steps the same.
 fn finer(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     plan: &ConvergencePlan,
     (coarse, coarse_clock): (f64, Clock),
     (fine, fine_clock): (f64, Clock),
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let (wide, narrow) = (shown(coarse), shown(fine));
     if !(fine < coarse) {
         let message = format!("a level with dt = {narrow} after one with {wide}");
-        return Err(binder.complain(path, &message).with_label(COARSE_TO_FINE));
+        return Err(evaluator.diagnostic(path, &message).with_label(COARSE_TO_FINE));
     }
     if fine_clock.steps > coarse_clock.steps {
         return Ok(());
     }
     let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine_clock.dt()));
     let label = format!("steps are shortened to end at {} instants", plan.instants);
-    Err(binder.complain(path, &message).with_label(&label))
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
 }

@@ -3,14 +3,14 @@
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the loads
 //! are those of the scene: they act on every body.
 
-use super::boundary::Hold;
+use super::boundary::BoundaryCondition;
 use crate::{
-    mpm::MaterialWords,
+    mpm::MaterialSpec,
     suite::{
-        compile::{evaluator::Binder, path::Path, wording::shown},
-        grammar::{BodyWords, LoadWords, OneBodyWords, SceneWords},
+        compile::{evaluator::Evaluator, path::Path, wording::shown},
+        grammar::{BodySpec, LoadSpec, OneBodySpec, SceneSpec},
         model::Scene,
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
 };
 
@@ -28,34 +28,35 @@ const MOST: usize = 100;
 pub(crate) struct Listed<'w> {
     /// The map that holds them.
     pub(crate) at: Path,
-    pub(crate) body: &'w BodyWords,
-    pub(crate) material: &'w MaterialWords<NumberText>,
+    pub(crate) body: &'w BodySpec,
+    pub(crate) material: &'w MaterialSpec<NumberText>,
     pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
 }
 
 /// The bodies that a scene lists: one or several.
 pub(crate) fn listed<'w>(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &'w SceneWords,
-) -> Result<Vec<Listed<'w>>, Complaint> {
+    words: &'w SceneSpec,
+) -> Result<Vec<Listed<'w>>, Diagnostic> {
     if let Some(bodies) = &words.bodies {
-        refuse_beside(binder, path, words)?;
+        refuse_beside(evaluator, path, words)?;
         let at = path.then("bodies");
         if bodies.is_empty() || bodies.len() > MOST {
-            let complaint = binder.complain(&at, &format!("a scene of {} bodies", bodies.len()));
-            return Err(complaint.with_label(&format!("expected 1 to {MOST}")));
+            let diagnostic =
+                evaluator.diagnostic(&at, &format!("a scene of {} bodies", bodies.len()));
+            return Err(diagnostic.with_label(&format!("expected 1 to {MOST}")));
         }
-        let one = |(i, one): (usize, &'w OneBodyWords)| {
-            let OneBodyWords { body, material, initial_velocity } = one;
+        let one = |(i, one): (usize, &'w OneBodySpec)| {
+            let OneBodySpec { body, material, initial_velocity } = one;
             let (at, initial_velocity) = (at.then(i), initial_velocity.as_ref());
             Listed { at, body, material, initial_velocity }
         };
         return Ok(bodies.iter().enumerate().map(one).collect());
     }
     let missing = |key: &str| {
-        let complaint = binder.complain_key(path, &format!("a scene without `{key}`"));
-        complaint.with_help("add `body` and `material`, or a list of `bodies` with one of each")
+        let diagnostic = evaluator.diagnostic_at_key(path, &format!("a scene without `{key}`"));
+        diagnostic.with_help("add `body` and `material`, or a list of `bodies` with one of each")
     };
     let body = words.body.as_ref().ok_or_else(|| missing("body"))?;
     let material = words.material.as_ref().ok_or_else(|| missing("material"))?;
@@ -64,7 +65,11 @@ pub(crate) fn listed<'w>(
 }
 
 /// What a scene cannot say of all bodies at once.
-fn refuse_beside(binder: &Binder<'_>, path: &Path, words: &SceneWords) -> Result<(), Complaint> {
+fn refuse_beside(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    words: &SceneSpec,
+) -> Result<(), Diagnostic> {
     let alone = [
         ("body", words.body.is_some()),
         ("material", words.material.is_some()),
@@ -74,47 +79,47 @@ fn refuse_beside(binder: &Binder<'_>, path: &Path, words: &SceneWords) -> Result
     ];
     if let Some((key, _)) = alone.iter().find(|(_, stated)| *stated) {
         let message = format!("`{key}` speaks of one body, and the scene has several");
-        return Err(binder.complain_key(&path.then(*key), &message));
+        return Err(evaluator.diagnostic_at_key(&path.then(*key), &message));
     }
     for (i, load) in words.loads.iter().enumerate() {
         let name = load.effect().name();
         let acts = match load {
-            LoadWords::Traction { .. } | LoadWords::Pressure { .. } => "acts on a face of",
-            LoadWords::Heat { .. } | LoadWords::ThermalExpansion { .. } => "is that of",
+            LoadSpec::Traction { .. } | LoadSpec::Pressure { .. } => "acts on a face of",
+            LoadSpec::Heat { .. } | LoadSpec::ThermalExpansion { .. } => "is that of",
             _ => continue,
         };
         let message = format!("`{name}` {acts} one body, and the scene has several");
-        return Err(binder.complain_key(&path.then("loads").then(i).then(name), &message));
+        return Err(evaluator.diagnostic_at_key(&path.then("loads").then(i).then(name), &message));
     }
     Ok(())
 }
 
 /// The coefficient of friction between bodies, if they have contact.
 pub(crate) fn contact(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords,
-) -> Result<Option<f64>, Complaint> {
+    words: &SceneSpec,
+) -> Result<Option<f64>, Diagnostic> {
     let Some(contact) = &words.contact else { return Ok(None) };
     let path = path.then("contact").then("friction");
-    let coefficient = binder.number(&path, &contact.friction)?;
+    let coefficient = evaluator.number(&path, &contact.friction)?;
     if coefficient >= 0.0 {
         return Ok(Some(coefficient));
     }
     let message = format!("the coefficient of friction is {}", shown(coefficient));
-    Err(binder.complain(&path, &message).with_label("expected zero or a positive number"))
+    Err(evaluator.diagnostic(&path, &message).with_label("expected zero or a positive number"))
 }
 
 /// The scene of all `bodies`: the first one's, if they are not a list.
 pub(crate) fn together(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     mut bodies: Vec<Scene>,
     several: bool,
     contact: Option<f64>,
-) -> Result<Scene, Complaint> {
+) -> Result<Scene, Diagnostic> {
     let Some(first) = bodies.first() else {
-        return Err(binder.complain(path, "a scene without a body"));
+        return Err(evaluator.diagnostic(path, "a scene without a body"));
     };
     let mut scene = Scene { contact, ..first.clone() };
     if !several {
@@ -127,7 +132,7 @@ pub(crate) fn together(
             scene.to[axis] = scene.to[axis].max(body.to[axis]);
         }
     }
-    apart(binder, path, &bodies)?;
+    apart(evaluator, path, &bodies)?;
     for body in &mut bodies {
         inner_faces_are_free(body, &scene);
     }
@@ -145,7 +150,7 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
             body.from[axis] == scene.from[axis]
         };
         if !at_wall {
-            face.hold = Hold::Free;
+            face.hold = BoundaryCondition::Free;
         }
     }
     if body.round.is_some() {
@@ -154,12 +159,12 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
 }
 
 /// No two bodies have a place in common.
-fn apart(binder: &Binder<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Complaint> {
+fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
     for (i, body) in bodies.iter().enumerate() {
         if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
             let message = format!("body {} and body {} have places in common", k + 1, i + 1);
             let at = path.then("bodies").then(i).then("body");
-            return Err(binder.complain_key(&at, &message));
+            return Err(evaluator.diagnostic_at_key(&at, &message));
         }
     }
     Ok(())

@@ -4,12 +4,12 @@ use crate::{
     exact::formula::Formula,
     suite::{
         compile::{
-            evaluator::Binder,
+            evaluator::Evaluator,
             path::Path,
             wording::{shown, suggestion},
         },
-        grammar::{BoundaryWords, SceneWords},
-        yaml::{Complaint, NumberText},
+        grammar::{BoundarySpec, SceneSpec},
+        yaml::{Diagnostic, NumberText},
     },
 };
 
@@ -18,7 +18,7 @@ pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "
 
 /// What holds a face.
 #[derive(Debug, Clone)]
-pub enum Hold {
+pub enum BoundaryCondition {
     /// Nothing: it may carry a traction.
     Free,
     /// It does not move.
@@ -35,7 +35,7 @@ pub enum Hold {
     AtRest,
 }
 
-impl Hold {
+impl BoundaryCondition {
     /// Whether nothing holds the face.
     pub fn is_free(&self) -> bool {
         matches!(self, Self::Free)
@@ -62,50 +62,60 @@ impl Hold {
 
 /// What holds each of the faces, in their order; `variables` are the coordinates and t.
 pub(crate) fn holds(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords,
+    words: &SceneSpec,
     variables: &[&str],
-) -> Result<Vec<Hold>, Complaint> {
+) -> Result<Vec<BoundaryCondition>, Diagnostic> {
     let dimension = variables.len() - 1;
     let path = path.then("boundary");
-    let mut holds = vec![Hold::Free; 2 * dimension];
+    let mut holds = vec![BoundaryCondition::Free; 2 * dimension];
     for (name, words) in words.boundary.as_slice() {
         let at = path.then(name.as_str());
-        let face = face(binder, &at, name, dimension, true)?;
+        let face = face(evaluator, &at, name, dimension, true)?;
         holds[face] = match words {
-            BoundaryWords::Fixed => Hold::Fixed,
-            BoundaryWords::Roller => Hold::Roller,
-            BoundaryWords::Friction(text) => friction(binder, &at.then("friction"), text)?,
-            BoundaryWords::Periodic => Hold::Periodic,
-            BoundaryWords::Velocity(texts) => {
+            BoundarySpec::Fixed => BoundaryCondition::Fixed,
+            BoundarySpec::Roller => BoundaryCondition::Roller,
+            BoundarySpec::Friction(text) => friction(evaluator, &at.then("friction"), text)?,
+            BoundarySpec::Periodic => BoundaryCondition::Periodic,
+            BoundarySpec::Velocity(texts) => {
                 let at = at.then("velocity");
-                Hold::Velocity(binder.vector(&at, texts, dimension, variables)?)
+                BoundaryCondition::Velocity(evaluator.vector(&at, texts, dimension, variables)?)
             }
         };
     }
-    both_ends(binder, &path, &holds)?;
+    both_ends(evaluator, &path, &holds)?;
     Ok(holds)
 }
 
-fn friction(binder: &Binder<'_>, path: &Path, text: &NumberText) -> Result<Hold, Complaint> {
-    let coefficient = binder.number(path, text)?;
+fn friction(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &NumberText,
+) -> Result<BoundaryCondition, Diagnostic> {
+    let coefficient = evaluator.number(path, text)?;
     if coefficient >= 0.0 {
-        return Ok(Hold::Friction(coefficient));
+        return Ok(BoundaryCondition::Friction(coefficient));
     }
     let message = format!("the coefficient of friction is {}", shown(coefficient));
-    Err(binder.complain(path, &message).with_label("expected zero or a positive number"))
+    Err(evaluator.diagnostic(path, &message).with_label("expected zero or a positive number"))
 }
 
 /// A face can only be periodic together with the opposite one.
-fn both_ends(binder: &Binder<'_>, path: &Path, holds: &[Hold]) -> Result<(), Complaint> {
+fn both_ends(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    holds: &[BoundaryCondition],
+) -> Result<(), Diagnostic> {
     for (i, hold) in holds.iter().enumerate() {
         let (name, other) = (FACES[i], FACES[i ^ 1]);
-        if matches!(hold, Hold::Periodic) && !matches!(holds[i ^ 1], Hold::Periodic) {
+        if matches!(hold, BoundaryCondition::Periodic)
+            && !matches!(holds[i ^ 1], BoundaryCondition::Periodic)
+        {
             let verb = holds[i ^ 1].verb();
             let message = format!("the {name} face is periodic, and the {other} face {verb}");
-            let complaint = binder.complain(&path.then(name), &message);
-            return Err(complaint.with_label(&format!("expected `{other}: periodic` as well")));
+            let diagnostic = evaluator.diagnostic(&path.then(name), &message);
+            return Err(diagnostic.with_label(&format!("expected `{other}: periodic` as well")));
         }
     }
     Ok(())
@@ -113,20 +123,20 @@ fn both_ends(binder: &Binder<'_>, path: &Path, holds: &[Hold]) -> Result<(), Com
 
 /// Number of the face that a suite calls `name`; the name is a key or a value of the file.
 pub(crate) fn face(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     name: &str,
     dimension: usize,
     is_key: bool,
-) -> Result<usize, Complaint> {
+) -> Result<usize, Diagnostic> {
     let known = &FACES[..2 * dimension];
     known.iter().position(|face| *face == name).ok_or_else(|| {
         let message = format!("a body of dimension {dimension} has no face `{name}`");
-        let complaint = if is_key {
-            binder.complain_key(path, &message)
+        let diagnostic = if is_key {
+            evaluator.diagnostic_at_key(path, &message)
         } else {
-            binder.complain(path, &message)
+            evaluator.diagnostic(path, &message)
         };
-        complaint.with_help(&suggestion("faces", name, known))
+        diagnostic.with_help(&suggestion("faces", name, known))
     })
 }

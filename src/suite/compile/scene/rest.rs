@@ -3,19 +3,19 @@
 //! No stage of mechanics runs and no column of it is kept, so that every word about motion is
 //! refused.
 
-use super::boundary::Hold;
+use super::boundary::BoundaryCondition;
 use crate::{
     exact::heat::Conduction,
     suite::{
         compile::{
-            evaluator::Binder,
+            evaluator::Evaluator,
             load::{heat, heat::Rest},
             path::Path,
             truth::exact,
         },
-        grammar::{ConvergenceWords, ExactWords, LoadWords, MethodWords, SceneWords},
+        grammar::{ConvergenceSpec, ExactSpec, LoadSpec, MethodSpec, SceneSpec},
         model::{Scene, SceneFace},
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
     verify::Quantity,
 };
@@ -23,19 +23,19 @@ use crate::{
 /// Lets every face be at rest that has no opposite one to be one with, and refuses words that hold or
 /// move the body. `path` is that of the scene.
 pub(crate) fn settle(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords,
+    words: &SceneSpec,
     faces: &mut [SceneFace],
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let idle = |at: &Path, message: &str| {
-        let complaint = binder.complain_key(at, message);
-        Err(complaint.with_help("a `rigid` body is at rest: remove this, or choose a material"))
+        let diagnostic = evaluator.diagnostic_at_key(at, message);
+        Err(diagnostic.with_help("a `rigid` body is at rest: remove this, or choose a material"))
     };
     for face in faces {
         match face.hold {
-            Hold::Free => face.hold = Hold::AtRest,
-            Hold::Periodic => {}
+            BoundaryCondition::Free => face.hold = BoundaryCondition::AtRest,
+            BoundaryCondition::Periodic => {}
             _ => {
                 let message = format!("the {} face {}", face.name, face.hold.verb());
                 return idle(&path.then("boundary").then(face.name), &message);
@@ -51,7 +51,7 @@ pub(crate) fn settle(
             return idle(&path.then(key), &format!("`{key}` of a body that does not move"));
         }
     }
-    let moves = |load: &LoadWords| !matches!(load, LoadWords::Heat(_));
+    let moves = |load: &LoadSpec| !matches!(load, LoadSpec::Heat(_));
     match words.loads.iter().position(moves) {
         Some(i) => idle(&path.then("loads").then(i), "a load on a body that does not move"),
         None => Ok(()),
@@ -60,17 +60,17 @@ pub(crate) fn settle(
 
 /// The heat problem of a body at rest, checked; none where the body moves.
 pub(crate) fn conduction(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
-) -> Result<Option<Conduction>, Complaint> {
-    methods(binder, words, scene)?;
-    heat::methods(binder, words, scene)?;
+) -> Result<Option<Conduction>, Diagnostic> {
+    methods(evaluator, words, scene)?;
+    heat::methods(evaluator, words, scene)?;
     if !scene.is_at_rest() {
         return Ok(None);
     }
-    judged(binder, words)?;
+    judged(evaluator, words)?;
     let (path, temperature, tolerance, manufactured) = match (&words.exact, &words.manufactured) {
         (Some(exact), None) => {
             ("exact", exact.temperature.as_ref(), exact.tolerance.as_ref(), false)
@@ -79,26 +79,30 @@ pub(crate) fn conduction(
         _ => {
             let at = Path::top("scene").then("material");
             let message = "a body at rest has one truth: a temperature, `exact` or `manufactured`";
-            return Err(binder.complain(&at, message));
+            return Err(evaluator.diagnostic(&at, message));
         }
     };
     let path = Path::top(path);
-    let tolerance = exact::tolerance(binder, &path, tolerance)?;
+    let tolerance = exact::tolerance(evaluator, &path, tolerance)?;
     let rest = Rest { motion: None, manufactured, until, tolerance };
-    let problem = heat::problem(binder, &path, temperature, scene, rest)?;
+    let problem = heat::problem(evaluator, &path, temperature, scene, rest)?;
     let Some(found) = &problem else {
         let at = Path::top("scene").then("material");
-        let complaint = binder.complain(&at, "nothing happens to a body at rest");
-        return Err(complaint.with_help("add `heat` to `loads`, or choose a material"));
+        let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");
+        return Err(diagnostic.with_help("add `heat` to `loads`, or choose a material"));
     };
-    heat::check(binder, &path, found)?;
+    heat::check(evaluator, &path, found)?;
     Ok(problem)
 }
 
 /// Bodies at rest have methods of their own.
-fn methods(binder: &Binder<'_>, words: &ConvergenceWords, scene: &Scene) -> Result<(), Complaint> {
+fn methods(
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
     let at_rest = scene.is_at_rest();
-    let fits = |method: &MethodWords| matches!(method, MethodWords::Heat { .. }) == at_rest;
+    let fits = |method: &MethodSpec| matches!(method, MethodSpec::Heat { .. }) == at_rest;
     let Some(i) = words.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
     let name = scene.material.name();
     let (message, help) = if at_rest {
@@ -106,17 +110,17 @@ fn methods(binder: &Binder<'_>, words: &ConvergenceWords, scene: &Scene) -> Resu
     } else {
         (format!("a `{name}` body moves"), "`heat` is the method of a `rigid` one; this is `mpm`")
     };
-    Err(binder.complain(&Path::top("methods").then(i), &message).with_help(help))
+    Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
 
 /// Refuses what is judged, observed, expected or stated of a motion.
-fn judged(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+fn judged(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if words.judge.of != Quantity::Temperature {
         let message = "nothing moves, and what is judged belongs to a motion";
-        let complaint = binder.complain(&Path::top("scene").then("material"), message);
-        return Err(complaint.with_help("add `judge: {of: temperature}`"));
+        let diagnostic = evaluator.diagnostic(&Path::top("scene").then("material"), message);
+        return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
     }
-    let moves = |exact: &ExactWords| {
+    let moves = |exact: &ExactSpec| {
         [("equation", exact.equation.is_some()), ("displacement", exact.displacement.is_some())]
     };
     let exact = words.exact.as_ref().map(moves).into_iter().flatten();
@@ -132,8 +136,9 @@ fn judged(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint
         ]);
     match stated.into_iter().find(|(_, stated)| *stated) {
         Some((at, _)) => {
-            let complaint = binder.complain_key(&at, "this speaks of a motion, and nothing moves");
-            Err(complaint.with_help("remove it, or choose another material than `rigid`"))
+            let diagnostic =
+                evaluator.diagnostic_at_key(&at, "this speaks of a motion, and nothing moves");
+            Err(diagnostic.with_help("remove it, or choose another material than `rigid`"))
         }
         None => Ok(()),
     }

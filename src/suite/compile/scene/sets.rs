@@ -5,34 +5,34 @@ use crate::{
     exact::Region,
     suite::{
         compile::{
-            evaluator::Binder,
+            evaluator::Evaluator,
             path::Path,
             wording::{shown, suggestion},
         },
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
 };
 
 /// A set that is called like a face could be taken for it.
 pub(crate) fn refuse_face_name(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     name: &str,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if !FACES.contains(&name) {
         return Ok(());
     }
     let message = format!("`{name}` is the name of a face");
-    Err(binder.complain_key(path, &message).with_help("give the set another name"))
+    Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
 /// A set must have a part of the body of some extent.
 pub(crate) fn refuse_outside(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     set: &Region,
     (from, to): (&[f64], &[f64]),
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     for axis in 0..from.len() {
         if !(set.from[axis] < to[axis] && set.to[axis] > from[axis]) {
             let (low, high) = (shown(set.from[axis]), shown(set.to[axis]));
@@ -40,8 +40,8 @@ pub(crate) fn refuse_outside(
                 format!("the set `{}` from {low} to {high} is outside the body", set.name);
             let (from, to) = (shown(from[axis]), shown(to[axis]));
             let label = format!("the body is from {from} to {to}");
-            let complaint = binder.complain(&path.then("from").then(axis), &message);
-            return Err(complaint.with_label(&label));
+            let diagnostic = evaluator.diagnostic(&path.then("from").then(axis), &message);
+            return Err(diagnostic.with_label(&label));
         }
     }
     Ok(())
@@ -49,32 +49,32 @@ pub(crate) fn refuse_outside(
 
 /// Tractions and pressures are forces per area, which a set does not have.
 pub(crate) fn refuse_surface_load(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     load: &str,
     name: &str,
     sets: &[Region],
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     if sets.iter().all(|set| set.name != name) {
         return Ok(());
     }
     let message = format!("`{name}` is a set, and a {load} acts on a face");
     let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
-    Err(binder.complain(path, &message).with_help(&help))
+    Err(evaluator.diagnostic(path, &message).with_help(&help))
 }
 
 /// The set that a suite calls `name`, on which nothing acts yet.
 pub(crate) fn free<'s>(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     name: &str,
     sets: &'s mut [Region],
-) -> Result<&'s mut Region, Complaint> {
+) -> Result<&'s mut Region, Diagnostic> {
     let known: Vec<String> = sets.iter().map(|set| set.name.clone()).collect();
     let Some(set) = sets.iter_mut().find(|set| set.name == name) else {
-        let complaint = binder.complain(path, &format!("there is no set `{name}`"));
+        let diagnostic = evaluator.diagnostic(path, &format!("there is no set `{name}`"));
         let known: Vec<&str> = known.iter().map(String::as_str).collect();
-        return Err(complaint.with_help(&match known[..] {
+        return Err(diagnostic.with_help(&match known[..] {
             [] => format!("declare it: `sets: {{{name}: {{box: {{from: [...], to: [...]}}}}}}`"),
             _ => suggestion("sets", name, &known),
         }));
@@ -84,19 +84,19 @@ pub(crate) fn free<'s>(
         (Some(_), _) => "force",
         (None, Some(_)) => "velocity",
     };
-    Err(binder.complain(path, &format!("the set `{name}` has a {has} already")))
+    Err(evaluator.diagnostic(path, &format!("the set `{name}` has a {has} already")))
 }
 
 /// A set that nothing acts on is a slip of the pen.
 pub(crate) fn refuse_idle(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     sets: &[Region],
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let idle = |set: &&Region| set.force.is_none() && set.velocity.is_none();
     let Some(set) = sets.iter().find(idle) else { return Ok(()) };
     let name = &set.name;
     let path = path.then("sets").then(name.as_str());
-    let complaint = binder.complain_key(&path, &format!("the set `{name}` is never used"));
-    Err(complaint.with_help("remove it, or let a load act on it"))
+    let diagnostic = evaluator.diagnostic_at_key(&path, &format!("the set `{name}` is never used"));
+    Err(diagnostic.with_help("remove it, or let a load act on it"))
 }

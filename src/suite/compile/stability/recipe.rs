@@ -8,17 +8,17 @@ use crate::{
     study::build::seeding::Placed,
     suite::{
         compile::{
-            check::size, evaluator::Binder, path::Path, run::step_rule, scene::scene,
+            check::size, evaluator::Evaluator, path::Path, run::step_rule, scene::scene,
             wording::shown,
         },
-        grammar::StabilityWords,
+        grammar::StabilitySpec,
         model::{
             Scene,
             grid_size::{cell_size, grid_axis, per_axis},
             refine_plan::LevelPlan,
             stability::Recipe,
         },
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
     verify::Scales,
 };
@@ -50,52 +50,55 @@ pub(crate) struct Setting {
 
 impl Recipe {
     /// The names of the suite with `values` in the place of what it says.
-    pub(crate) fn binder(&self, values: &Values<'_>) -> Result<Binder<'_>, Complaint> {
+    pub(crate) fn evaluator(&self, values: &Values<'_>) -> Result<Evaluator<'_>, Diagnostic> {
         let replace = |parameters: crate::suite::yaml::Ordered<NumberText>,
                        (name, value): &(&str, f64)| {
             parameters.with(name, NumberText::Number(*value))
         };
         let parameters = values.iter().fold(self.words.parameters.clone(), replace);
-        Ok(Binder::new(&self.source, &parameters, &self.words.functions)?.0)
+        Ok(Evaluator::new(&self.source, &parameters, &self.words.functions)?.0)
     }
 
     /// The run with these values.
-    pub(crate) fn setting(&self, values: &Values<'_>) -> Result<Setting, Complaint> {
-        setting(&self.binder(values)?, &self.words)
+    pub(crate) fn setting(&self, values: &Values<'_>) -> Result<Setting, Diagnostic> {
+        setting(&self.evaluator(values)?, &self.words)
     }
 }
 
 /// The run that `words` describe.
-pub(crate) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Setting, Complaint> {
-    let scene = scene::scene(binder, &words.scene)?;
+pub(crate) fn setting(
+    evaluator: &Evaluator<'_>,
+    words: &StabilitySpec,
+) -> Result<Setting, Diagnostic> {
+    let scene = scene::scene(evaluator, &words.scene)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");
-    let cells = binder.count(&at, &words.particles.cells, "the number of cells")?;
+    let cells = evaluator.count(&at, &words.particles.cells, "the number of cells")?;
     let ppc_at = particles.then("ppc");
-    let ppc = binder.count(&ppc_at, &words.particles.ppc, "the number of particles per cell")?;
+    let ppc = evaluator.count(&ppc_at, &words.particles.ppc, "the number of particles per cell")?;
     if per_axis(ppc, d).is_none() {
         let message = format!("{ppc} particles per cell are not equally spaced in {d}-D");
-        return Err(binder.complain(&ppc_at, &message).with_label("expected a whole power"));
+        return Err(evaluator.diagnostic(&ppc_at, &message).with_label("expected a whole power"));
     }
     let h = cell_size(&scene, cells);
     let run = Path::top("run");
     let length = |key: &str, text: &NumberText| {
         let at = run.then(key);
-        let dt = binder.formula(&at, text, &["h"])?.eval(&[h]);
+        let dt = evaluator.formula(&at, text, &["h"])?.eval(&[h]);
         if dt > 0.0 && dt.is_finite() {
             return Ok(dt);
         }
         let message = format!("the time step is {}", shown(dt));
-        Err(binder.complain(&at, &message).with_label("expected a positive number"))
+        Err(evaluator.diagnostic(&at, &message).with_label("expected a positive number"))
     };
     let at_dt = run.then("dt");
-    let rule = step_rule::share(binder, &at_dt, &words.run.dt)?;
-    let dt = length("dt", &step_rule::formula_text(binder, &at_dt, &words.run.dt, &scene)?)?;
-    let every = turns(binder, words)?;
+    let rule = step_rule::share(evaluator, &at_dt, &words.run.dt)?;
+    let dt = length("dt", &step_rule::formula_text(evaluator, &at_dt, &words.run.dt, &scene)?)?;
+    let every = turns(evaluator, words)?;
     if let (Some(_), Some(_)) = (rule, &words.run.alternate) {
         let message = "steps of a length chosen by a rule take no turns with others";
-        return Err(binder.complain_key(&run.then("alternate"), message));
+        return Err(evaluator.diagnostic_at_key(&run.then("alternate"), message));
     }
     let mut steps_of = vec![dt; every];
     if let Some(text) = &words.run.alternate {
@@ -104,72 +107,72 @@ pub(crate) fn setting(binder: &Binder<'_>, words: &StabilityWords) -> Result<Set
     let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
     if let Some((what, amount)) = size::too_large(&scene, level) {
         let message = format!("{cells} cells along the first axis make {amount:.1e} {what}");
-        return Err(binder.complain(&at, &message).with_label("expected fewer"));
+        return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
     }
-    size::held_faces(binder, &at, &scene, cells)?;
-    let steps = binder.count(&run.then("steps"), &words.run.steps, "the number of steps")?;
+    size::held_faces(evaluator, &at, &scene, cells)?;
+    let steps = evaluator.count(&run.then("steps"), &words.run.steps, "the number of steps")?;
     let full_steps = words.run.full_steps.as_ref().map_or(Ok(steps), |text| {
-        binder.count(&run.then("full_steps"), text, "the number of steps")
+        evaluator.count(&run.then("full_steps"), text, "the number of steps")
     });
     let setting = Setting {
-        placed: placed(binder, words, &scene, h)?,
+        placed: placed(evaluator, words, &scene, h)?,
         level,
         dt: steps_of,
         rule,
         steps,
         full_steps: full_steps?,
         frozen: words.run.frozen,
-        perturb: perturbation(binder, words)?,
-        scales: scales(binder, words, &scene)?,
+        perturb: perturbation(evaluator, words)?,
+        scales: scales(evaluator, words, &scene)?,
         scene,
     };
     if setting.frozen {
-        at_rest(binder, &setting.scene)?;
+        at_rest(evaluator, &setting.scene)?;
     }
     Ok(setting)
 }
 
 /// Steps of one length before it is the turn of the other; one where all are of one length.
-fn turns(binder: &Binder<'_>, words: &StabilityWords) -> Result<usize, Complaint> {
+fn turns(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<usize, Diagnostic> {
     const MOST: u64 = 1000;
     let Some(text) = &words.run.every else { return Ok(1) };
     let path = Path::top("run").then("every");
     if words.run.alternate.is_none() {
-        let complaint = binder.complain_key(&path, "steps of one length take no turns");
-        return Err(complaint.with_help("say what the other length is: `alternate`"));
+        let diagnostic = evaluator.diagnostic_at_key(&path, "steps of one length take no turns");
+        return Err(diagnostic.with_help("say what the other length is: `alternate`"));
     }
-    let every = binder.count(&path, text, "the number of steps in turn")?;
+    let every = evaluator.count(&path, text, "the number of steps in turn")?;
     if every > MOST {
-        let complaint = binder.complain(&path, &format!("{every} steps in turn"));
-        return Err(complaint.with_label(&format!("expected at most {MOST}")));
+        let diagnostic = evaluator.diagnostic(&path, &format!("{every} steps in turn"));
+        return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
     }
     Ok(every as usize)
 }
 
 fn placed(
-    binder: &Binder<'_>,
-    words: &StabilityWords,
+    evaluator: &Evaluator<'_>,
+    words: &StabilitySpec,
     scene: &Scene,
     h: f64,
-) -> Result<Placed, Complaint> {
+) -> Result<Placed, Diagnostic> {
     let (path, d) = (Path::top("particles"), scene.dimension());
     if !(scene.bodies.is_empty() || words.particles.extra.is_empty()) {
         let message = "a further particle is of one body, and the scene has several";
-        return Err(binder.complain_key(&path.then("extra"), message));
+        return Err(evaluator.diagnostic_at_key(&path.then("extra"), message));
     }
     let shift = words.particles.shift.as_ref();
-    let shift = shift.map(|texts| binder.point(&path.then("shift"), texts, d)).transpose()?;
+    let shift = shift.map(|texts| evaluator.point(&path.then("shift"), texts, d)).transpose()?;
     let mut extra = Vec::new();
     for (i, texts) in words.particles.extra.iter().enumerate() {
         let at = path.then("extra").then(i);
-        let place = binder.point(&at, texts, d)?;
+        let place = evaluator.point(&at, texts, d)?;
         for (axis, x) in place.iter().enumerate() {
             let (origin, cells) = grid_axis(scene, axis, h);
             if !(origin..=origin + cells * h).contains(x) {
                 let message = format!("a particle at {} is outside the grid", shown(*x));
                 let (low, high) = (shown(origin), shown(origin + cells * h));
                 let label = format!("expected a place from {low} to {high}");
-                return Err(binder.complain(&at, &message).with_label(&label));
+                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
             }
         }
         extra.push(place);
@@ -177,40 +180,39 @@ fn placed(
     Ok(Placed { shift: shift.unwrap_or_default(), extra })
 }
 
-fn perturbation(binder: &Binder<'_>, words: &StabilityWords) -> Result<f64, Complaint> {
+fn perturbation(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<f64, Diagnostic> {
     let default = if words.run.frozen { PERTURBATION } else { 0.0 };
     let path = Path::top("run").then("perturb");
     words
         .run
         .perturb
         .as_ref()
-        .map_or(Ok(default), |text| binder.positive(&path, text, "the size of the perturbation"))
+        .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
 }
 
 /// A frozen body is one that rests: nothing acts on it.
-fn at_rest(binder: &Binder<'_>, scene: &Scene) -> Result<(), Complaint> {
+fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.gravity.is_some()
         || scene.body_force.is_some()
         || scene.damping.is_some()
         || scene.faces.iter().any(|face| face.traction.is_some())
         || !scene.sets.is_empty();
-    let driven = scene
-        .faces
-        .iter()
-        .any(|f| matches!(f.hold, crate::suite::compile::scene::boundary::Hold::Velocity(_)));
+    let driven = scene.faces.iter().any(|f| {
+        matches!(f.hold, crate::suite::compile::scene::boundary::BoundaryCondition::Velocity(_))
+    });
     let moves = scene
         .each()
         .iter()
         .any(|body| !body.initial_displacement.is_empty() || !body.initial_velocity.is_empty());
     if scene.contact.is_some() {
         let message = "bodies that touch and part have no linear step";
-        return Err(binder.complain_key(&Path::top("run").then("frozen"), message));
+        return Err(evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message));
     }
     if !(loaded || driven || moves) {
         return Ok(());
     }
     let message =
         "a frozen body rests without stress, and this one is loaded, driven or starts otherwise";
-    let complaint = binder.complain_key(&Path::top("run").then("frozen"), message);
-    Err(complaint.with_help("remove what the scene states of it; `perturb` starts the run"))
+    let diagnostic = evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message);
+    Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
 }

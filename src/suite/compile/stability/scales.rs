@@ -2,10 +2,10 @@
 
 use crate::{
     suite::{
-        compile::{evaluator::Binder, path::Path, wording::shown},
-        grammar::StabilityWords,
+        compile::{evaluator::Evaluator, path::Path, wording::shown},
+        grammar::StabilitySpec,
         model::Scene,
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
     verify::{RunFigure, Scales},
 };
@@ -19,15 +19,15 @@ const UNSTABLE_ABOVE: f64 = 1e8;
 
 /// What the runs of `scene` are measured with.
 pub(crate) fn scales(
-    binder: &Binder<'_>,
-    words: &StabilityWords,
+    evaluator: &Evaluator<'_>,
+    words: &StabilitySpec,
     scene: &Scene,
-) -> Result<Scales, Complaint> {
+) -> Result<Scales, Diagnostic> {
     let modulus = scene.each().iter().map(|body| body.material.wave_modulus()).fold(0.0, f64::max);
     let path = Path::top("run");
     let bound = |key: &str, text: &Option<NumberText>, default: f64| {
         let at = path.then(key);
-        text.as_ref().map_or(Ok(default), |text| binder.positive(&at, text, "the bound"))
+        text.as_ref().map_or(Ok(default), |text| evaluator.positive(&at, text, "the bound"))
     };
     let stable_below = bound("stable_below", &words.run.stable_below, STABLE_BELOW)?;
     let unstable_above = bound("unstable_above", &words.run.unstable_above, UNSTABLE_ABOVE)?;
@@ -37,20 +37,20 @@ pub(crate) fn scales(
             shown(stable_below),
             shown(unstable_above)
         );
-        return Err(binder.complain_key(&path, &message));
+        return Err(evaluator.diagnostic_at_key(&path, &message));
     }
     let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());
-    let null_space = of_null_space(binder, words, scene)?;
+    let null_space = of_null_space(evaluator, words, scene)?;
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
 }
 
 /// Whether a figure asks for what the grid cannot see of a body: bodies that meet share what they see.
 fn of_null_space(
-    binder: &Binder<'_>,
-    words: &StabilityWords,
+    evaluator: &Evaluator<'_>,
+    words: &StabilitySpec,
     scene: &Scene,
-) -> Result<bool, Complaint> {
+) -> Result<bool, Diagnostic> {
     let shown = words.show.iter().enumerate();
     let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
     let expected = words.expect.iter().enumerate().flat_map(|(i, entry)| {
@@ -68,5 +68,5 @@ fn of_null_space(
     }
     let name = figure.name();
     let message = format!("`{name}` is a figure of one body, and the scene has several");
-    Err(binder.complain(&path, &message))
+    Err(evaluator.diagnostic(&path, &message))
 }

@@ -3,10 +3,10 @@
 use crate::{
     exact::Truth,
     suite::{
-        compile::{evaluator::Binder, path::Path},
-        grammar::{ConvergenceWords, ExpectWords},
+        compile::{evaluator::Evaluator, path::Path},
+        grammar::{ConvergenceSpec, ExpectSpec},
         model::ConvergencePlan,
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
     verify::{Judgement, LevelOutcome, Verdict},
 };
@@ -30,26 +30,26 @@ pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
 }
 
 /// Refuses a suite without a truth that asks for something which takes one.
-pub(crate) fn check(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
-    let asked = |words: &ExpectWords| {
-        let ExpectWords { order, verdict, finest_pair, floor, drift, energy_rate, .. } = words;
-        let ExpectWords { error_below, error_above, observed_within, rest_below, .. } = words;
+pub(crate) fn check(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
+    let asked = |words: &ExpectSpec| {
+        let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = words;
+        let ExpectSpec { error_below, error_above, observed_within, rest_below, .. } = words;
         let bounds = [error_below, error_above, observed_within, rest_below];
         let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();
         let kept = drift.is_some() || energy_rate.is_some();
         judged || floor.is_some() || bounds.iter().any(|b| b.is_some()) || !kept
     };
-    let full = |words: &ExpectWords| words.full.as_deref().is_some_and(asked);
+    let full = |words: &ExpectSpec| words.full.as_deref().is_some_and(asked);
     if words.expect.iter().any(|words| asked(words) || full(words)) {
         let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
                        `reference`";
-        let complaint = binder.complain_key(&Path::top("suite"), message);
-        return Err(complaint
+        let diagnostic = evaluator.diagnostic_at_key(&Path::top("suite"), message);
+        return Err(diagnostic
             .with_help("without one, expectations may bound a `drift` or an `energy_rate` only"));
     }
     if words.observe.is_some() {
         let message = "a place is observed against a truth, and the suite has none";
-        return Err(binder.complain_key(&Path::top("observe"), message));
+        return Err(evaluator.diagnostic_at_key(&Path::top("observe"), message));
     }
     Ok(())
 }

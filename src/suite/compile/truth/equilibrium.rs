@@ -4,19 +4,22 @@
 //! end of the run.
 
 use crate::suite::{
-    compile::{coordinates::COORDINATES, evaluator::Binder, path::Path, scene::boundary::Hold},
-    grammar::{ConvergenceWords, ExactWords, NormName},
+    compile::{
+        coordinates::COORDINATES, evaluator::Evaluator, path::Path,
+        scene::boundary::BoundaryCondition,
+    },
+    grammar::{ConvergenceSpec, ExactSpec, NormName},
     model::Scene,
-    yaml::Complaint,
+    yaml::Diagnostic,
 };
 
 /// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
 pub(crate) fn refuse(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
-    state: &ExactWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
+    state: &ExactSpec,
     scene: &Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let path = Path::top("equilibrium");
     let others = [
         ("exact", words.exact.is_some()),
@@ -25,50 +28,52 @@ pub(crate) fn refuse(
     ];
     if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
         let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
-        return Err(binder.complain_key(&Path::top(other), &message));
+        return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
     // Bound without t, for the complaint that there is no t.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
-        binder.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
+        evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
     }
     if scene.heat.is_some() {
         let message = "a body in which heat flows is not at rest: state a motion under `exact`";
-        return Err(binder.complain_key(&path, message));
+        return Err(evaluator.diagnostic_at_key(&path, message));
     }
     if words.run.until.as_slice().len() > 1 {
-        let at = binder.alternative(&Path::top("run").then("until"), 1);
+        let at = evaluator.alternative(&Path::top("run").then("until"), 1);
         let message = "a body comes to rest once, under the loads at the end of its run";
-        return Err(binder.complain(&at, message).with_label("expected one end"));
+        return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
     }
     let over_time = [NormName::MaxRms, NormName::MaxL1, NormName::MaxL2, NormName::MaxLinf];
     if over_time.contains(&words.judge.norm) {
         let message = "on its way a body is not in equilibrium";
-        let complaint = binder.complain(&Path::top("judge").then("norm"), message);
-        return Err(complaint.with_label("expected a norm at the end: rms, l1, l2 or linf"));
+        let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
+        return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));
     }
-    refuse_driven(binder, scene)?;
+    refuse_driven(evaluator, scene)?;
     match words.fem_method() {
         Some(i) => {
             let message = "the reference FEM has no damping and does not come to rest";
-            Err(binder.complain(&Path::top("methods").then(i), message))
+            Err(evaluator.diagnostic(&Path::top("methods").then(i), message))
         }
         None => Ok(()),
     }
 }
 
 /// Where a wall or a set has got to is not known from its velocity at the end.
-fn refuse_driven(binder: &Binder<'_>, scene: &Scene) -> Result<(), Complaint> {
+fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
-    let face = scene.faces.iter().find(|face| matches!(face.hold, Hold::Velocity(_)));
+    let face = scene.faces.iter().find(|face| matches!(face.hold, BoundaryCondition::Velocity(_)));
     if let Some(face) = face {
         let message = format!("the face `{}` is driven, and the body comes to rest", face.name);
-        return Err(binder.complain_key(&scene_path.then("boundary").then(face.name), &message));
+        return Err(
+            evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)
+        );
     }
     if let Some(set) = scene.sets.iter().find(|set| set.velocity.is_some()) {
         let message = format!("the set `{}` is driven, and the body comes to rest", set.name);
         let at = scene_path.then("sets").then(set.name.as_str());
-        return Err(binder.complain_key(&at, &message));
+        return Err(evaluator.diagnostic_at_key(&at, &message));
     }
     Ok(())
 }

@@ -6,14 +6,14 @@ use crate::{
     suite::{
         compile::{
             coordinates::coordinates_and_time,
-            evaluator::Binder,
+            evaluator::Evaluator,
             load::{heat, heat::Rest},
             path::Path,
-            scene::{boundary::Hold, quadrilateral::refuse_truth},
+            scene::{boundary::BoundaryCondition, quadrilateral::refuse_truth},
         },
-        grammar::{ConvergenceWords, EquationName, ExactWords},
+        grammar::{ConvergenceSpec, EquationName, ExactSpec},
         model::{Scene, SceneFace},
-        yaml::{Complaint, NumberText},
+        yaml::{Diagnostic, NumberText},
     },
 };
 
@@ -29,82 +29,84 @@ const MOST_OPERATIONS: u64 = 5000;
 /// # Errors
 /// A complaint at the formula that says which condition it violates, where and by how much.
 pub(crate) fn exact(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
-) -> Result<Option<Problem>, Complaint> {
+) -> Result<Option<Problem>, Diagnostic> {
     if scene.each().iter().any(|body| body.quadrilateral.is_some()) {
-        refuse_truth(binder, words)?;
+        refuse_truth(evaluator, words)?;
     }
     if !scene.bodies.is_empty() {
-        interface::refuse(binder, words)?;
+        interface::refuse(evaluator, words)?;
     }
     if let Some(state) = &words.equilibrium {
-        equilibrium::refuse(binder, words, state, scene)?;
+        equilibrium::refuse(evaluator, words, state, scene)?;
         let path = Path::top("equilibrium");
         let problem = Problem {
             at_rest: true,
             follows_motion: false,
-            ..solution(binder, &path, state, (scene, true), until)?
+            ..solution(evaluator, &path, state, (scene, true), until)?
         };
-        check(binder, &path, &problem)?;
+        check(evaluator, &path, &problem)?;
         return Ok(Some(problem));
     }
-    let Some(exact) = &words.exact else { return manufactured(binder, words, scene, until) };
+    let Some(exact) = &words.exact else { return manufactured(evaluator, words, scene, until) };
     let path = Path::top("exact");
     if words.manufactured.is_some() {
         let message = "a solution is either exact or manufactured";
-        return Err(binder.complain_key(&Path::top("manufactured"), message));
+        return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
     }
-    let problem = solution(binder, &path, exact, (scene, false), until)?;
+    let problem = solution(evaluator, &path, exact, (scene, false), until)?;
     if scene.bodies.is_empty() {
-        check(binder, &path, &problem)?;
+        check(evaluator, &path, &problem)?;
         return Ok(Some(problem));
     }
-    let each = scene.bodies.iter().map(|body| solution(binder, &path, exact, (body, false), until));
+    let each =
+        scene.bodies.iter().map(|body| solution(evaluator, &path, exact, (body, false), until));
     let each = each.collect::<Result<Vec<Problem>, _>>()?;
     interface::check(
-        binder,
+        evaluator,
         scene,
         each,
-        |problem| check(binder, &path, problem),
-        |violation| no_solution(binder, &path, &violation),
+        |problem| check(evaluator, &path, problem),
+        |violation| no_solution(evaluator, &path, &violation),
     )?;
     Ok(Some(problem))
 }
 
 /// The scene's problem with the formulas at `path`, not yet checked.
 fn solution(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExactWords,
+    words: &ExactSpec,
     (scene, at_rest): (&Scene, bool),
     until: f64,
-) -> Result<Problem, Complaint> {
-    let tolerance = tolerance(binder, path, words.tolerance.as_ref())?;
+) -> Result<Problem, Diagnostic> {
+    let tolerance = tolerance(evaluator, path, words.tolerance.as_ref())?;
     let (Some(name), Some(texts)) = (words.equation, &words.displacement) else {
         let message = "a body that moves needs an `equation` and a `displacement`";
-        return Err(binder.complain_key(path, message));
+        return Err(evaluator.diagnostic_at_key(path, message));
     };
-    let equation = equation(binder, &path.then("equation"), name, (scene, at_rest))?;
-    let motion = motion(binder, path, texts, scene.dimension())?;
+    let equation = equation(evaluator, &path.then("equation"), name, (scene, at_rest))?;
+    let motion = motion(evaluator, path, texts, scene.dimension())?;
     let motion_in_heat = scene.is_finite().then(|| motion.clone());
     let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
-    let heat = heat::problem(binder, path, words.temperature.as_ref(), scene, rest)?;
+    let heat = heat::problem(evaluator, path, words.temperature.as_ref(), scene, rest)?;
     Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
 }
 
 /// The equation that a formula is checked against, which must be that of the scene's material.
 fn equation(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     name: EquationName,
     (scene, at_rest): (&Scene, bool),
-) -> Result<Equation, Complaint> {
+) -> Result<Equation, Diagnostic> {
     if law::named(&scene.material) == Some(name) {
         let known = law::solvable(scene, at_rest);
-        return known.map_err(|(message, help)| binder.complain(path, message).with_help(help));
+        return known
+            .map_err(|(message, help)| evaluator.diagnostic(path, message).with_help(help));
     }
     let (message, help) = if name == EquationName::LogStrain {
         (
@@ -122,21 +124,21 @@ fn equation(
             "a linear elastic material has `small_strain`, others have the equation of their name",
         )
     };
-    Err(binder.complain(path, &message).with_help(help))
+    Err(evaluator.diagnostic(path, &message).with_help(help))
 }
 
 /// The problem whose body force follows from the motion that the suite states.
 fn manufactured(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
-) -> Result<Option<Problem>, Complaint> {
+) -> Result<Option<Problem>, Diagnostic> {
     let Some(made) = &words.manufactured else { return Ok(None) };
     let path = Path::top("manufactured");
     let equation = law::manufactured(&scene.material).map_err(|reason| {
         let message = "a force is manufactured for a `neo_hookean` or `hencky` material";
-        binder.complain_key(&path, message).with_help(reason)
+        evaluator.diagnostic_at_key(&path, message).with_help(reason)
     })?;
     for (key, what, stated) in [
         ("initial_displacement", "displacement", &scene.initial_displacement),
@@ -145,25 +147,25 @@ fn manufactured(
         if !stated.is_empty() {
             let message = format!("the initial {what} follows from the motion");
             let at = Path::top("scene").then(key);
-            return Err(binder.complain_key(&at, &message).with_help("remove it"));
+            return Err(evaluator.diagnostic_at_key(&at, &message).with_help("remove it"));
         }
     }
     if scene.body_force.is_some() {
         let message = "the body force follows from the motion, and the scene states one besides";
         let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
                     have the force checked";
-        return Err(binder.complain_key(&path, message).with_help(help));
+        return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
     }
     let Some(texts) = &made.displacement else {
         let message = "a body that moves needs a `displacement`";
-        return Err(binder.complain_key(&path, message));
+        return Err(evaluator.diagnostic_at_key(&path, message));
     };
-    let motion = motion(binder, &path, texts, scene.dimension())?;
+    let motion = motion(evaluator, &path, texts, scene.dimension())?;
     let rest =
         Rest { motion: Some(motion.clone()), manufactured: true, until, tolerance: TOLERANCE };
-    let heat = heat::problem(binder, &path, made.temperature.as_ref(), scene, rest)?;
+    let heat = heat::problem(evaluator, &path, made.temperature.as_ref(), scene, rest)?;
     let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
-    check(binder, &path, &problem)?;
+    check(evaluator, &path, &problem)?;
     Ok(Some(problem))
 }
 
@@ -194,65 +196,66 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
     }
 }
 
-fn check(binder: &Binder<'_>, path: &Path, problem: &Problem) -> Result<(), Complaint> {
+fn check(evaluator: &Evaluator<'_>, path: &Path, problem: &Problem) -> Result<(), Diagnostic> {
     if let Some(problem) = &problem.heat {
-        heat::check(binder, path, problem)?;
+        heat::check(evaluator, path, problem)?;
     }
-    problem.check().map_err(|violation| no_solution(binder, path, &violation))
+    problem.check().map_err(|violation| no_solution(evaluator, path, &violation))
 }
 
-fn no_solution(binder: &Binder<'_>, path: &Path, violation: &Violation) -> Complaint {
-    let complaint = binder.complain(&path.then("displacement").then(0), &violation.to_string());
-    complaint
+fn no_solution(evaluator: &Evaluator<'_>, path: &Path, violation: &Violation) -> Diagnostic {
+    let diagnostic =
+        evaluator.diagnostic(&path.then("displacement").then(0), &violation.to_string());
+    diagnostic
         .with_label("this is not a solution of the problem that the scene states")
         .with_help("correct the formula, or the scene: loads, boundary, initial state")
 }
 
 fn motion(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     displacement: &[NumberText],
     dimension: usize,
-) -> Result<Motion, Complaint> {
+) -> Result<Motion, Diagnostic> {
     let variables = coordinates_and_time(dimension);
     let path = path.then("displacement");
-    let components = binder.vector(&path, displacement, dimension, &variables)?;
+    let components = evaluator.vector(&path, displacement, dimension, &variables)?;
     for (i, component) in components.iter().enumerate() {
         let operations = component.operations();
         if operations > MOST_OPERATIONS {
             let message = format!("this formula takes {operations} operations");
             let label = format!("expected at most {MOST_OPERATIONS}: shorten its sums");
-            return Err(binder.complain(&path.then(i), &message).with_label(&label));
+            return Err(evaluator.diagnostic(&path.then(i), &message).with_label(&label));
         }
     }
     Ok(Motion::new(components))
 }
 
 pub(crate) fn tolerance(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     path: &Path,
     text: Option<&NumberText>,
-) -> Result<f64, Complaint> {
+) -> Result<f64, Diagnostic> {
     let Some(text) = text else { return Ok(TOLERANCE) };
     let path = path.then("tolerance");
-    let tolerance = binder.positive(&path, text, "the tolerance")?;
+    let tolerance = evaluator.positive(&path, text, "the tolerance")?;
     if tolerance <= 1e-2 {
         return Ok(tolerance);
     }
     let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
-    Err(binder.complain(&path, &message).with_label("expected at most 1e-2"))
+    Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
 fn face(scene: &Scene, face: &SceneFace) -> Face {
     let condition = match (&face.hold, &face.traction, &face.pressure) {
-        (Hold::Fixed | Hold::AtRest, ..) => Condition::Fixed,
-        (Hold::Roller, ..) => Condition::Roller,
-        (Hold::Friction(coefficient), ..) => Condition::Friction(*coefficient),
-        (Hold::Velocity(value), ..) => Condition::Velocity(value.clone()),
-        (Hold::Periodic, ..) => Condition::Periodic(scene.period(face.axis)),
-        (Hold::Free, Some(value), _) => Condition::Traction(value.clone()),
-        (Hold::Free, None, Some(value)) => Condition::Pressure(value.clone()),
-        (Hold::Free, None, None) => Condition::Free,
+        (BoundaryCondition::Fixed | BoundaryCondition::AtRest, ..) => Condition::Fixed,
+        (BoundaryCondition::Roller, ..) => Condition::Roller,
+        (BoundaryCondition::Friction(coefficient), ..) => Condition::Friction(*coefficient),
+        (BoundaryCondition::Velocity(value), ..) => Condition::Velocity(value.clone()),
+        (BoundaryCondition::Periodic, ..) => Condition::Periodic(scene.period(face.axis)),
+        (BoundaryCondition::Free, Some(value), _) => Condition::Traction(value.clone()),
+        (BoundaryCondition::Free, None, Some(value)) => Condition::Pressure(value.clone()),
+        (BoundaryCondition::Free, None, None) => Condition::Free,
     };
     Face { name: face.name, axis: face.axis, high: face.high, condition }
 }

@@ -6,10 +6,10 @@
 use crate::{
     exact::{Condition, Problem, Violation, meets},
     suite::{
-        compile::{evaluator::Binder, path::Path},
-        grammar::ConvergenceWords,
+        compile::{evaluator::Evaluator, path::Path},
+        grammar::ConvergenceSpec,
         model::Scene,
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
 };
 
@@ -17,7 +17,7 @@ use crate::{
 ///
 /// # Errors
 /// A complaint about the first such truth.
-pub(crate) fn refuse(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<(), Complaint> {
+pub(crate) fn refuse(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
         ("manufactured", words.manufactured.is_some()),
         ("equilibrium", words.equilibrium.is_some()),
@@ -25,26 +25,26 @@ pub(crate) fn refuse(binder: &Binder<'_>, words: &ConvergenceWords) -> Result<()
     ];
     let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
     let message = format!("`{key}` speaks of one body, and the scene has several");
-    let complaint = binder.complain_key(&Path::top(key), &message);
-    Err(complaint.with_help("state a solution under `exact`, or bound what the run keeps"))
+    let diagnostic = evaluator.diagnostic_at_key(&Path::top(key), &message);
+    Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
 }
 
 /// Checks the `problems` of all bodies of a scene, each by `check`, and the faces where they meet.
 ///
 /// # Errors
-/// A complaint of `check`, or what `complain` makes of a violation; and one about bodies for which no
+/// A complaint of `check`, or what `diagnostic` makes of a violation; and one about bodies for which no
 /// condition is known.
 pub(crate) fn check(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     scene: &Scene,
     mut problems: Vec<Problem>,
-    check: impl Fn(&Problem) -> Result<(), Complaint>,
-    complain: impl Fn(Violation) -> Complaint,
-) -> Result<(), Complaint> {
+    check: impl Fn(&Problem) -> Result<(), Diagnostic>,
+    diagnostic: impl Fn(Violation) -> Diagnostic,
+) -> Result<(), Diagnostic> {
     let at = Path::top("scene").then("bodies");
     if let Some(i) = problems.iter().position(|problem| problem.round.is_some()) {
         let message = "a solution is known of boxes that meet face to face";
-        return Err(binder.complain_key(&at.then(i).then("body"), message));
+        return Err(evaluator.diagnostic_at_key(&at.then(i).then("body"), message));
     }
     let pairs = pairs(&problems);
     for &(i, k, axis) in &pairs {
@@ -52,15 +52,15 @@ pub(crate) fn check(
         if apart && scene.contact.is_none() {
             let message = "bodies that share one velocity field and do not touch have no solution \
                            without h in it";
-            return Err(binder.complain_key(&at.then(k).then("body"), message));
+            return Err(evaluator.diagnostic_at_key(&at.then(k).then("body"), message));
         }
         problems[i].faces[2 * axis + 1].condition = Condition::Met;
         problems[k].faces[2 * axis].condition = Condition::Met;
     }
-    refuse_other_touch(binder, &at, &problems, &pairs)?;
+    refuse_other_touch(evaluator, &at, &problems, &pairs)?;
     problems.iter().try_for_each(check)?;
     for (i, k, axis) in pairs {
-        meets(&problems[i], &problems[k], axis, scene.contact).map_err(&complain)?;
+        meets(&problems[i], &problems[k], axis, scene.contact).map_err(&diagnostic)?;
     }
     Ok(())
 }
@@ -87,11 +87,11 @@ fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
 
 /// Bodies that touch otherwise than with whole faces.
 fn refuse_other_touch(
-    binder: &Binder<'_>,
+    evaluator: &Evaluator<'_>,
     at: &Path,
     problems: &[Problem],
     pairs: &[(usize, usize, usize)],
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     for (i, one) in problems.iter().enumerate() {
         for (k, other) in problems.iter().enumerate() {
             let known = pairs.iter().any(|(a, b, _)| (*a, *b) == (i, k) || (*a, *b) == (k, i));
@@ -99,7 +99,7 @@ fn refuse_other_touch(
                 .all(|axis| one.from[axis] <= other.to[axis] && other.from[axis] <= one.to[axis]);
             if i < k && touch && !known {
                 let message = "a solution is known of boxes that meet with whole faces";
-                return Err(binder.complain_key(&at.then(k).then("body"), message));
+                return Err(evaluator.diagnostic_at_key(&at.then(k).then("body"), message));
             }
         }
     }

@@ -4,10 +4,10 @@ use crate::{
     exact::Equation,
     mpm::MaterialPlan,
     suite::{
-        compile::{evaluator::Binder, path::Path},
-        grammar::{ConvergenceWords, EquationName, MethodWords},
+        compile::{evaluator::Evaluator, path::Path},
+        grammar::{ConvergenceSpec, EquationName, MethodSpec},
         model::Scene,
-        yaml::Complaint,
+        yaml::Diagnostic,
     },
 };
 
@@ -85,15 +85,15 @@ pub(crate) fn manufactured(material: &MaterialPlan) -> Result<Equation, &'static
 
 /// Refuses an FEM bar, a method or the reference, of a material that it has no law for.
 pub(crate) fn check(
-    binder: &Binder<'_>,
-    words: &ConvergenceWords,
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<(), Complaint> {
+) -> Result<(), Diagnostic> {
     let name = scene.material.name();
     let elastic = scene.material.elasticity().is_some();
     let of_fluid = || format!("the reference FEM is a solid bar, `{name}` has no Young's modulus");
     if words.has_fem_reference() && !elastic {
-        return Err(binder.complain_key(&Path::top("reference"), &of_fluid()));
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &of_fluid()));
     }
     let foreign = |law: EquationName| {
         let of_mpm = matches!(law, EquationName::J2 | EquationName::Tait);
@@ -101,21 +101,22 @@ pub(crate) fn check(
     };
     let reference = words.reference.as_ref().and_then(|reference| reference.equation);
     if let Some(message) = reference.and_then(foreign) {
-        return Err(binder.complain(&Path::top("reference").then("equation"), &message));
+        return Err(evaluator.diagnostic(&Path::top("reference").then("equation"), &message));
     }
     for (i, method) in words.methods.iter().enumerate() {
-        let MethodWords::Fem { law, .. } = method else { continue };
+        let MethodSpec::Fem { law, .. } = method else { continue };
         let path = Path::top("methods").then(i);
         if !elastic {
-            return Err(binder.complain(&path, &of_fluid()));
+            return Err(evaluator.diagnostic(&path, &of_fluid()));
         }
         let laws = law.as_ref().map_or(&[][..], |laws| laws.as_slice());
         if let Some(message) = laws.iter().copied().find_map(foreign) {
-            return Err(binder.complain(&path, &message));
+            return Err(evaluator.diagnostic(&path, &message));
         }
         if law.is_none() && own(&scene.material).is_none() {
-            let complaint = binder.complain(&path, &format!("the reference FEM has no `{name}`"));
-            return Err(complaint.with_help("name the `law` of an elastic bar to compare with"));
+            let diagnostic =
+                evaluator.diagnostic(&path, &format!("the reference FEM has no `{name}`"));
+            return Err(diagnostic.with_help("name the `law` of an elastic bar to compare with"));
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Files that are not what they should be.
 
-use crate::suite::yaml::{Complaint, MAX_BYTES, Source};
+use crate::suite::yaml::{Diagnostic, MAX_BYTES, Source};
 use rstest::rstest;
 use std::env::temp_dir;
 use std::fs::{self, File};
@@ -27,10 +27,10 @@ impl Drop for Temporary {
     }
 }
 
-fn refused(path: &Path) -> Complaint {
-    let complaint = Source::read(path).unwrap_err();
-    assert_eq!(complaint.file(), path.display().to_string());
-    complaint
+fn refused(path: &Path) -> Diagnostic {
+    let diagnostic = Source::read(path).unwrap_err();
+    assert_eq!(diagnostic.file(), path.display().to_string());
+    diagnostic
 }
 
 #[test]
@@ -43,16 +43,16 @@ fn a_good_file_keeps_the_name_it_was_asked_for() {
 
 #[test]
 fn a_missing_file() {
-    let complaint = refused(Path::new("no/such.yaml"));
-    assert_eq!(complaint.one_line(), "no/such.yaml: there is no such file");
-    assert_eq!(complaint.to_string(), "error: there is no such file\n--> no/such.yaml");
+    let diagnostic = refused(Path::new("no/such.yaml"));
+    assert_eq!(diagnostic.one_line(), "no/such.yaml: there is no such file");
+    assert_eq!(diagnostic.to_string(), "error: there is no such file\n--> no/such.yaml");
 }
 
 #[test]
 fn a_folder() {
-    let complaint = refused(&temp_dir());
-    assert_eq!(complaint.message(), "this is a folder, not a suite file");
-    assert_eq!(complaint.help(), Some("name a file in it"));
+    let diagnostic = refused(&temp_dir());
+    assert_eq!(diagnostic.message(), "this is a folder, not a suite file");
+    assert_eq!(diagnostic.help(), Some("name a file in it"));
 }
 
 #[test]
@@ -73,8 +73,8 @@ fn an_endless_device_is_not_read_to_its_end() {
 #[test]
 fn the_cap_is_exact() {
     assert!(Source::from_text("full", "#".repeat(MAX_BYTES)).is_ok());
-    let complaint = Source::from_text("over", "#".repeat(MAX_BYTES + 1)).unwrap_err();
-    assert_eq!(complaint.one_line(), "over: the file is too large: 65 KiB, at most 64 KiB");
+    let diagnostic = Source::from_text("over", "#".repeat(MAX_BYTES + 1)).unwrap_err();
+    assert_eq!(diagnostic.one_line(), "over: the file is too large: 65 KiB, at most 64 KiB");
 }
 
 #[rstest]
@@ -89,10 +89,10 @@ fn not_utf8(
     #[case] help: &str,
 ) {
     let file = Temporary::holding(name, bytes);
-    let complaint = refused(&file.0);
-    let found = complaint.place().unwrap();
+    let diagnostic = refused(&file.0);
+    let found = diagnostic.place().unwrap();
     assert_eq!((found.line(), found.column()), place);
     let message = format!("the file is not UTF-8 text: byte {offset} does not fit");
-    assert_eq!(complaint.message(), message);
-    assert_eq!(complaint.help(), Some(help));
+    assert_eq!(diagnostic.message(), message);
+    assert_eq!(diagnostic.help(), Some(help));
 }

@@ -151,5 +151,5 @@ fn a_part_of_a_value_is_found_where_it_stands_verbatim(
     let source = Source::from_text("formula.yaml", yaml).unwrap();
     let place = source.within(&["é".into()], bytes).unwrap();
     assert_eq!((place.line(), place.column(), place.length()), want);
-    assert_eq!(source.complain(place, "no").place(), Some(place));
+    assert_eq!(source.diagnostic(place, "no").place(), Some(place));
 }

@@ -1,12 +1,12 @@
 //! Files meant to do harm, or that would by accident.
 
 use super::sample::{SAMPLE, Suite};
-use crate::suite::yaml::{Complaint, Source, read};
+use crate::suite::yaml::{Diagnostic, Source, read};
 use rstest::rstest;
 use serde::de::IgnoredAny;
 use std::time::{Duration, Instant};
 
-fn refused(yaml: &str) -> Complaint {
+fn refused(yaml: &str) -> Diagnostic {
     let source = Source::from_text("hostile.yaml", yaml);
     source.and_then(|source| read::<IgnoredAny>(&source)).unwrap_err()
 }
@@ -48,9 +48,9 @@ const DEEP: &str = "lists and maps nest more than 64 deep";
 fn is_refused_at_once(#[case] yaml: String, #[case] message: &str) {
     let refuse = || {
         let start = Instant::now();
-        let complaint = refused(&yaml);
-        assert_eq!(complaint.message(), message);
-        let shown = complaint.to_string();
+        let diagnostic = refused(&yaml);
+        assert_eq!(diagnostic.message(), message);
+        let shown = diagnostic.to_string();
         assert!(shown.lines().all(|line| line.chars().count() < 400), "{shown}");
         assert!(!shown.contains(['\u{1b}', '\r']));
         start.elapsed()
@@ -70,10 +70,10 @@ fn nesting_up_to_the_cap_is_fine() {
 fn a_key_of_sixty_kilobytes_is_shown_in_part() {
     let yaml = format!("{}: 1\n{SAMPLE}", "k".repeat(900));
     let source = Source::from_text("long.yaml", yaml).unwrap();
-    let complaint = read::<Suite>(&source).unwrap_err();
-    assert!(complaint.message().starts_with("unknown key `kkkk"));
-    assert!(complaint.message().ends_with('…'));
-    let shown = complaint.to_string();
+    let diagnostic = read::<Suite>(&source).unwrap_err();
+    assert!(diagnostic.message().starts_with("unknown key `kkkk"));
+    assert!(diagnostic.message().ends_with('…'));
+    let shown = diagnostic.to_string();
     assert!(shown.lines().all(|line| line.chars().count() < 400), "{shown}");
 }
 
@@ -81,8 +81,8 @@ fn a_key_of_sixty_kilobytes_is_shown_in_part() {
 fn what_an_excerpt_hides_or_reorders_is_made_visible() {
     let yaml = "suite: {\u{202e}olleh: 1}";
     let source = Source::from_text("bidi\u{7}.yaml", yaml).unwrap();
-    let complaint = read::<Suite>(&source).unwrap_err();
-    let shown = complaint.to_string();
+    let diagnostic = read::<Suite>(&source).unwrap_err();
+    let shown = diagnostic.to_string();
     assert!(!shown.contains(['\u{202e}', '\u{7}']), "{shown}");
-    assert_eq!(complaint.file(), "bidi\\u{7}.yaml");
+    assert_eq!(diagnostic.file(), "bidi\\u{7}.yaml");
 }

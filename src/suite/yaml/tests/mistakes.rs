@@ -1,21 +1,21 @@
 //! One mistake at a time in the sample: where it is seen, what is said, what is advised.
 
 use super::sample::{SAMPLE, Suite};
-use crate::suite::yaml::{Complaint, OneOrMany, Ordered, Source, read, refuse};
+use crate::suite::yaml::{Diagnostic, OneOrMany, Ordered, Source, read, refuse};
 use rstest::rstest;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 
-fn wrong<T: DeserializeOwned>(yaml: &str) -> Complaint {
+fn wrong<T: DeserializeOwned>(yaml: &str) -> Diagnostic {
     let source = Source::from_text("bar.yaml", yaml);
     source.and_then(|source| read::<T>(&source)).err().expect("a mistake")
 }
 
-fn check(complaint: &Complaint, place: (usize, usize, usize), message: &str, help: &str) {
-    let found = complaint.place().expect("a place");
+fn check(diagnostic: &Diagnostic, place: (usize, usize, usize), message: &str, help: &str) {
+    let found = diagnostic.place().expect("a place");
     let found = (found.line(), found.column(), found.length());
-    assert_eq!((found, complaint.message()), (place, message), "\n{complaint}");
-    assert_eq!(complaint.help().unwrap_or_default(), help, "\n{complaint}");
+    assert_eq!((found, diagnostic.message()), (place, message), "\n{diagnostic}");
+    assert_eq!(diagnostic.help().unwrap_or_default(), help, "\n{diagnostic}");
 }
 
 #[rstest]
@@ -89,9 +89,9 @@ fn in_the_sample(
 #[case::mark("---\n")]
 #[case::null("~\n")]
 fn an_empty_file(#[case] yaml: &str) {
-    let complaint = wrong::<Suite>(yaml);
-    assert_eq!(complaint.message(), "the file is empty; a suite starts with `suite: NAME`");
-    assert!(complaint.place().is_some());
+    let diagnostic = wrong::<Suite>(yaml);
+    assert_eq!(diagnostic.message(), "the file is empty; a suite starts with `suite: NAME`");
+    assert!(diagnostic.place().is_some());
 }
 
 #[test]
@@ -132,16 +132,16 @@ impl<'de> Deserialize<'de> for Even {
 
 #[test]
 fn refusals_of_other_types_arrive_whole() {
-    let complaint = wrong::<Ordered<Even>>("{a: 2, b c: 3}");
-    assert_eq!(complaint.label(), Some("an even number"));
+    let diagnostic = wrong::<Ordered<Even>>("{a: 2, b c: 3}");
+    assert_eq!(diagnostic.label(), Some("an even number"));
     // An error raised after a value was read stands at the map or list around it.
-    assert_eq!((complaint.message(), complaint.help()), ("odd: no", Some("add one")));
+    assert_eq!((diagnostic.message(), diagnostic.help()), ("odd: no", Some("add one")));
     assert_eq!(wrong::<Ordered<Even>>("a: 7").message(), "seven: a lucky one");
 }
 
 #[test]
 fn it_looks_like_a_compiler_error() {
-    let complaint = wrong::<Suite>(&SAMPLE.replacen("cells:", "cels:", 1));
+    let diagnostic = wrong::<Suite>(&SAMPLE.replacen("cells:", "cels:", 1));
     let want = "\
 error: unknown key `cels`
  --> bar.yaml:9:10
@@ -150,6 +150,6 @@ error: unknown key `cels`
   |          ^^^^ no key that is known here
   |
   = help: did you mean `cells`?";
-    assert_eq!(complaint.to_string(), want);
-    assert_eq!(complaint.one_line(), "bar.yaml:9:10: unknown key `cels`");
+    assert_eq!(diagnostic.to_string(), want);
+    assert_eq!(diagnostic.one_line(), "bar.yaml:9:10: unknown key `cels`");
 }

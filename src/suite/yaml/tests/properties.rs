@@ -12,11 +12,11 @@ fn survives(text: &str) {
         source.within(&["scene".into()], 0..3);
         read::<Suite>(&source)
     });
-    if let Err(complaint) = outcome {
-        let shown = complaint.to_string();
+    if let Err(diagnostic) = outcome {
+        let shown = diagnostic.to_string();
         assert!(shown.starts_with("error: "));
         assert!(shown.contains("--> any.yaml"));
-        assert!(!complaint.one_line().contains('\n'));
+        assert!(!diagnostic.one_line().contains('\n'));
     }
 }
 
@@ -101,7 +101,7 @@ proptest! {
     fn the_scan_agrees_with_the_parser(text in prop_oneof![yaml_like(), mutated()]) {
         if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
             match Source::from_text("any.yaml", text.as_str()) {
-                Err(complaint) => prop_assert!(refused_on_purpose(complaint.message()), "{complaint}"),
+                Err(diagnostic) => prop_assert!(refused_on_purpose(diagnostic.message()), "{diagnostic}"),
                 // A key that is itself a list or a map hides the keys after it; `read` refuses it.
                 Ok(source) if read::<Value>(&source).is_err() => {}
                 Ok(source) => {
