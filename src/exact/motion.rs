@@ -148,7 +148,8 @@ impl Truth for Motion {
 
     /// The same, some points at a time.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
-        for (labels, into) in labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
+        for (labels, into) in
+            labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
             // Lanes without a point of their own take that of the last.
             let last = labels.len() / d - 1;
