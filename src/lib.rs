@@ -86,4 +86,5 @@ pub mod verify;
 pub mod report;
 pub mod suite;
 
+mod dimension;
 mod named;

@@ -4,6 +4,7 @@ use super::{
     formula::{Formula, Hoisted, Jet, NumberBatch},
     truth::Truth,
 };
+use crate::dimension::with_dimension;
 
 /// A displacement field u(X, t) with one formula for each component, each a function of the
 /// reference coordinates (as many as there are components) and of t, in this order.
@@ -53,20 +54,12 @@ impl Motion {
 
     /// All derivatives, by automatic differentiation over as many variables as there are.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
-        match self.dimension() {
-            1 => self.over_jets::<2>(label, t),
-            2 => self.over_jets::<3>(label, t),
-            _ => self.over_jets::<4>(label, t),
-        }
+        with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
     /// The motion at `labels`, for which what does not depend on time is computed here and now.
     pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
-        match self.dimension() {
-            1 => Box::new(self.hoisted::<2>(labels)),
-            2 => Box::new(self.hoisted::<3>(labels)),
-            _ => Box::new(self.hoisted::<4>(labels)),
-        }
+        with_dimension!(self.dimension(), D => Box::new(self.hoisted::<{ D + 1 }>(labels)))
     }
 
     /// The derivatives over jets of N variables: N - 1 coordinates, and time as the last.

@@ -16,8 +16,9 @@ pub(crate) struct Wall {
 }
 
 /// `suite` has no wall: it is the one that knows all.
-pub(crate) const WALLS: [Wall; 7] = [
+pub(crate) const WALLS: [Wall; 8] = [
     Wall { around: "named", may: &[], why: "every part is built on it" },
+    Wall { around: "dimension", may: &[], why: "every part is built on it" },
     Wall { around: "subject", may: &["named"], why: "it is the contract between judge and solver" },
     Wall {
         around: "mpm",
@@ -31,7 +32,7 @@ pub(crate) const WALLS: [Wall; 7] = [
     },
     Wall {
         around: "exact",
-        may: &["subject", "named"],
+        may: &["subject", "named", "dimension"],
         why: "a truth that is made with a solver can only agree with it",
     },
     Wall {

@@ -1,8 +1,11 @@
 //! A temperature T(X, t) given by a formula, with its derivatives.
 
-use crate::exact::{
-    formula::{Formula, Hoisted, Jet},
-    motion::variables,
+use crate::{
+    dimension::with_dimension,
+    exact::{
+        formula::{Formula, Hoisted, Jet},
+        motion::variables,
+    },
 };
 
 /// A temperature field (K), a formula of the reference coordinates and t, in this order.
@@ -43,11 +46,7 @@ impl Temperature {
 
     /// All derivatives, by automatic differentiation.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Warmth {
-        match self.dimension {
-            1 => self.over_jets::<2>(label, t),
-            2 => self.over_jets::<3>(label, t),
-            _ => self.over_jets::<4>(label, t),
-        }
+        with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
     /// The field at `labels`, for which what does not depend on time is computed here and now.
@@ -55,11 +54,7 @@ impl Temperature {
         &self,
         labels: impl Iterator<Item = &'a [f64]>,
     ) -> Box<dyn WarmPlaces> {
-        match self.dimension {
-            1 => Box::new(self.hoisted::<2>(labels)),
-            2 => Box::new(self.hoisted::<3>(labels)),
-            _ => Box::new(self.hoisted::<4>(labels)),
-        }
+        with_dimension!(self.dimension, D => Box::new(self.hoisted::<{ D + 1 }>(labels)))
     }
 
     fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Warmth {

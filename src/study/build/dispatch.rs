@@ -1,5 +1,4 @@
-//! Names become types: the only place that knows every family, and the only one that spells out
-//! 1, 2 and 3 dimensions.
+//! Names become types: the only place that knows every family.
 
 use super::{
     bar::bar,
@@ -7,6 +6,7 @@ use super::{
     setup::{Body, conductor, plain, setup},
 };
 use crate::{
+    dimension::with_dimension,
     mpm::{BasisName, Bodies, Counted, Kernel, Setup, Solver, Tally, Vector},
     subject::{Failure, Perturbable, Profile, Subject},
     suite::model::{
@@ -27,13 +27,10 @@ pub(crate) fn subject(
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
-        (Method::Mpm { .. }, 1) => mpm::<1>(plan, method, level),
-        (Method::Mpm { .. }, 2) => mpm::<2>(plan, method, level),
-        (Method::Mpm { .. }, 3) => mpm::<3>(plan, method, level),
-        (Method::Heat { basis }, 1) => Ok(Box::new(conductor::<1>(plan, basis, level, plain)?)),
-        (Method::Heat { basis }, 2) => Ok(Box::new(conductor::<2>(plan, basis, level, plain)?)),
-        (Method::Heat { basis }, 3) => Ok(Box::new(conductor::<3>(plan, basis, level, plain)?)),
-        (_, d) => Err(format!("there is no MPM in {d} dimensions")),
+        (Method::Mpm { .. }, d) => with_dimension!(d, D => mpm::<D>(plan, method, level)),
+        (Method::Heat { basis }, d) => with_dimension!(d, D => {
+            Ok(Box::new(conductor::<D>(plan, basis, level, plain)?))
+        }),
     }
 }
 
@@ -75,15 +72,11 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         body.step(level.dt).ok()?;
         Some(Profile { passes: tally.take(), ..body.profile() })
     }
-    match (method, plan.scene.dimension()) {
-        (Method::Fem { .. }, _) => None,
-        (Method::Heat { basis }, 1) => of_heat::<1>(plan, basis, level),
-        (Method::Heat { basis }, 2) => of_heat::<2>(plan, basis, level),
-        (Method::Heat { basis }, _) => of_heat::<3>(plan, basis, level),
-        (Method::Mpm { .. }, 1) => of_second_step::<1>(plan, method, level),
-        (Method::Mpm { .. }, 2) => of_second_step::<2>(plan, method, level),
-        (Method::Mpm { .. }, _) => of_second_step::<3>(plan, method, level),
-    }
+    with_dimension!(plan.scene.dimension(), D => match method {
+        Method::Fem { .. } => None,
+        Method::Heat { basis } => of_heat::<D>(plan, basis, level),
+        Method::Mpm { .. } => of_second_step::<D>(plan, method, level),
+    })
 }
 
 /// Whether a level with cells of size `h` has no particle of some round body.
@@ -93,11 +86,7 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
         let mut round = scene.each().iter().filter(|body| body.round.is_some());
         round.any(|body| seeding::is_empty(body, &origin, h, per_axis))
     }
-    match scene.dimension() {
-        1 => vacant::<1>(scene, h, per_axis),
-        2 => vacant::<2>(scene, h, per_axis),
-        _ => vacant::<3>(scene, h, per_axis),
-    }
+    with_dimension!(scene.dimension(), D => vacant::<D>(scene, h, per_axis))
 }
 
 /// The longest step (s) that is predicted to be safe for `method` on one level, from so many rounds of an
@@ -136,11 +125,7 @@ pub(crate) fn safe_step_of(
         let longest = level.h / (body.own.wave_speed() + fastest);
         solver.safe_step(longest, rounds).map_err(|failure| failure.to_string())
     }
-    match body.scene.dimension() {
-        1 => of::<1>(body, method, level, rounds),
-        2 => of::<2>(body, method, level, rounds),
-        _ => of::<3>(body, method, level, rounds),
-    }
+    with_dimension!(body.scene.dimension(), D => of::<D>(body, method, level, rounds))
 }
 
 /// An MPM subject that can be perturbed: `bodies` of one scene on the cells of `level`.
@@ -165,11 +150,8 @@ pub(crate) fn perturbable(
         let contact = bodies.first().and_then(|body| body.scene.contact);
         Ok(Box::new(Bodies::new(setups?, contact).map_err(|failure| failure.to_string())?))
     }
-    match bodies.first().map_or(1, |body| body.scene.dimension()) {
-        1 => of::<1>(bodies, method, level),
-        2 => of::<2>(bodies, method, level),
-        _ => of::<3>(bodies, method, level),
-    }
+    let dimension = bodies.first().map_or(1, |body| body.scene.dimension());
+    with_dimension!(dimension, D => of::<D>(bodies, method, level))
 }
 
 fn solver<const D: usize>(

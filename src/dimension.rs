@@ -1,0 +1,24 @@
+//! The dimension ladder: a number of space dimensions becomes a constant that types can carry.
+
+/// Evaluates `$work` with the constant `$D` for `$dimension`, which is 1, 2 or 3 (anything above
+/// counts as 3): `with_dimension!(scene.dimension(), D => solve::<D>(scene))`. What is built over
+/// time as well takes `{ D + 1 }`.
+macro_rules! with_dimension {
+    ($dimension:expr, $D:ident => $work:expr) => {
+        match $dimension {
+            1 => {
+                const $D: usize = 1;
+                $work
+            }
+            2 => {
+                const $D: usize = 2;
+                $work
+            }
+            _ => {
+                const $D: usize = 3;
+                $work
+            }
+        }
+    };
+}
+pub(crate) use with_dimension;
