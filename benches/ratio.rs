@@ -170,20 +170,20 @@ fn flip(count: f64) {
     grid.velocity.fill_with(|| Vector::from_fn(|_, _| random.signed()));
     grid.acceleration.fill_with(|| Vector::from_fn(|_, _| random.signed()));
     let (velocity, acceleration) = (flat(&grid.velocity), flat(&grid.acceleration));
-    let (mut new_v, mut carried) = (v.clone(), v.clone());
-    let (mut ours_v, mut ours_carried) = (particles.v.clone(), particles.v.clone());
+    let (mut new_v, mut advected) = (v.clone(), v.clone());
+    let (mut ours_v, mut ours_advected) = (particles.v.clone(), particles.v.clone());
     let fields = (&*velocity, &*acceleration);
-    let mut plain = || linear_1d::g2p((H, 0.125), &x, fields, &mut new_v, &mut carried);
+    let mut plain = || linear_1d::g2p((H, 0.125), &x, fields, &mut new_v, &mut advected);
     let mut ours = || {
-        let (value, carried) = (Some(&mut *ours_v), Some((0.125, &mut *ours_carried)));
-        let takes = G2pRequest { change: Some(0.125), value, carried, ..G2pRequest::default() };
+        let (value, advected) = (Some(&mut *ours_v), Some((0.125, &mut *ours_advected)));
+        let takes = G2pRequest { change: Some(0.125), value, advected, ..G2pRequest::default() };
         kernel.g2p_all(black_box(&grid), &particles, takes);
     };
     plain();
     ours();
     compare("1d/linear/flip/g2p", total, &mut plain, &mut ours);
     same("1d/linear/flip/g2p", ours_v.iter().flatten(), new_v.iter());
-    same("1d/linear/flip/g2p", ours_carried.iter().flatten(), carried.iter());
+    same("1d/linear/flip/g2p", ours_advected.iter().flatten(), advected.iter());
 }
 
 fn main() {

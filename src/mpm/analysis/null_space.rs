@@ -10,7 +10,7 @@
 use crate::mpm::{
     algebra::Vector,
     grid::Grid,
-    kernel::contract::{Kernel, ParticleField},
+    kernel::{contract::Kernel, request::ParticleField},
     particles::Particles,
     solver::Solver,
 };

@@ -1,76 +1,18 @@
 //! The passes over particles and nodes of which transfers, mass matrices and effects are made.
 //!
-//! [`Kernel`] is object-safe: one virtual call per pass, none per particle. A pass computes the weights
-//! of a particle anew, so what is wanted of the same particles and nodes is best asked for in one:
-//! [`P2gRequest`] and [`G2pRequest`] say what, and each part has the bits that it would have alone.
+//! [`Kernel`] is object-safe: one virtual call per pass, none per particle.
 
-use super::{moments::Moments, scalar_contract::Scalars};
+use super::{
+    moments::Moments,
+    request::{Divergence, G2pRequest, P2gRequest, ParticleField},
+    scalar_contract::Scalars,
+};
 use crate::mpm::{
     algebra::{Matrix, Vector},
     basis::Domain,
     grid::Grid,
     particles::Particles,
 };
-
-/// The slope of the velocity field around each particle. `mean_p`, the weighted mean of the nodes, is
-/// where the particle is, but for domains that a wall cuts off; taken from there, the affine part
-/// carries no momentum.
-#[derive(Debug, Clone, Copy)]
-pub enum Affine<'a, const D: usize> {
-    /// `C_p` (1/s).
-    Slope(&'a [Matrix<D>]),
-    /// `C_p = B_p D_p^-1` by the first moment B_p (m^2/s); D_p is that of the weights where the
-    /// particle is.
-    Moment(&'a [Matrix<D>]),
-}
-
-/// A velocity field around each particle, `v_p + C_p (x - mean_p)`, as the particle shows it to
-/// the nodes it sees.
-#[derive(Debug, Clone, Copy)]
-pub struct ParticleField<'a, const D: usize> {
-    /// v_p (m/s).
-    pub v: &'a [Vector<D>],
-    /// C_p, if the field is not constant.
-    pub affine: Option<Affine<'a, D>>,
-}
-
-/// What makes a force of a stress.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Divergence {
-    /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
-    Gradient,
-    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N): the gradient of a
-    /// least-squares fit in place of that of the basis (Hu et al. 2018, eq. 18).
-    Fit,
-}
-
-/// What is mapped to the nodes in one pass.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct P2gRequest<'a, const D: usize> {
-    /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
-    pub mass: bool,
-    /// Momentum `sum_p m_p (v_p + C_p (x_i - mean_p)) N_i(x_p)` (kg m/s) into `grid.velocity`.
-    pub momentum: Option<ParticleField<'a, D>>,
-    /// Internal force (N) into `grid.force`.
-    pub force: Option<Divergence>,
-}
-
-/// What is taken from the nodes in one pass, from their velocities where nothing else is said.
-#[derive(Debug, Default)]
-pub struct G2pRequest<'a, const D: usize> {
-    /// `value_p += dt sum_i a_i N_i(x_p)` with `dt`, of the nodes' accelerations.
-    pub change: Option<f64>,
-    /// Then `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and `factor`.
-    pub mix: Option<(f64, f64)>,
-    /// The value that `change` and `mix` are about (m/s).
-    pub value: Option<&'a mut [Vector<D>]>,
-    /// `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
-    pub moment: Option<&'a mut [Matrix<D>]>,
-    /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
-    pub gradient: Option<&'a mut [Matrix<D>]>,
-    /// `carried_p = x_p + dt sum_i v_i N_i(x_p)` with `dt`: where the grid carries the particle (m).
-    pub carried: Option<(f64, &'a mut [Vector<D>])>,
-}
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {

@@ -2,8 +2,9 @@
 //! several things count as if each were alone.
 
 use super::{
-    contract::{Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField},
+    contract::Kernel,
     moments::Moments,
+    request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
@@ -97,7 +98,7 @@ impl<const D: usize> Kernel<D> for Counted<D> {
             ("g2p", takes.mix.is_some()),
             ("g2p moment", takes.moment.is_some()),
             ("g2p gradient", takes.gradient.is_some()),
-            ("g2p position", takes.carried.is_some()),
+            ("g2p position", takes.advected.is_some()),
         ] {
             self.tally.add(name, if wanted { particles.len() } else { 0 });
         }

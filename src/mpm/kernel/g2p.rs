@@ -2,7 +2,7 @@
 
 use super::{
     batch::{ALL, ParticleBatches, Several},
-    contract::G2pRequest,
+    request::G2pRequest,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
@@ -103,7 +103,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                 put::<B, _>(&mut taken.change[lane], patches.gather(width, lane, acceleration));
             }
         }
-        let mut is_summed = takes.mix.is_none() && takes.carried.is_none() && !beside;
+        let mut is_summed = takes.mix.is_none() && takes.advected.is_none() && !beside;
         if takes.moment.is_some() {
             patches.lever(width, &lanes, self.grid.h, mean);
             for lane in lanes.clone() {
@@ -165,10 +165,10 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                 put_columns(gradient, taken);
             }
         }
-        if let Some((dt, carried)) = &mut takes.carried {
+        if let Some((dt, advected)) = &mut takes.advected {
             let x = &self.particles.positions()[self.these.start + first..];
-            for ((carried, x), taken) in carried[first..].iter_mut().zip(x).zip(&taken.velocity) {
-                *carried = x + part::<D>(*taken * *dt, 0);
+            for ((advected, x), taken) in advected[first..].iter_mut().zip(x).zip(&taken.velocity) {
+                *advected = x + part::<D>(*taken * *dt, 0);
             }
         }
     }

@@ -3,9 +3,10 @@
 
 use super::{
     Loops,
-    contract::{Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField},
+    contract::Kernel,
     g2p::Gather,
     p2g::Scatter,
+    request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
     workspace::pack,
 };
 use crate::mpm::{
@@ -84,7 +85,7 @@ fn maps_together_are_maps_alone<B: Basis, const D: usize>(periodic: bool) {
 fn takes_together_are_takes_alone<B: Basis, const D: usize>(periodic: bool) {
     let kernel = Loops::<B>::default();
     let (grid, particles) = scene::<D>(&kernel, periodic);
-    let (mut v, mut carried) = (particles.v.clone(), particles.v.clone());
+    let (mut v, mut advected) = (particles.v.clone(), particles.v.clone());
     let (mut moment, mut gradient) = (particles.sigma.clone(), particles.sigma.clone());
     let takes = G2pRequest {
         change: Some(0.25),
@@ -92,19 +93,19 @@ fn takes_together_are_takes_alone<B: Basis, const D: usize>(periodic: bool) {
         value: Some(&mut v),
         moment: Some(&mut moment),
         gradient: Some(&mut gradient),
-        carried: Some((0.5, &mut carried)),
+        advected: Some((0.5, &mut advected)),
     };
     kernel.g2p_all(&grid, &particles, takes);
-    let (mut v1, mut carried1) = (particles.v.clone(), particles.v.clone());
+    let (mut v1, mut advected1) = (particles.v.clone(), particles.v.clone());
     let (mut moment1, mut gradient1) = (particles.sigma.clone(), particles.sigma.clone());
     kernel.g2p(&grid, &grid.acceleration, &particles, (1.0, 0.25), &mut v1);
     kernel.g2p(&grid, &grid.velocity, &particles, (0.75, 0.25), &mut v1);
-    kernel.g2p(&grid, &grid.velocity, &particles, (0.0, 1.0), &mut carried1);
+    kernel.g2p(&grid, &grid.velocity, &particles, (0.0, 1.0), &mut advected1);
     kernel.g2p_moment(&grid, &grid.velocity, &particles, &mut moment1);
     kernel.g2p_gradient(&grid, &grid.velocity, &particles, &mut gradient1);
     assert_eq!(bits(v.iter().flatten()), bits(v1.iter().flatten()), "velocity");
-    for (p, velocity) in carried1.iter().enumerate() {
-        assert_eq!(carried[p], particles.x[p] + velocity * 0.5);
+    for (p, velocity) in advected1.iter().enumerate() {
+        assert_eq!(advected[p], particles.x[p] + velocity * 0.5);
     }
     assert_eq!(bits(moment.iter().flatten()), bits(moment1.iter().flatten()), "moment");
     assert_eq!(bits(gradient.iter().flatten()), bits(gradient1.iter().flatten()), "gradient");
@@ -187,7 +188,7 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
             value: Some(&mut v),
             moment: Some(&mut sigma),
             gradient: Some(&mut gradient),
-            carried: None,
+            advected: None,
         });
         bits(v.iter().flatten().chain(sigma.iter().flatten()).chain(gradient.iter().flatten()))
     };

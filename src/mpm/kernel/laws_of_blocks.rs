@@ -4,7 +4,8 @@
 use super::{
     Loops,
     colouring::CHUNKS,
-    contract::{Affine, G2pRequest, Kernel, P2gRequest, ParticleField},
+    contract::Kernel,
+    request::{Affine, G2pRequest, P2gRequest, ParticleField},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
@@ -58,7 +59,7 @@ fn mapped<const D: usize>(
 ) -> Vec<f64> {
     let (mut grid, slope) = (grid.clone(), Affine::Slope(&particles.sigma));
     let momentum = Some(ParticleField { v: &particles.v, affine: Some(slope) });
-    let force = Some(super::contract::Divergence::Gradient);
+    let force = Some(super::request::Divergence::Gradient);
     kernel.p2g(particles, &P2gRequest { mass: true, momentum, force }, &mut grid);
     let vectors = grid.velocity.iter().chain(&grid.force).flatten();
     grid.mass.iter().chain(vectors).copied().collect()
@@ -70,18 +71,18 @@ fn taken<const D: usize>(
     particles: &Particles<D>,
 ) -> Vec<f64> {
     let (mut value, mut moment) = (particles.v.clone(), particles.sigma.clone());
-    let (mut gradient, mut carried) = (moment.clone(), value.clone());
+    let (mut gradient, mut advected) = (moment.clone(), value.clone());
     let takes = G2pRequest {
         change: Some(0.5),
         mix: Some((0.5, 0.5)),
         value: Some(&mut value),
         moment: Some(&mut moment),
         gradient: Some(&mut gradient),
-        carried: Some((0.5, &mut carried)),
+        advected: Some((0.5, &mut advected)),
     };
     kernel.g2p_all(grid, particles, takes);
     let matrices = moment.iter().chain(&gradient).flatten();
-    value.iter().chain(&carried).flatten().chain(matrices).copied().collect()
+    value.iter().chain(&advected).flatten().chain(matrices).copied().collect()
 }
 
 fn bits(numbers: &[f64]) -> Vec<u64> {

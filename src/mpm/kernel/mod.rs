@@ -9,6 +9,7 @@ pub(crate) mod contract;
 pub(crate) mod counting;
 pub(crate) mod counting_scalars;
 pub(crate) mod moments;
+pub(crate) mod request;
 pub(crate) mod scalar_contract;
 
 mod batch;
@@ -33,8 +34,9 @@ use super::{
     packed_grid::Columns,
     particles::Particles,
 };
-use contract::{G2pRequest, Kernel, P2gRequest, ParticleField};
+use contract::Kernel;
 use moments::{InertiaTensor, Moments};
+use request::{G2pRequest, P2gRequest, ParticleField};
 use std::{
     marker::PhantomData,
     sync::{Mutex, MutexGuard, PoisonError},

@@ -2,8 +2,8 @@
 
 use super::{
     batch::{ParticleBatches, Several},
-    contract::{Affine, Divergence, P2gRequest},
     moments::InertiaTensor,
+    request::{Affine, Divergence, P2gRequest},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array},

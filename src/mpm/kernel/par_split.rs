@@ -1,6 +1,6 @@
 //! Particles that take from nodes, shared by halves among threads: none waits for another.
 
-use super::contract::G2pRequest;
+use super::request::G2pRequest;
 use crate::mpm::{
     simd::LANES,
     threads::{both, split},
@@ -17,19 +17,19 @@ impl<const D: usize> G2pRequest<'_, D> {
         let value = split(self.value, count);
         let moment = split(self.moment, count);
         let gradient = split(self.gradient, count);
-        let (dt, carried) = self.carried.unzip();
-        let carried = split(carried, count);
-        let part = |value, moment, gradient, carried| Self {
+        let (dt, advected) = self.advected.unzip();
+        let advected = split(advected, count);
+        let part = |value, moment, gradient, advected| Self {
             change,
             mix,
             value,
             moment,
             gradient,
-            carried: dt.zip(carried),
+            advected: dt.zip(advected),
         };
         (
-            part(value.0, moment.0, gradient.0, carried.0),
-            part(value.1, moment.1, gradient.1, carried.1),
+            part(value.0, moment.0, gradient.0, advected.0),
+            part(value.1, moment.1, gradient.1, advected.1),
         )
     }
 }

@@ -2,11 +2,11 @@
 
 use super::{
     colouring::{Block, Blocks},
-    contract::{G2pRequest, P2gRequest},
     g2p::{Gather, are_beside},
     p2g::{Scatter, has_one_field},
     par_split::halves,
     parallel::{Target, share},
+    request::{G2pRequest, P2gRequest},
 };
 use crate::mpm::{
     algebra::Vector,

@@ -16,8 +16,9 @@ use crate::{
         boundary::Boundary,
         grid::Grid,
         kernel::{
-            contract::{Affine, Kernel, ParticleField},
+            contract::Kernel,
             moments::Moments,
+            request::{Affine, ParticleField},
         },
         particles::Particles,
     },

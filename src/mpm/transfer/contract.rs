@@ -6,7 +6,10 @@ use crate::{
         algebra::{Matrix, Vector},
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Divergence, Kernel, P2gRequest, ParticleField},
+        kernel::{
+            contract::Kernel,
+            request::{Divergence, P2gRequest, ParticleField},
+        },
         particles::Particles,
     },
     subject::{Checkpoint, Column},

@@ -12,7 +12,10 @@ use crate::{
         algebra::Matrix,
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Divergence, Kernel, ParticleField},
+        kernel::{
+            contract::Kernel,
+            request::{Divergence, ParticleField},
+        },
         particles::Particles,
     },
     subject::Column,

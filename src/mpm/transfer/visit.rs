@@ -5,7 +5,7 @@ use crate::mpm::{
     algebra::Vector,
     boundary::Boundary,
     grid::Grid,
-    kernel::contract::{G2pRequest, Kernel},
+    kernel::{contract::Kernel, request::G2pRequest},
     particles::Particles,
 };
 
@@ -43,7 +43,7 @@ pub fn g2p<const D: usize>(
         value: Some(&mut v),
         moment,
         gradient: also.gradient.then_some(&mut grad_v),
-        carried: also.carried.map(|carried| (dt, carried)),
+        advected: also.carried.map(|carried| (dt, carried)),
     };
     kernel.g2p_all(grid, particles, takes);
     (particles.v, particles.grad_v) = (v, grad_v);
@@ -65,8 +65,8 @@ pub(in crate::mpm) fn rest<const D: usize>(
     if gradient || also.carried.is_some() {
         let mut grad_v = std::mem::take(&mut particles.grad_v);
         let gradient = gradient.then_some(&mut *grad_v);
-        let carried = also.carried.map(|carried| (dt, carried));
-        let takes = G2pRequest { gradient, carried, ..G2pRequest::default() };
+        let advected = also.carried.map(|carried| (dt, carried));
+        let takes = G2pRequest { gradient, advected, ..G2pRequest::default() };
         kernel.g2p_all(grid, particles, takes);
         particles.grad_v = grad_v;
     }

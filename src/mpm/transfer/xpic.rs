@@ -12,7 +12,7 @@ use crate::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::contract::{Kernel, ParticleField},
+        kernel::{contract::Kernel, request::ParticleField},
         particles::Particles,
     },
     subject::Column,

@@ -1,0 +1,65 @@
+//! The parts of one pass over particles and nodes.
+//!
+//! A pass computes the weights of a particle anew, so that all parts for the same particles and nodes
+//! share one pass; each part has the bits that it would have alone.
+
+use crate::mpm::algebra::{Matrix, Vector};
+
+/// Slope of the velocity field around each particle. `mean_p` is the weighted mean of the nodes:
+/// the position of the particle, except for domains cut off by a wall. Taken from there, the affine
+/// part has no momentum.
+#[derive(Debug, Clone, Copy)]
+pub enum Affine<'a, const D: usize> {
+    /// `C_p` (1/s).
+    Slope(&'a [Matrix<D>]),
+    /// `C_p = B_p D_p^-1` by the first moment B_p (m^2/s); D_p is that of the weights at the
+    /// particle's position.
+    Moment(&'a [Matrix<D>]),
+}
+
+/// Velocity field around each particle, `v_p + C_p (x - mean_p)`.
+#[derive(Debug, Clone, Copy)]
+pub struct ParticleField<'a, const D: usize> {
+    /// v_p (m/s).
+    pub v: &'a [Vector<D>],
+    /// C_p; none for a constant field.
+    pub affine: Option<Affine<'a, D>>,
+}
+
+/// Discrete divergence of the stress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Divergence {
+    /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
+    Gradient,
+    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N): the gradient of a
+    /// least-squares fit in place of that of the basis (Hu et al. 2018, eq. 18).
+    Fit,
+}
+
+/// Parts of one pass of P2G.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct P2gRequest<'a, const D: usize> {
+    /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
+    pub mass: bool,
+    /// Momentum `sum_p m_p (v_p + C_p (x_i - mean_p)) N_i(x_p)` (kg m/s) into `grid.velocity`.
+    pub momentum: Option<ParticleField<'a, D>>,
+    /// Internal force (N) into `grid.force`.
+    pub force: Option<Divergence>,
+}
+
+/// Parts of one pass of G2P, from nodal velocities except where stated.
+#[derive(Debug, Default)]
+pub struct G2pRequest<'a, const D: usize> {
+    /// `value_p += dt sum_i a_i N_i(x_p)` with `dt` (s), from nodal accelerations.
+    pub change: Option<f64>,
+    /// Then `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and `factor`.
+    pub mix: Option<(f64, f64)>,
+    /// Target of `change` and `mix` (m/s).
+    pub value: Option<&'a mut [Vector<D>]>,
+    /// `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
+    pub moment: Option<&'a mut [Matrix<D>]>,
+    /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
+    pub gradient: Option<&'a mut [Matrix<D>]>,
+    /// Position after `dt` (s), `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
+    pub advected: Option<(f64, &'a mut [Vector<D>])>,
+}
