@@ -4,11 +4,11 @@
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const IMPACT: &str = include_str!("../../verification/two-bar-impact.yaml");
-const DISKS: &str = include_str!("../../verification/two-disks.yaml");
-const HALVES: &str = include_str!("../../verification/vibrating-bar-of-two.yaml");
+const IMPACT: &str = include_str!("../../../verification/two-bar-impact.yaml");
+const DISKS: &str = include_str!("../../../verification/two-disks.yaml");
+const HALVES: &str = include_str!("../../../verification/vibrating-bar-of-two.yaml");
 
-const VISCOUS: &str = include_str!("../../verification/artificial-viscosity-linear.yaml");
+const VISCOUS: &str = include_str!("../../../verification/artificial-viscosity-linear.yaml");
 
 #[test]
 fn sound() {

@@ -1,9 +1,7 @@
 //! Whole steps of a body that nothing holds.
 
-use crate::{
-    common::{DT, free_body, in_dimension},
-    conservative, some,
-};
+use super::{conservative, some};
+use crate::common::{DT, free_body, in_dimension};
 use approx::assert_abs_diff_eq;
 use mpm_verify::{
     mpm::{Damping, Gravity, Matrix, Particles, SchemeName, Solver, Vector},

@@ -1,9 +1,7 @@
 //! The hot loop allocates nothing, and what a solver says that it keeps is what the heap holds.
 
-mod common;
-
+use crate::common::{DT, H, free_body, in_dimension, methods};
 use allocation_counter::measure;
-use common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::{
     exact::{
         Equation, Forcing, Motion, Problem,

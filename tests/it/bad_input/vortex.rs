@@ -93,7 +93,7 @@ fn the_published_force_is_refused() {
     let shown = load(&text).expect_err("a wrong sign").to_string();
     let message = shown.lines().next().expect("a message");
     assert!(
-        include_str!("../../README.md").contains(message),
+        include_str!("../../../README.md").contains(message),
         "README.md quotes another message than\n{message}"
     );
 }

@@ -1,10 +1,8 @@
 //! Several bodies on one grid: what they share, what they keep, and how they push each other.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod viscosity;
 
-use common::{DT, H, free_body, in_dimension, methods};
+use crate::common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
         BasisName, Block, Bodies, Kind, LinearElastic, Matrix, Particles, SchemeName, Setup,

@@ -1,5 +1,8 @@
 //! What the invariants tests share: a free body in motion, in any number of dimensions.
 
+pub(crate) mod columns;
+pub(crate) mod interrupted;
+
 use mpm_verify::{
     mpm::{
         BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,

@@ -1,15 +1,9 @@
 //! The same set-up gives the same bits, whoever computes it, what else runs meanwhile, and if it is
 //! interrupted on the way.
 
-#[path = "common/columns.rs"]
-mod columns;
-mod common;
-#[path = "common/interrupted.rs"]
-mod interrupted;
-
-use columns::columns;
-use common::{DT, H, free_body, in_dimension, methods, pairs};
-use interrupted::goes_on;
+use crate::common::{
+    DT, H, columns::columns, free_body, in_dimension, interrupted::goes_on, methods, pairs,
+};
 use mpm_verify::{
     mpm::{
         BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver,

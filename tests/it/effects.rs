@@ -1,15 +1,9 @@
 //! Only the effects that a scene lists are simulated: what is not listed is not computed and not
 //! stored, and what is listed adds what the README says, verified by the suites that it names.
 
-#[path = "common/columns.rs"]
-mod columns;
-mod common;
-#[path = "common/interrupted.rs"]
-mod interrupted;
-
-use columns::columns;
-use common::{DT, H, free_body, in_dimension, methods};
-use interrupted::goes_on;
+use crate::common::{
+    DT, H, columns::columns, free_body, in_dimension, interrupted::goes_on, methods,
+};
 use mpm_verify::{
     mpm::{
         ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Driven,
@@ -241,7 +235,7 @@ fn has_wall(suite: &str, name: &str) -> bool {
 
 /// The README's rows begin as `rows` say, and end with suites of which each `verifies`.
 fn are_in_the_readme(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> bool) {
-    let readme = include_str!("../README.md");
+    let readme = include_str!("../../README.md");
     for (name, row) in rows {
         let found = readme.lines().find_map(|line| line.strip_prefix(row.as_str()));
         let suites = found.unwrap_or_else(|| {

@@ -1,9 +1,7 @@
 //! Bodies between walls, and on axes that have none.
 
-use crate::{
-    common::{DT, H, free_body, in_dimension},
-    conservative, some,
-};
+use super::{conservative, some};
+use crate::common::{DT, H, free_body, in_dimension};
 use mpm_verify::{
     mpm::{
         BasisName, Block, Driven, Fixed, Gravity, Matrix, Particles, Prescribed, Roller,

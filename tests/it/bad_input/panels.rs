@@ -4,7 +4,7 @@
 use super::{Edits, refused, samples::PLATE};
 use rstest::rstest;
 
-const COOK: &str = include_str!("../../verification/cooks-membrane.yaml");
+const COOK: &str = include_str!("../../../verification/cooks-membrane.yaml");
 
 #[rstest]
 #[case::of_three_corners(

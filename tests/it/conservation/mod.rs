@@ -1,8 +1,5 @@
 //! What a step keeps, what it gives exactly, and what it says when it cannot go on.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 mod angular;
 mod failure;
 mod hostile;
@@ -11,7 +8,7 @@ mod single_particle;
 mod transfer;
 mod walls;
 
-use common::{methods, pairs};
+use crate::common::{methods, pairs};
 use mpm_verify::mpm::{BasisName, TransferName};
 
 /// Taylor least squares keeps the momentum of every cell in P2G, but its nodal masses are not those

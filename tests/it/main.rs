@@ -1,0 +1,13 @@
+//! Every test of the library and of the program from outside, in one binary.
+
+mod allocation;
+mod bad_input;
+mod bodies;
+mod cli;
+mod closed_forms;
+mod common;
+mod conservation;
+mod determinism;
+mod effects;
+mod motions;
+mod pitfalls;
