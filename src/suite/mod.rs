@@ -15,8 +15,8 @@ pub(crate) mod grammar;
 pub(crate) mod model;
 pub mod yaml;
 
-pub use compile::scene::boundary::BoundaryCondition;
 pub use grammar::{CrossingLevels, EquationName, NormName};
+pub use model::boundary::BoundaryCondition;
 pub use model::heat::SceneHeat;
 pub use model::method::Method;
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};

@@ -6,10 +6,7 @@ use crate::{
         BasisName, Boundary, Driven, Effect, Fixed, Friction, Grid, Particles, Prescribed, Roller,
         SetForce, Side, Vector, VelocityField,
     },
-    suite::{
-        compile::scene::boundary::BoundaryCondition,
-        model::{Scene, SceneFace},
-    },
+    suite::model::{Scene, SceneFace, boundary::BoundaryCondition},
 };
 
 /// Which end of its axis a face is.

@@ -2,16 +2,13 @@
 
 use super::{
     bar::bar,
-    seeding,
     setup::{Body, conductor, plain, setup},
 };
 use crate::{
     dimension::with_dimension,
     mpm::{BasisName, Bodies, Counted, Kernel, Setup, Solver, Tally, Vector},
     subject::{Failure, Perturbable, Profile, Subject},
-    suite::model::{
-        ConvergencePlan, Scene, grid_size::grid_axis, method::Method, refine_plan::LevelPlan,
-    },
+    suite::model::{ConvergencePlan, method::Method, refine_plan::LevelPlan},
 };
 use std::sync::Arc;
 
@@ -77,16 +74,6 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         Method::Heat { basis } => of_heat::<D>(plan, basis, level),
         Method::Mpm { .. } => of_second_step::<D>(plan, method, level),
     })
-}
-
-/// Whether a level with cells of size `h` has no particle of some round body.
-pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
-    fn vacant<const D: usize>(scene: &Scene, h: f64, per_axis: usize) -> bool {
-        let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
-        let mut round = scene.each().iter().filter(|body| body.round.is_some());
-        round.any(|body| seeding::is_empty(body, &origin, h, per_axis))
-    }
-    with_dimension!(scene.dimension(), D => vacant::<D>(scene, h, per_axis))
 }
 
 /// The longest step (s) that is predicted to be safe for `method` on one level, from so many rounds of an

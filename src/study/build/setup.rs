@@ -3,9 +3,7 @@
 use super::{
     conditions::{boundary, of_place_and_time, of_time, on_sets, periodic},
     initial_state::Initial,
-    seeding,
-    seeding::Placed,
-    thermal,
+    seeding, thermal,
 };
 use crate::{
     exact::{
@@ -24,6 +22,7 @@ use crate::{
             grid_size::{cell_size, grid_axis, per_axis},
             method::Method,
             refine_plan::LevelPlan,
+            stability::LatticeEdits,
         },
     },
     verify::Quantity,
@@ -46,7 +45,7 @@ pub(crate) struct Body<'a> {
     /// Whether F is kept whoever reads it.
     pub(crate) keeps_deformation: bool,
     /// Particles that are not where the lattice has them.
-    pub(crate) placed: Placed,
+    pub(crate) lattice: LatticeEdits,
 }
 
 impl<'a> Body<'a> {
@@ -59,7 +58,7 @@ impl<'a> Body<'a> {
             manufactured: plan.manufactured(),
             heat: plan.heat_problem(),
             keeps_deformation: plan.of == Quantity::DeformationGradient,
-            placed: Placed::default(),
+            lattice: LatticeEdits::default(),
         }
     }
 }
@@ -82,7 +81,7 @@ pub(crate) fn setup<const D: usize>(
     let kernel = kernel::<D>(basis);
     let grid = grid(scene, h, kernel.as_ref());
     let mut particles = seeding::particles(body.own, &grid.origin, h, per_axis);
-    body.placed.put(&mut particles);
+    body.lattice.apply(&mut particles);
     if body.keeps_deformation {
         particles.track_deformation();
     }

@@ -7,3 +7,4 @@ pub(crate) mod probe;
 pub(crate) mod reference;
 pub(crate) mod runner;
 pub(crate) mod small_step_reference;
+pub(crate) mod stable_step;

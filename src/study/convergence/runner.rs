@@ -6,6 +6,7 @@ use super::{
     probe,
     reference::Reference,
     small_step_reference::FineSteps,
+    stable_step::StableSteps,
 };
 use crate::{
     exact::{Problem, Truth},
@@ -14,7 +15,7 @@ use crate::{
         internal_force::case::internal_force, stability::run as stability,
     },
     suite::{
-        compile::{run::step_rule::Steps, truth::conservation_only::Unknown},
+        compile::truth::conservation_only::Unknown,
         grammar::CrossingLevels,
         model::{
             Against, Case, ConvergencePlan, StudyPlan, Suite,
@@ -39,7 +40,7 @@ pub struct Runner<'a> {
     extent: Extent,
     kept: Option<&'a ResultCache>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
-    steps: Steps,
+    steps: StableSteps,
 }
 
 impl<'a> Runner<'a> {
@@ -57,7 +58,7 @@ impl<'a> Runner<'a> {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
-        Self { suite, extent, kept: None, references, steps: Steps::default() }
+        Self { suite, extent, kept: None, references, steps: StableSteps::default() }
     }
 
     /// Keeps finished levels, and takes those that have been kept.

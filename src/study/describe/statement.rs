@@ -5,12 +5,10 @@ use crate::{
     exact::formula::Formula,
     mpm::{MaterialPlan, Parameter},
     suite::{
-        compile::{
-            load::surface, scene::boundary::BoundaryCondition, truth::conservation_only,
-            wording::shown,
-        },
+        compile::{load::surface, truth::conservation_only, wording::shown},
         model::{
             Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite,
+            boundary::BoundaryCondition,
             refine_plan::{LevelPlan, RefinePlan},
         },
     },

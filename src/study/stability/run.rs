@@ -9,13 +9,11 @@ use crate::{
             setup::Body,
         },
         cache::results::ResultCache,
+        convergence::stable_step::ROUNDS,
     },
     subject::{Perturbable, Subject},
     suite::{
-        compile::{
-            run::step_rule::ROUNDS,
-            stability::recipe::{Setting, Values},
-        },
+        compile::stability::recipe::{Setting, Values},
         model::{
             method::Method,
             refine_plan::Extent,
@@ -243,7 +241,7 @@ fn bodies(setting: &Setting) -> Vec<Body<'_>> {
         manufactured: None,
         heat: None,
         keeps_deformation: false,
-        placed: setting.placed.clone(),
+        lattice: setting.lattice.clone(),
     };
     setting.scene.each().iter().map(body).collect()
 }

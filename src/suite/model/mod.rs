@@ -1,9 +1,11 @@
 //! A suite whose every word has been checked and every number computed.
 
+pub(crate) mod boundary;
 pub(crate) mod fingerprint;
 pub(crate) mod grid_size;
 pub(crate) mod heat;
 pub(crate) mod internal_force;
+pub(crate) mod lattice;
 pub(crate) mod method;
 pub(crate) mod nature;
 pub(crate) mod refine_plan;
@@ -11,11 +13,11 @@ pub(crate) mod stability;
 
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 
-use self::{heat::SceneHeat, method::Method, refine_plan::RefinePlan, stability::StabilityPlan};
-use super::{
-    compile::scene::boundary::BoundaryCondition,
-    grammar::{CrossingLevels, EquationName, NormName},
+use self::{
+    boundary::BoundaryCondition, heat::SceneHeat, method::Method, refine_plan::RefinePlan,
+    stability::StabilityPlan,
 };
+use super::grammar::{CrossingLevels, EquationName, NormName};
 use crate::{
     exact::{Expansion, Problem, Region, Round, formula::Formula, heat::Conduction},
     fem::{Element, Mass},

@@ -32,6 +32,15 @@ pub(crate) struct Recipe {
     pub(crate) words: StabilitySpec,
 }
 
+/// Changes to the lattice of particles before a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct LatticeEdits {
+    /// Translation of all particles (m), one number for each axis; empty: none.
+    pub(crate) shift: Vec<f64>,
+    /// Positions of further particles (m), each like the first particle of the lattice.
+    pub(crate) extra: Vec<Vec<f64>>,
+}
+
 /// One case of a stability study.
 #[derive(Debug, Clone)]
 pub struct StabilityCase {

@@ -1,9 +1,9 @@
 //! What the FEM bar cannot do: refused before anything runs.
 
 use crate::suite::{
-    compile::{evaluator::Evaluator, path::Path, scene::boundary::BoundaryCondition},
+    compile::{evaluator::Evaluator, path::Path},
     grammar::ConvergenceSpec,
-    model::Scene,
+    model::{Scene, boundary::BoundaryCondition},
     yaml::Diagnostic,
 };
 

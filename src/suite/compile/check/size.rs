@@ -1,20 +1,16 @@
 //! Whether every level fits into a machine, and has nodes where a face is held.
 
-use crate::{
-    study::build::dispatch::is_vacant,
-    suite::{
-        compile::{
-            evaluator::Evaluator, path::Path, run::refine::Place,
-            scene::boundary::BoundaryCondition, wording::shown,
-        },
-        grammar::{ConvergenceSpec, MethodSpec},
-        model::{
-            ConvergencePlan, Scene,
-            grid_size::{cell_size, grid_axis, per_axis},
-            refine_plan::LevelPlan,
-        },
-        yaml::Diagnostic,
+use crate::suite::{
+    compile::{evaluator::Evaluator, path::Path, run::refine::Place, wording::shown},
+    grammar::{ConvergenceSpec, MethodSpec},
+    model::{
+        ConvergencePlan, Scene,
+        boundary::BoundaryCondition,
+        grid_size::{cell_size, grid_axis, per_axis},
+        lattice::is_vacant,
+        refine_plan::LevelPlan,
     },
+    yaml::Diagnostic,
 };
 
 /// Most particles, and most nodes, of one level.

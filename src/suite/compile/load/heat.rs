@@ -8,13 +8,11 @@ use crate::{
     mpm::{FrameName, Kind},
     suite::{
         compile::{
-            coordinates::coordinates_and_time,
-            evaluator::Evaluator,
-            path::Path,
-            scene::boundary::{BoundaryCondition, face},
+            coordinates::coordinates_and_time, evaluator::Evaluator, path::Path,
+            scene::boundary::face,
         },
         grammar::{ConvergenceSpec, HeatSpec, MethodSpec, ThermalSpec},
-        model::{Scene, SceneFace, heat::SceneHeat},
+        model::{Scene, SceneFace, boundary::BoundaryCondition, heat::SceneHeat},
         yaml::{Diagnostic, NumberText, OneOrMany},
     },
 };

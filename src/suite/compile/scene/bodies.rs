@@ -3,13 +3,12 @@
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the loads
 //! are those of the scene: they act on every body.
 
-use super::boundary::BoundaryCondition;
 use crate::{
     mpm::MaterialSpec,
     suite::{
         compile::{evaluator::Evaluator, path::Path, wording::shown},
         grammar::{BodySpec, LoadSpec, OneBodySpec, SceneSpec},
-        model::Scene,
+        model::{Scene, boundary::BoundaryCondition},
         yaml::{Diagnostic, NumberText},
     },
 };

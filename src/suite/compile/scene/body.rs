@@ -1,7 +1,6 @@
 //! Boxes and bodies that are not boxes, from words.
 
 use super::{
-    boundary::BoundaryCondition,
     lengths::{LONGEST, SHORTEST},
     quadrilateral::quadrilateral,
 };
@@ -11,7 +10,7 @@ use crate::{
     suite::{
         compile::{evaluator::Evaluator, path::Path, truth::law, wording::shown},
         grammar::{AnnulusSpec, BodySpec, BoxSpec, LoadSpec, RoundSpec, SceneSpec},
-        model::{Scene, SceneFace},
+        model::{Scene, SceneFace, boundary::BoundaryCondition},
         yaml::{Diagnostic, NumberText},
     },
 };

@@ -3,7 +3,6 @@
 //! No stage of mechanics runs and no column of it is kept, so that every word about motion is
 //! refused.
 
-use super::boundary::BoundaryCondition;
 use crate::{
     exact::heat::Conduction,
     suite::{
@@ -14,7 +13,7 @@ use crate::{
             truth::exact,
         },
         grammar::{ConvergenceSpec, ExactSpec, LoadSpec, MethodSpec, SceneSpec},
-        model::{Scene, SceneFace},
+        model::{Scene, SceneFace, boundary::BoundaryCondition},
         yaml::Diagnostic,
     },
     verify::Quantity,

@@ -5,7 +5,6 @@
 
 use super::scales::scales;
 use crate::{
-    study::build::seeding::Placed,
     suite::{
         compile::{
             check::size, evaluator::Evaluator, path::Path, run::step_rule, scene::scene,
@@ -14,9 +13,10 @@ use crate::{
         grammar::StabilitySpec,
         model::{
             Scene,
+            boundary::BoundaryCondition,
             grid_size::{cell_size, grid_axis, per_axis},
             refine_plan::LevelPlan,
-            stability::Recipe,
+            stability::{LatticeEdits, Recipe},
         },
         yaml::{Diagnostic, NumberText},
     },
@@ -33,7 +33,7 @@ pub(crate) type Values<'a> = [(&'a str, f64)];
 #[derive(Debug, Clone)]
 pub(crate) struct Setting {
     pub(crate) scene: Scene,
-    pub(crate) placed: Placed,
+    pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
     /// Lengths of the steps (s), which take turns.
     pub(crate) dt: Vec<f64>,
@@ -115,7 +115,7 @@ pub(crate) fn setting(
         evaluator.count(&run.then("full_steps"), text, "the number of steps")
     });
     let setting = Setting {
-        placed: placed(evaluator, words, &scene, h)?,
+        lattice: lattice(evaluator, words, &scene, h)?,
         level,
         dt: steps_of,
         rule,
@@ -149,12 +149,12 @@ fn turns(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<usize, Diag
     Ok(every as usize)
 }
 
-fn placed(
+fn lattice(
     evaluator: &Evaluator<'_>,
     words: &StabilitySpec,
     scene: &Scene,
     h: f64,
-) -> Result<Placed, Diagnostic> {
+) -> Result<LatticeEdits, Diagnostic> {
     let (path, d) = (Path::top("particles"), scene.dimension());
     if !(scene.bodies.is_empty() || words.particles.extra.is_empty()) {
         let message = "a further particle is of one body, and the scene has several";
@@ -177,7 +177,7 @@ fn placed(
         }
         extra.push(place);
     }
-    Ok(Placed { shift: shift.unwrap_or_default(), extra })
+    Ok(LatticeEdits { shift: shift.unwrap_or_default(), extra })
 }
 
 fn perturbation(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<f64, Diagnostic> {
@@ -197,9 +197,7 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
         || scene.damping.is_some()
         || scene.faces.iter().any(|face| face.traction.is_some())
         || !scene.sets.is_empty();
-    let driven = scene.faces.iter().any(|f| {
-        matches!(f.hold, crate::suite::compile::scene::boundary::BoundaryCondition::Velocity(_))
-    });
+    let driven = scene.faces.iter().any(|f| matches!(f.hold, BoundaryCondition::Velocity(_)));
     let moves = scene
         .each()
         .iter()

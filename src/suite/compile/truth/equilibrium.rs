@@ -4,12 +4,9 @@
 //! end of the run.
 
 use crate::suite::{
-    compile::{
-        coordinates::COORDINATES, evaluator::Evaluator, path::Path,
-        scene::boundary::BoundaryCondition,
-    },
+    compile::{coordinates::COORDINATES, evaluator::Evaluator, path::Path},
     grammar::{ConvergenceSpec, ExactSpec, NormName},
-    model::Scene,
+    model::{Scene, boundary::BoundaryCondition},
     yaml::Diagnostic,
 };
 

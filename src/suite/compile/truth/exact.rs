@@ -9,10 +9,10 @@ use crate::{
             evaluator::Evaluator,
             load::{heat, heat::Rest},
             path::Path,
-            scene::{boundary::BoundaryCondition, quadrilateral::refuse_truth},
+            scene::quadrilateral::refuse_truth,
         },
         grammar::{ConvergenceSpec, EquationName, ExactSpec},
-        model::{Scene, SceneFace},
+        model::{Scene, SceneFace, boundary::BoundaryCondition},
         yaml::{Diagnostic, NumberText},
     },
 };
