@@ -5,17 +5,25 @@
 //! source   files -> modules, without what is compiled for tests only
 //! import   words -> the paths that a file names
 //! graph    paths -> which file imports which; cycles
-//! rules    the rules, each with its reason
+//! rules    the rules about imports and code, each with its reason
+//! words    old words, names of types, folders, comments
+//!
+//! markdown   text -> headings, links, spans of code, fenced blocks
+//! documents  what they say that the repository does not have
 //! ```
 //!
-//! [`synthetic`] holds the scanner itself to small crates with planted breaches.
+//! [`synthetic`] and [`planted`] hold the scanners themselves to small texts with planted breaches.
 
+mod documents;
 mod graph;
 mod import;
+mod markdown;
+mod planted;
 mod rules;
 mod source;
 mod synthetic;
 mod token;
+mod words;
 
 use rules::Breach;
 
@@ -53,7 +61,7 @@ fn in_words(cycle: &[&graph::Edge]) -> String {
 #[test]
 fn imports_stay_within_the_walls() {
     let edges = graph::edges(&source::of_crate());
-    for wall in &rules::WALLS {
+    for wall in rules::WALLS {
         let rule = match wall.may {
             [] => format!("`{}` imports no other part of the crate", wall.around),
             may => format!("`{}` imports only itself and {}", wall.around, may.join(", ")),
@@ -65,8 +73,8 @@ fn imports_stay_within_the_walls() {
 #[test]
 fn walls_and_exceptions_are_about_files_that_exist() {
     let sources = source::of_crate();
-    for wall in &rules::WALLS {
-        let inside = sources.iter().any(|s| s.module.first().is_some_and(|p| p == wall.around));
+    for wall in rules::WALLS {
+        let inside = sources.iter().any(|source| rules::is_in(&source.module, wall.around));
         assert!(inside, "there is a rule about `{}`, which is not in src/", wall.around);
     }
     for (file, reason) in rules::LONGER {
@@ -151,5 +159,71 @@ fn results_have_the_same_bits_everywhere() {
         "it rounds once where the formula as written rounds twice, so a change between the two \
          changes the bits of every stored result",
         &rules::fused(&sources),
+    );
+}
+
+/// Folders and documents whose words, names and comments are being rewritten.
+const BEING_REWRITTEN: &[&str] =
+    &["src/", "DESIGN.md", "README.md", "CONTRIBUTING.md", "benches/ROOFLINE.md"];
+
+/// Like [`hold`], but for what stands in folders that are being rewritten.
+fn hold_elsewhere(rule: &str, why: &str, mut breaches: Vec<Breach>) {
+    breaches.retain(|breach| !BEING_REWRITTEN.iter().any(|room| breach.file.starts_with(room)));
+    hold(rule, why, &breaches);
+}
+
+#[test]
+fn old_words_stay_away() {
+    let mut breaches = words::old(&source::of_crate());
+    breaches.extend(words::old_files(&source::paths("src")));
+    hold_elsewhere(
+        "types, functions, fields and files have the words of the field (tests/architecture/words.rs)",
+        "a reader who knows the field finds them by searching for the words of the field",
+        breaches,
+    );
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    hold_elsewhere(
+        "no two files of src/ define a type of the same name",
+        "who reads the name would have to look up which of them is meant",
+        words::twice(&source::of_crate(), words::TWICE),
+    );
+}
+
+#[test]
+fn folders_are_small() {
+    hold(
+        "a folder under src/ holds at most 20 files",
+        "more is a list that nobody reads: it has rooms that are not yet folders",
+        &words::crowded(&source::paths("src")),
+    );
+}
+
+#[test]
+fn comments_are_short_and_name_the_thing() {
+    hold_elsewhere(
+        "no doc comment begins with \"What\", and no line of a comment is longer than 100 columns",
+        "a noun phrase says what the thing is, and can be searched for",
+        words::comments(&source::texts("src", ".rs")),
+    );
+}
+
+fn documents() -> Vec<markdown::Document> {
+    let texts = source::texts("", ".md");
+    texts.iter().map(|(file, text)| markdown::Document::new(file, text)).collect()
+}
+
+#[test]
+fn documents_speak_of_what_is_there() {
+    let manifest = &source::texts("", "Cargo.toml").remove(0).1;
+    let has = documents::Repository::new(&source::paths(""), &source::texts("", ".rs"), manifest);
+    let documents = documents();
+    let stale = documents.iter().flat_map(|document| documents::stale(document, &documents, &has));
+    hold_elsewhere(
+        "paths, links, names of the crate, commands and JSON in documents exist",
+        "a document that says what is no longer there costs its reader more than none",
+        stale.collect::<Vec<_>>(),
     );
 }

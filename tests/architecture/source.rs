@@ -20,21 +20,39 @@ pub(crate) struct Source {
 
 /// Reads the crate: every file of `src/` but those that are compiled for tests only.
 pub(crate) fn of_crate() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
-    collect(root, "src", &mut files);
-    of_files(&files)
+    of_files(&texts("src", ".rs"))
 }
 
-fn collect(root: &Path, folder: &str, files: &mut Vec<(String, String)>) {
-    for entry in fs::read_dir(root.join(folder)).expect("src/ can be listed") {
-        let entry = entry.expect("src/ can be listed");
-        let file = format!("{folder}/{}", entry.file_name().to_str().expect("a UTF-8 name"));
-        if entry.path().is_dir() {
-            collect(root, &file, files);
-        } else if entry.path().extension().is_some_and(|end| end == "rs") {
-            let text = fs::read_to_string(entry.path()).expect("a source file is readable text");
-            files.push((file, text));
+/// Paths from the root of the repository and texts of the files below `folder` (`""` for all of it)
+/// whose names end in `end`, without what is built.
+pub(crate) fn texts(folder: &str, end: &str) -> Vec<(String, String)> {
+    let files = paths(folder).into_iter().filter(|file| file.ends_with(end));
+    let read = |file: &String| fs::read_to_string(root().join(file)).expect("a readable text");
+    files.map(|file| (file.clone(), read(&file))).collect()
+}
+
+/// Paths of all files below `folder`, in order.
+pub(crate) fn paths(folder: &str) -> Vec<String> {
+    let mut files = Vec::new();
+    collect(folder, &mut files);
+    files.sort_unstable();
+    files
+}
+
+/// The root of the repository.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn collect(folder: &str, files: &mut Vec<String>) {
+    for entry in fs::read_dir(root().join(folder)).expect("a folder can be listed") {
+        let entry = entry.expect("a folder can be listed");
+        let name = entry.file_name().into_string().expect("a UTF-8 name");
+        let file = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
+        if !entry.path().is_dir() {
+            files.push(file);
+        } else if !name.starts_with('.') && name != "target" {
+            collect(&file, files);
         }
     }
 }

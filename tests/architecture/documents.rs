@@ -1,0 +1,316 @@
+//! The documents, held to the repository: links, paths, names of the crate, commands and JSON.
+//!
+//! `tests/it/documents.rs` does what needs the program: it parses its command lines, and loads the
+//! suites.
+
+use crate::{
+    markdown::{Block, Document, Span},
+    rules::Breach,
+};
+use std::collections::BTreeSet;
+
+/// Paths that are not in the repository and that documents may name, each with its reason.
+const MADE_LATER: &[(&str, &str)] = &[("tests/fuzz/artifacts", "cargo-fuzz writes it")];
+
+/// The repository as documents may speak of it.
+pub(crate) struct Repository {
+    /// Paths of all files.
+    pub(crate) files: BTreeSet<String>,
+    /// Words of the code: of sources, tests and benches, with their strings.
+    pub(crate) words: BTreeSet<String>,
+    /// Words of `src/report`, with their strings: the keys of the JSON are among them.
+    pub(crate) keys: BTreeSet<String>,
+    /// The text of `Cargo.toml`.
+    pub(crate) manifest: String,
+}
+
+impl Repository {
+    pub(crate) fn new(files: &[String], texts: &[(String, String)], manifest: &str) -> Self {
+        let words_of = |folders: &[&str]| -> BTreeSet<String> {
+            let read = texts.iter().filter(|(file, _)| folders.iter().any(|f| file.starts_with(f)));
+            read.flat_map(|(_, text)| words(text)).map(str::to_owned).collect()
+        };
+        Self {
+            files: files.iter().cloned().collect(),
+            words: words_of(&["src/", "tests/", "benches/"]),
+            keys: words_of(&["src/report/", "src/verify/"]),
+            manifest: manifest.to_owned(),
+        }
+    }
+
+    /// Whether `path` is a file or a folder; `*`, and words in capitals, stand for any text.
+    fn has(&self, path: &str) -> bool {
+        let path = path.trim_end_matches('/');
+        self.files.iter().any(|file| {
+            let mut parts = file.split('/');
+            path.split('/').all(|wanted| parts.next().is_some_and(|part| like(wanted, part)))
+        })
+    }
+
+    /// Whether `path` is there from the root, from `src/`, or beside the document `from`.
+    fn finds(&self, path: &str, from: &str) -> bool {
+        let beside = join(from, path);
+        let later = MADE_LATER.iter().any(|(made, _)| *made == path.trim_end_matches('/'));
+        later
+            || self.has(path)
+            || self.has(&format!("src/{path}"))
+            || beside.is_some_and(|p| self.has(&p))
+    }
+
+    fn has_name(&self, name: &str) -> bool {
+        self.files.iter().any(|file| file.rsplit('/').next() == Some(name))
+    }
+
+    /// Whether a path begins as one of this repository does.
+    fn is_ours(&self, path: &str) -> bool {
+        let first = path.split('/').next().unwrap_or_default();
+        let folder = |at: &str| self.files.iter().any(|file| file.starts_with(&format!("{at}/")));
+        !first.is_empty() && (folder(first) || folder(&format!("src/{first}")))
+    }
+
+    /// Whether `a::b::Name` leads to a module of `src/` and from there to a word of the code.
+    fn resolves(&self, path: &str) -> bool {
+        let mut parts: Vec<&str> = path.split("::").collect();
+        if matches!(parts[0], "crate" | "mpm_verify") {
+            parts.remove(0);
+        }
+        let mut folder = "src".to_owned();
+        let mut rest = parts.as_slice();
+        while let Some((part, after)) = rest.split_first() {
+            let below = format!("{folder}/{part}");
+            if !self.has(&below) && !self.has(&format!("{below}.rs")) {
+                break;
+            }
+            folder = below;
+            rest = after;
+        }
+        rest.len() < parts.len() && rest.iter().all(|part| self.words.contains(*part))
+    }
+
+    /// Whether `src/` has a module of this name at its top.
+    fn is_part(&self, name: &str) -> bool {
+        matches!(name, "crate" | "mpm_verify")
+            || self.has(&format!("src/{name}"))
+            || self.has(&format!("src/{name}.rs"))
+    }
+}
+
+/// `wanted` may have stars, and be a word in capitals that stands for any.
+fn like(wanted: &str, part: &str) -> bool {
+    let (stem, end) = wanted.split_once('.').unwrap_or((wanted, ""));
+    let capitals = stem.len() > 2 && stem.bytes().all(|b| b.is_ascii_uppercase());
+    match wanted.split_once('*') {
+        Some((start, end)) => part.starts_with(start) && part.ends_with(end),
+        None if capitals && wanted != part => part.ends_with(end),
+        None => wanted == part,
+    }
+}
+
+/// `path` as it is written in the document `from`, from the root; none if it leads out.
+fn join(from: &str, path: &str) -> Option<String> {
+    let mut parts: Vec<&str> = from.split('/').collect();
+    parts.pop();
+    for part in path.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop()?;
+            }
+            part => parts.push(part),
+        }
+    }
+    Some(parts.join("/"))
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}
+
+/// All that a document says and the repository does not have.
+pub(crate) fn stale(document: &Document, all: &[Document], has: &Repository) -> Vec<Breach> {
+    let mut breaches = Vec::new();
+    let mut note = |line, what| {
+        breaches.push(Breach { file: document.file.clone(), line, what });
+    };
+    for Span { line, text } in document.links() {
+        if !leads(&document.file, &text, all, has) {
+            note(line, format!("links to `{text}`, which is not there"));
+        }
+    }
+    for Span { line, text } in document.code_spans() {
+        for what in unknown(&document.file, &text, has) {
+            note(line, what);
+        }
+    }
+    for block in &document.blocks {
+        for (line, what) in unknown_in(block, has) {
+            note(line, what);
+        }
+    }
+    breaches
+}
+
+/// Whether a link leads to a file and, behind a `#`, to one of its headings.
+fn leads(from: &str, link: &str, all: &[Document], has: &Repository) -> bool {
+    if link.starts_with("https://") || link.starts_with("http://") {
+        return true;
+    }
+    let (path, heading) = link.split_once('#').unwrap_or((link, ""));
+    let file = if path.is_empty() { Some(from.to_owned()) } else { join(from, path) };
+    let Some(file) = file.filter(|file| has.has(file)) else { return false };
+    let document = all.iter().find(|document| document.file == file);
+    heading.is_empty() || document.is_some_and(|d| d.headings().any(|known| known == heading))
+}
+
+/// Complaints about a span of code in a line of text.
+fn unknown(from: &str, text: &str, has: &Repository) -> Vec<String> {
+    if text.starts_with("cargo ") || text.starts_with("bash ") || text.starts_with("ci/") {
+        return command(text, has).into_iter().collect();
+    }
+    let plain = |c: char| c.is_alphanumeric() || "_-./*{},:".contains(c);
+    if !text.chars().all(plain) || text.contains("::{") {
+        return Vec::new();
+    }
+    if text.contains("::") {
+        let ours = has.is_part(text.split("::").next().unwrap_or_default());
+        let lost = ours && !has.resolves(text.trim_end_matches("::*"));
+        return lost.then(|| format!("names `{text}`, which is not in src/")).into_iter().collect();
+    }
+    let paths = alternatives(text);
+    let lost = paths.iter().filter(|path| match path.contains('/') {
+        true => has.is_ours(path) && !has.finds(path, from),
+        false => (path.ends_with(".rs") || path.ends_with(".md")) && !has.has_name(path),
+    });
+    let mut lost: Vec<String> =
+        lost.map(|path| format!("names `{path}`, which is not there")).collect();
+    if is_type_name(text) && !has.words.contains(text) {
+        lost.push(format!("names the type `{text}`, which the crate does not have"));
+    }
+    lost
+}
+
+/// `Subject`, `P2gRequest`: a capital, then small letters.
+fn is_type_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_uppercase())
+        && text.chars().any(|c| c.is_ascii_lowercase())
+        && text.chars().all(|c| c.is_ascii_alphanumeric())
+        && text.len() > 3
+}
+
+/// `a/{b,c}.rs` is `a/b.rs` and `a/c.rs`.
+fn alternatives(text: &str) -> Vec<String> {
+    let Some((start, (inside, end))) =
+        text.split_once('{').and_then(|(start, rest)| Some((start, rest.split_once('}')?)))
+    else {
+        return vec![text.to_owned()];
+    };
+    inside.split(',').map(|one| format!("{start}{}{end}", one.trim())).collect()
+}
+
+/// Complaints about a fenced block, each with its line.
+fn unknown_in(block: &Block, has: &Repository) -> Vec<(usize, String)> {
+    let lines = block.text.lines().enumerate().map(|(at, line)| (block.line + 1 + at, line));
+    match block.language.as_str() {
+        "sh" | "bash" | "console" => {
+            lines.filter_map(|(at, line)| Some((at, command(line, has)?))).collect()
+        }
+        "text" => lines
+            .flat_map(|(at, line)| {
+                let words = line.split_whitespace().map(|word| word.trim_end_matches(','));
+                let paths = words.filter(|word| word.starts_with("src/"));
+                let paths = paths.flat_map(alternatives).filter(|path| !has.has(path));
+                let names = line.split_whitespace().filter(|word| {
+                    word.contains("::") && has.is_part(word.split("::").next().unwrap_or_default())
+                });
+                let names = names.filter(|name| !has.resolves(name)).map(str::to_owned);
+                let lost = paths.chain(names).map(move |name| {
+                    (at, format!("names `{name}`, which is not in the repository"))
+                });
+                lost.collect::<Vec<_>>()
+            })
+            .collect(),
+        "json" => json(&block.text, has).map(|what| (block.line, what)).into_iter().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A JSON example must parse, with keys that reports write.
+fn json(text: &str, has: &Repository) -> Option<String> {
+    let value: serde_json::Value = match serde_json::from_str(text) {
+        Ok(value) => value,
+        Err(error) => return Some(format!("is no JSON: {error}")),
+    };
+    let mut keys = Vec::new();
+    keys_of(&value, &mut keys);
+    let key = keys.into_iter().find(|key| !has.keys.contains(key))?;
+    Some(format!("has the key `{key}`, which no report writes"))
+}
+
+fn keys_of(value: &serde_json::Value, keys: &mut Vec<String>) {
+    match value {
+        serde_json::Value::Array(list) => list.iter().for_each(|value| keys_of(value, keys)),
+        serde_json::Value::Object(map) => map.iter().for_each(|(key, value)| {
+            keys.push(key.clone());
+            keys_of(value, keys);
+        }),
+        _ => {}
+    }
+}
+
+/// Complaint about a command that names a script, a target or a subcommand which is not there.
+fn command(line: &str, has: &Repository) -> Option<String> {
+    let line = line.split(" #").next().unwrap_or_default().trim();
+    let words: Vec<&str> = line.split_whitespace().skip_while(|word| is_variable(word)).collect();
+    match *words.first()? {
+        "bash" | "sh" => script(words.get(1)?, has),
+        "cargo" => cargo(&words[1..], has),
+        name if name.starts_with("ci/") => script(name, has),
+        _ => None,
+    }
+}
+
+/// `MPM_BENCH=full` before a command.
+fn is_variable(word: &str) -> bool {
+    word.split_once('=').is_some_and(|(name, _)| {
+        !name.is_empty() && name.bytes().all(|b| b.is_ascii_uppercase() || b == b'_')
+    })
+}
+
+fn script(path: &str, has: &Repository) -> Option<String> {
+    let there = has.files.contains(path);
+    (!there).then(|| format!("runs `{path}`, which is not there"))
+}
+
+/// Subcommands of cargo and of its plug-ins that documents may name.
+const CARGO: &str = "run test bench build check doc fmt clippy install insta fuzz publish";
+
+/// Flags of `cargo run`, `test`, `bench` and `check` that documents may name.
+const CARGO_FLAGS: &str = "--release --lib --bench --test --locked --all-targets --all --no-deps \
+    --document-private-items --fuzz-dir --no-run --features --quiet";
+
+fn cargo(words: &[&str], has: &Repository) -> Option<String> {
+    let words: Vec<&str> = words.iter().copied().filter(|word| !word.starts_with('+')).collect();
+    let (subcommand, rest) = words.split_first()?;
+    if !CARGO.split_whitespace().any(|known| known == *subcommand) {
+        return Some(format!("`cargo {subcommand}` is no command that is known here"));
+    }
+    let ours = rest.iter().position(|word| *word == "--").map_or(rest, |end| &rest[..end]);
+    let flag = ours.iter().find(|word| {
+        word.starts_with("--") && !CARGO_FLAGS.split_whitespace().any(|known| known == **word)
+    });
+    if let Some(flag) = flag {
+        return Some(format!("`cargo {subcommand} {flag}` is no flag that is known here"));
+    }
+    let named = |kind: &str| {
+        let at = ours.iter().position(|word| *word == format!("--{kind}"))?;
+        Some(ours.get(at + 1).copied().unwrap_or_default())
+    };
+    ["bench", "test"].into_iter().find_map(|kind| {
+        let name = named(kind)?;
+        let folder = if kind == "bench" { "benches" } else { "tests" };
+        let declared = has.manifest.contains(&format!("[[{kind}]]\nname = \"{name}\""));
+        let found =
+            has.has(&format!("{folder}/{name}.rs")) || has.has(&format!("{folder}/{name}/main.rs"));
+        (!declared && !found).then(|| format!("there is no {kind} `{name}`"))
+    })
+}

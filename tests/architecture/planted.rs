@@ -1,0 +1,155 @@
+//! The scanners of words and of documents, held to small texts with planted mistakes.
+
+use crate::{
+    documents::{Repository, stale},
+    markdown::Document,
+    rules::Breach,
+    source::of_files,
+    words,
+};
+use rstest::rstest;
+
+fn owned(files: &[(&str, &str)]) -> Vec<(String, String)> {
+    files.iter().map(|(file, text)| ((*file).to_owned(), (*text).to_owned())).collect()
+}
+
+fn places(breaches: &[Breach]) -> Vec<String> {
+    breaches.iter().map(|breach| format!("{}:{}", breach.file, breach.line)).collect()
+}
+
+#[rstest]
+#[case::a_type("/// x\npub(crate) struct Census;", &["src/a.rs:2"])]
+#[case::a_trait("pub trait Keeper<T> {}", &["src/a.rs:1"])]
+#[case::a_function("fn f() {\n    solver.safe_step()\n}", &["src/a.rs:2"])]
+#[case::a_variant("enum Wall { Hold }", &[])]
+#[case::a_string("const A: &str = \"Census, safe_step\";", &[])]
+#[case::a_longer_word("struct CensusOfX; fn unsafe_step() {}", &[])]
+fn an_old_word_is_found(#[case] code: &str, #[case] expected: &[&str]) {
+    assert_eq!(places(&words::old(&of_files(&owned(&[("src/a.rs", code)])))), expected);
+}
+
+#[rstest]
+fn an_old_name_of_a_file_is_found() {
+    let files = ["src/mpm/spots.rs", "src/pricing/mod.rs", "src/mpm/spotsy.rs"].map(str::to_owned);
+    assert_eq!(places(&words::old_files(&files)), ["src/mpm/spots.rs:1", "src/pricing/mod.rs:1"]);
+}
+
+#[rstest]
+#[case::two_types("struct Row;", "enum Row {}", 1)]
+#[case::declared_by_two_traits("trait A { type Row; }", "trait B {\ntype Row: Clone; }", 1)]
+#[case::an_alias("struct Row;", "type Row = u8;", 1)]
+#[case::in_a_function("struct Row;", "fn f() { struct Row; }", 1)]
+#[case::given_by_two_implementations(
+    "impl A for X { type Row = u8; }",
+    "impl A for Y { type Row = u8; }",
+    0
+)]
+#[case::after_an_implementation("impl A for X { fn f() {} }\nstruct Row;", "struct Row;", 1)]
+#[case::for_tests("struct Row;", "#[cfg(test)]\nmod tests { struct Row; }", 0)]
+#[case::allowed("struct Value;", "struct Value;", 0)]
+fn a_name_of_two_types_is_found(#[case] a: &str, #[case] b: &str, #[case] count: usize) {
+    let sources = of_files(&owned(&[("src/a.rs", a), ("src/b.rs", b)]));
+    let found = words::twice(&sources, &[("Value", "why")]);
+    assert_eq!(found.len(), count, "{found:?}");
+    assert!(found.iter().all(|breach| breach.file == "src/b.rs"));
+}
+
+#[rstest]
+fn a_crowded_folder_is_found() {
+    let files = |count: usize| -> Vec<String> {
+        (0..count).map(|n| format!("src/a/{n}.rs")).chain(["src/a/b/c.rs".to_owned()]).collect()
+    };
+    assert_eq!(places(&words::crowded(&files(words::MOST_FILES + 1))), ["src/a:1"]);
+    assert!(words::crowded(&files(words::MOST_FILES)).is_empty());
+}
+
+#[rstest]
+#[case::what("/// What a thing does.", true)]
+#[case::whatever("\n    //! Whatever it is.", true)]
+#[case::no_documentation("// What was measured.", false)]
+#[case::later("/// Says what it is.", false)]
+fn a_comment_that_begins_with_what_is_found(#[case] text: &str, #[case] found: bool) {
+    let breaches = words::comments(&owned(&[("src/a.rs", text)]));
+    assert_eq!(places(&breaches).len(), usize::from(found));
+}
+
+#[rstest]
+fn a_long_line_of_a_comment_is_found() {
+    let line = |columns: usize| format!("fn f() {{}}\n//! {}", "x".repeat(columns - 4));
+    let found = |columns| places(&words::comments(&owned(&[("src/a.rs", &line(columns))])));
+    assert_eq!(found(101), ["src/a.rs:2"]);
+    assert!(found(100).is_empty());
+    let code = format!("let x = \"{}\"; // short", "x".repeat(100));
+    assert!(words::comments(&owned(&[("src/a.rs", &code)])).is_empty(), "code is rustfmt's");
+}
+
+const MANIFEST: &str = "[[bench]]\nname = \"transfer\"\n";
+
+/// Mistakes in a document `docs/page.md` of a small repository.
+fn mistakes(text: &str) -> Vec<String> {
+    let files = [
+        "README.md",
+        "docs/page.md",
+        "src/mpm/mod.rs",
+        "src/mpm/grid.rs",
+        "src/report/json.rs",
+        "ci/check",
+        "tests/cli.rs",
+        "verification/bar.yaml",
+        "verification/bar.snap",
+    ];
+    let texts = owned(&[
+        ("src/mpm/grid.rs", "pub struct Grid; impl Grid { fn locate() {} }"),
+        ("src/report/json.rs", "row(\"verdict\", 1)"),
+    ]);
+    let has = Repository::new(&files.map(str::to_owned), &texts, MANIFEST);
+    let documents = [
+        Document::new("docs/page.md", text),
+        Document::new("README.md", "# Two words, one `sign`\n"),
+    ];
+    stale(&documents[0], &documents, &has).into_iter().map(|breach| breach.what).collect()
+}
+
+#[rstest]
+#[case::link("see [the grid](../src/mpm/gird.rs)")]
+#[case::link_beside("see [it](src/mpm/grid.rs)")]
+#[case::heading("see [it](../README.md#two-words)")]
+#[case::heading_here("# One\nsee [it](#two)")]
+#[case::path("in `src/mpm/gird.rs`")]
+#[case::path_in_src("in `mpm/gird.rs`")]
+#[case::one_of_two_paths("in `src/mpm/{grid,gird}.rs`")]
+#[case::file_name("in `gird.rs`")]
+#[case::module("by `mpm::gird`")]
+#[case::item("by `mpm::grid::Gird`")]
+#[case::type_name("a `GridCell`")]
+#[case::script("by `ci/chekc`")]
+#[case::script_in_a_block("```console\nbash ci/chekc\n```")]
+#[case::cargo("```sh\ncargo tset\n```")]
+#[case::cargo_in_text("with `cargo bench --bench trasnfer`")]
+#[case::bench("```console\nMPM_BENCH=full cargo bench --bench trasnfer -- 2d  # slow\n```")]
+#[case::test("```console\ncargo test --test clii\n```")]
+#[case::flag("```console\ncargo run --relaese\n```")]
+#[case::layout("```text\nsrc/mpm, src/mmp   the solver\n```")]
+#[case::layout_module("```text\n -> mpm::gird  words\n```")]
+#[case::json("```json\n{\"verdict\": 1}}\n```")]
+#[case::json_key("```json\n{\"verdict\": [{\"verdit\": 1}]}\n```")]
+fn a_mistake_in_a_document_is_found(#[case] text: &str) {
+    let found = mistakes(text);
+    assert_eq!(found.len(), 1, "{found:?}");
+}
+
+#[rstest]
+#[case::links("[a](../src/mpm/grid.rs) [b](https://a.b/c.rs) [c](../README.md#two-words-one-sign)")]
+#[case::paths("`src/mpm/grid.rs`, `mpm/grid.rs`, `grid.rs`, `ci/check`, `src/mpm/`, `page.md`")]
+#[case::any("`verification/*.yaml`, `verification/NAME.snap`")]
+#[case::names("`mpm::Grid`, `mpm::grid::Grid::locate`, `Grid`, `std::fs::read`, `T::default()`")]
+#[case::no_paths("`h/(c + |v|)`, `n_left/h`, `a.yaml`, `1/64`, `E/rho`, `x^2`")]
+#[case::commands(
+    "```console\ncargo test bar\ncargo bench --bench transfer -- 2d\nbash ci/check\n```"
+)]
+#[case::other_commands("```console\ngit switch main\nmpm-verify run\n```")]
+#[case::layout("```text\nsrc/mpm, src/mpm/{mod,grid}.rs   the solver\n -> mpm::grid  words\n```")]
+#[case::json("```json\n{\"verdict\": [1, null]}\n```")]
+fn a_sound_document_passes(#[case] text: &str) {
+    assert_eq!(mistakes(text), [""; 0]);
+}

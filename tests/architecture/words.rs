@@ -1,0 +1,223 @@
+//! The words of the source: old ones stay away, and no name of a type means two things.
+
+use crate::{rules::Breach, source::Source, token::Token};
+use std::collections::BTreeMap;
+
+/// Most files of one folder.
+pub(crate) const MOST_FILES: usize = 20;
+
+/// Longest line of a comment, as `.rustfmt.toml` has it for code.
+pub(crate) const LONGEST_COMMENT: usize = 100;
+
+/// Names that types had and must not have again, each with the word in their place.
+pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
+    ("Whereabouts", "CellTracker"),
+    ("Touch", "ContactState"),
+    ("Keeper", "CheckpointStore"),
+    ("Nobody", "NoCheckpoints"),
+    ("Kept", "ResultCache"),
+    ("Notes", "CacheLog"),
+    ("Shown", "ParticleField"),
+    ("Sight", "ParticleBatches"),
+    ("Seen", "NodeWeight"),
+    ("Several", "PatchBatch"),
+    ("Patches", "PatchBatch"),
+    ("Along", "Weights1d"),
+    ("Alongs", "Weights1dBatch"),
+    ("Alone", "Domain1d"),
+    ("Room", "Workspace"),
+    ("Sink", "NodeAccumulator"),
+    ("Spread", "WeightMoments"),
+    ("Inertia", "InertiaTensor"),
+    ("Conductor", "HeatSolver"),
+    ("Census", "RunCounters"),
+    ("Claim", "OrderHypothesis"),
+    ("Yardstick", "ErrorScale"),
+    ("Bid", "Candidate"),
+    ("Contender", "MethodCost"),
+    ("Tried", "Sample"),
+    ("Priced", "TimedSuite"),
+    ("Binder", "Evaluator"),
+    ("Complaint", "Diagnostic"),
+    ("Hold", "BoundaryCondition"),
+    ("Met", "Interface"),
+    ("Rub", "InterfaceTraction"),
+    ("Watch", "RunMonitor"),
+    ("Recipe", "P2gRequest, G2pRequest"),
+    ("Wanted", "P2gRequest, G2pRequest"),
+    ("Gathered", "P2gRequest, G2pRequest"),
+    ("Visited", "P2gRequest, G2pRequest"),
+    ("Taken", "P2gRequest, G2pRequest"),
+    ("Maps", "P2gRequest"),
+    ("Takes", "G2pRequest"),
+    ("Also", "P2gRequest, G2pRequest"),
+];
+
+/// Names that functions, fields, variables and types had, wherever they stand in code.
+pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
+    ("whereabouts", "cell_tracker"),
+    ("drive_velocity", "modify_velocity"),
+    ("oppose_motion", "modify_force"),
+    ("g2p_velocity", "g2p"),
+    ("safe_step", "stable_time_step"),
+    ("unrest", "residual_speed"),
+    ("census", "counters"),
+    ("yardstick", "error_scale"),
+    ("yardsticks", "error_scales"),
+    ("contender", "method"),
+    ("contenders", "methods"),
+    ("complaint", "diagnostic"),
+    ("complaints", "diagnostics"),
+    ("meetings", "interface"),
+    ("pricing", "cost"),
+    ("FOUR", "LANES"),
+    ("Four", "F64x4"),
+];
+
+/// Names that files and folders had, each with the one in its place.
+pub(crate) const OLD_FILES: &[(&str, &str)] = &[
+    ("whereabouts", "cell_tracker"),
+    ("touch", "contact_state"),
+    ("keeper", "checkpoint_store"),
+    ("kept", "results"),
+    ("shown", "run_result"),
+    ("moved", "changes"),
+    ("visits", "schedule"),
+    ("soundness", "finite_check"),
+    ("conductor", "heat_solver"),
+    ("spots", "quadrature_points"),
+    ("nature", "methods of `Scene`"),
+    ("truthless", "conservation_only"),
+    ("filling", "seeding"),
+    ("secular", "energy_rate"),
+    ("beta", "f_test"),
+    ("student", "t_quantile"),
+    ("figures", "format_number"),
+    ("priced", "timed_suite"),
+    ("pricing", "cost"),
+    ("contrast", "a word for the test"),
+    ("dark", "a word for the theme"),
+    ("fine_steps", "small_step_reference"),
+    ("comparable", "subject_support"),
+    ("bar_limits", "subject_support"),
+    ("meetings", "interface"),
+    ("judged", "outcome"),
+    ("execute", "runner"),
+    ("words", "grammar"),
+    ("four", "simd"),
+];
+
+/// Names of types that two files may define, each with its reason.
+pub(crate) const TWICE: &[(&str, &str)] =
+    &[("Value", "serde's visitors must call their result so"), ("Output", "so must operators")];
+
+/// A file as it is written, with its comments.
+pub(crate) type Text = (String, String);
+
+/// Types with an old name, and old names anywhere in code.
+pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
+    let of_source = |source: &Source| -> Vec<Breach> {
+        let types = definitions(&source.code).into_iter().map(|token| (token, OLD_TYPES));
+        let names = source.code.iter().map(|token| (token, OLD_NAMES));
+        let found = types.chain(names).filter_map(|(token, list)| {
+            let (_, better) = list.iter().find(|(name, _)| *name == token.text)?;
+            let what = format!("has the old word `{}`: say `{better}`", token.text);
+            Some(Breach { file: source.file.clone(), line: token.line, what })
+        });
+        found.collect()
+    };
+    sources.iter().flat_map(of_source).collect()
+}
+
+/// Files and folders with an old name.
+pub(crate) fn old_files(files: &[String]) -> Vec<Breach> {
+    let of_file = |file: &String| -> Option<Breach> {
+        let mut parts = file.trim_end_matches(".rs").split('/');
+        let (name, better) =
+            parts.find_map(|part| OLD_FILES.iter().find(|(name, _)| *name == part))?;
+        let what = format!("has the old name `{name}`: say `{better}`");
+        Some(Breach { file: file.clone(), line: 1, what })
+    };
+    files.iter().filter_map(of_file).collect()
+}
+
+/// Types whose name another file has defined already.
+pub(crate) fn twice(sources: &[Source], allowed: &[(&str, &str)]) -> Vec<Breach> {
+    let mut first: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut breaches = Vec::new();
+    for source in sources {
+        for token in definitions(&source.code) {
+            let other = *first.entry(&token.text).or_insert(&source.file);
+            if other != source.file && !allowed.iter().any(|(name, _)| *name == token.text) {
+                let what = format!("defines `{}`, as {other} does", token.text);
+                breaches.push(Breach { file: source.file.clone(), line: token.line, what });
+            }
+        }
+    }
+    breaches
+}
+
+/// The names of the types that `code` defines, and of the associated types that its traits declare
+/// (not those that an `impl` must give: the trait has named them).
+fn definitions(code: &[Token]) -> Vec<&Token> {
+    let mut found = Vec::new();
+    let (mut depth, mut implementation) = (0_usize, None);
+    for (at, token) in code.iter().enumerate() {
+        match token.text.as_str() {
+            "{" => depth += 1,
+            "}" => {
+                depth = depth.saturating_sub(1);
+                implementation = implementation.filter(|outside| depth > *outside);
+            }
+            "impl" if depth == 0 => implementation = Some(depth),
+            "struct" | "enum" | "trait" => found.extend(code.get(at + 1).filter(|t| is_type(t))),
+            "type" if implementation.is_none() => {
+                found.extend(code.get(at + 1).filter(|t| is_type(t)));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+fn is_type(token: &Token) -> bool {
+    token.text.starts_with(|c: char| c.is_uppercase())
+}
+
+/// Folders with too many files.
+pub(crate) fn crowded(files: &[String]) -> Vec<Breach> {
+    let mut folders: BTreeMap<&str, usize> = BTreeMap::new();
+    for file in files {
+        *folders.entry(file.rsplit_once('/').map_or("", |(folder, _)| folder)).or_default() += 1;
+    }
+    let crowded = folders.into_iter().filter(|(_, count)| *count > MOST_FILES);
+    crowded
+        .map(|(folder, count)| Breach {
+            file: folder.to_owned(),
+            line: 1,
+            what: format!("holds {count} files"),
+        })
+        .collect()
+}
+
+/// Comments that begin with "What", and those whose lines are too long.
+pub(crate) fn comments(texts: &[Text]) -> Vec<Breach> {
+    let of_line = |file: &String, at: usize, line: &str| -> Option<Breach> {
+        let bare = line.trim_start();
+        let said = bare.strip_prefix("//")?.trim_start_matches(['/', '!']).trim_start();
+        let documented = bare.starts_with("///") || bare.starts_with("//!");
+        let first = said.split(' ').next().unwrap_or_default();
+        let what = if documented && matches!(first, "What" | "Whatever") {
+            "begins with \"What\"".to_owned()
+        } else if line.chars().count() > LONGEST_COMMENT {
+            format!("is a comment of {} columns", line.chars().count())
+        } else {
+            return None;
+        };
+        Some(Breach { file: file.clone(), line: at + 1, what })
+    };
+    let of_text = |(file, text): &Text| -> Vec<Breach> {
+        text.lines().enumerate().filter_map(|(at, line)| of_line(file, at, line)).collect()
+    };
+    texts.iter().flat_map(of_text).collect()
+}
