@@ -7,6 +7,7 @@
 //! - [`drift`]: comparison of two texts, number by number.
 //! - [`mod@compare`]: two JSON documents side by side, what moved first.
 
+pub(crate) mod columns;
 pub mod compare;
 pub mod figure;
 pub(crate) mod json;

@@ -4,9 +4,10 @@
 //! from a file and is escaped: it can be no markup, mention nobody and end no table.
 
 use super::{
-    moved::{Comparison, Moved, Rank},
-    row::{HEADS, TARGET_HEADS, cells, notes, target},
+    moved::{CheapestMove, Comparison, Moved, Rank},
+    row::{cases, notes, targets},
 };
+use crate::report::columns::Column;
 
 /// Most rows of a table: a comment may have 65536 characters.
 const MOST_ROWS: usize = 40;
@@ -21,55 +22,37 @@ pub fn markdown(comparison: &Comparison) -> String {
             continue;
         }
         let (count, words) = (moved.len(), rank.words());
-        let table = table(&moved);
+        let table = changes(&moved);
         page += &if rank.is_worse() {
             format!("\n**{count} {words}**\n\n{table}")
         } else {
             format!("\n<details><summary>{count} {words}</summary>\n\n{table}\n</details>\n")
         };
     }
-    page += &targets(comparison);
+    page += &cheapest(comparison);
     let share = comparison.tolerance;
     page + &format!(
         "\n<sub>Figures count as equal within a share of {share}. Transfers between particles and nodes are the measure of work.</sub>\n"
     )
 }
 
-/// Columns with nothing but dashes are left out.
-fn table(moved: &[&Moved]) -> String {
-    let shown = &moved[..moved.len().min(MOST_ROWS)];
-    let rows: Vec<Vec<String>> = shown.iter().map(|moved| row(moved)).collect();
-    let kept: Vec<usize> =
-        (0..=HEADS.len()).filter(|k| rows.iter().any(|row| row[*k] != "-")).collect();
-    let line = |cells: &dyn Fn(usize) -> String| {
-        let cells: Vec<String> = kept.iter().map(|k| cells(*k)).collect();
-        format!("| {} |\n", cells.join(" | "))
+/// Cases that moved; columns with nothing but dashes are left out.
+fn changes(moved: &[&Moved]) -> String {
+    let mut columns: Vec<_> = cases().into();
+    let joined = |moved: &Moved| Some(notes(moved).join("; ")).filter(|notes| !notes.is_empty());
+    columns.push(Column::text("notes", "notes", joined).flush_left());
+    let is_kept = |column: &Column<'_, Moved>| {
+        moved.iter().take(MOST_ROWS).any(|moved| column.cell(moved).text != "-")
     };
-    let mut page = line(&|k| (*HEADS.get(k).unwrap_or(&"notes")).to_owned());
-    page += &line(&|k| if k < 2 || k == HEADS.len() { "---" } else { "---:" }.to_owned());
-    page.extend(rows.iter().map(|row| line(&|k| row[k].clone())));
-    if let more @ 1.. = moved.len() - shown.len() {
-        page += &format!("\nand {more} more\n");
-    }
-    page
+    columns.retain(is_kept);
+    table(&columns, moved)
 }
 
-/// What the cheapest method takes for an error: open if one became dearer.
-fn targets(comparison: &Comparison) -> String {
-    let moved = &comparison.cheapest;
+/// Least work for target errors: open if one takes more.
+fn cheapest(comparison: &Comparison) -> String {
+    let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
-    let shown = &moved[..moved.len().min(MOST_ROWS)];
-    let mut table =
-        format!("| {} |\n| --- | ---: | ---: | ---: | --- |\n", TARGET_HEADS.join(" | "));
-    for moved in shown {
-        let [place, cells @ ..] = target(moved);
-        let cells = cells.map(|cell| prose(&cell)).join(" | ");
-        table += &format!("| {} | {cells} |\n", code(&place));
-    }
-    if let more @ 1.. = moved.len() - shown.len() {
-        table += &format!("\nand {more} more\n");
-    }
-    let words = "Cheapest for an error";
+    let (words, table) = ("Cheapest for an error", table(&targets(), &moved));
     if first.ratio() < 1.0 {
         format!("\n<details><summary>{words}</summary>\n\n{table}\n</details>\n")
     } else {
@@ -77,13 +60,21 @@ fn targets(comparison: &Comparison) -> String {
     }
 }
 
-fn row(moved: &Moved) -> Vec<String> {
-    let [name, cells @ ..] = cells(moved);
-    let notes = notes(moved);
-    let notes = if notes.is_empty() { "-".to_owned() } else { notes.join("; ") };
-    let mut row = vec![code(&name)];
-    row.extend(cells.iter().chain([&notes]).map(|text| prose(text)));
-    row
+/// A table whose first column is code.
+fn table<R>(columns: &[Column<'_, R>], rows: &[&R]) -> String {
+    let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let rule = |column: &Column<'_, R>| if column.flush_left { "---" } else { "---:" }.to_owned();
+    let mut table = line(columns.iter().map(|column| column.heading.to_string()).collect());
+    table += &line(columns.iter().map(rule).collect());
+    for row in rows.iter().take(MOST_ROWS) {
+        let texts = columns.iter().map(|column| column.cell(row).text).enumerate();
+        let cells = texts.map(|(k, text)| if k == 0 { code(&text) } else { prose(&text) });
+        table += &line(cells.collect());
+    }
+    if let more @ 1.. = rows.len().saturating_sub(MOST_ROWS) {
+        table += &format!("\nand {more} more\n");
+    }
+    table
 }
 
 /// A code span, in which nothing is markup but its own end, and the bar of a table.

@@ -1,55 +1,70 @@
-//! The cells of a row, the same in text and in Markdown.
+//! Columns of a comparison, the same in text and in Markdown.
 
 use super::moved::{CheapestMove, ErrorMove, Moved, Rank};
-
-/// Heads of the columns.
-pub(super) const HEADS: [&str; 8] =
-    ["case", "verdict", "order", "error", "times", "at", "transfers", "for the same error"];
+use crate::report::columns::Column;
 
 /// Notes of a case that are shown; the others are counted.
 const MOST_NOTES: usize = 3;
 
-/// What stands under [`HEADS`]; a dash where nothing moved or nothing is known.
-pub(super) fn cells(moved: &Moved) -> [String; 8] {
-    let order = moved.order.map(|order| order.map(|order| format!("{order:.2}")));
-    let error = moved.error.as_ref().map(|error| {
-        let shown = |error: Option<f64>| error.map_or("failed".to_owned(), |e| format!("{e:.3e}"));
-        format!("{} -> {}", shown(error.old), shown(error.new))
-    });
+/// Changes of a case; dashes where nothing moved or nothing is known.
+pub(super) fn cases<'a>() -> [Column<'a, Moved>; 8] {
     [
-        moved.name.clone(),
-        change(moved, moved.verdict.clone()),
-        change(moved, order),
-        error.unwrap_or_else(dash),
-        moved.error.as_ref().and_then(ErrorMove::ratio).map_or_else(dash, times),
-        moved.error.as_ref().map_or_else(dash, |error| error.level.clone()),
-        moved.work.map_or_else(dash, times),
-        moved.equal.map_or_else(dash, |e| format!("{} at {:.0e}", times(e.ratio), e.target)),
+        Column::<Moved>::text("case", "suite and case", |moved| moved.name.clone()).flush_left(),
+        Column::<Moved>::text("verdict", "verdicts", |moved| change(moved, moved.verdict.clone()))
+            .flush_left(),
+        Column::<Moved>::text("order", "observed orders", |moved| {
+            change(moved, moved.order.map(|order| order.map(|order| format!("{order:.2}"))))
+        }),
+        Column::<Moved>::text("error", "judged errors", |moved| moved.error.as_ref().map(errors)),
+        Column::<Moved>::text("times", "their ratio", |moved| {
+            moved.error.as_ref().and_then(ErrorMove::ratio).map(times)
+        }),
+        Column::<Moved>::text("at", "level of the errors", |moved| {
+            moved.error.as_ref().map(|error| error.level.clone())
+        }),
+        Column::<Moved>::text("transfers", "ratio on the same level", |moved| {
+            moved.work.map(times)
+        }),
+        Column::<Moved>::text("for the same error", "ratio of transfers", |moved| {
+            moved.equal.map(|e| format!("{} at {:.0e}", times(e.ratio), e.target))
+        }),
     ]
 }
 
-/// Heads of the columns for [`target`].
-pub(super) const TARGET_HEADS: [&str; 5] = ["suite", "error", "times", "work", "cheapest"];
+fn errors(error: &ErrorMove) -> String {
+    let text = |error: Option<f64>| error.map_or("failed".to_owned(), |e| format!("{e:.3e}"));
+    format!("{} -> {}", text(error.old), text(error.new))
+}
 
-/// A target error and what it takes.
-pub(super) fn target(moved: &CheapestMove) -> [String; 5] {
-    let of = |found: &Option<(f64, String)>| found.clone().unzip();
-    let ((old, old_case), (new, new_case)) = (of(&moved.old), of(&moved.new));
-    let both = |old: Option<String>, new: Option<String>| match (old, new) {
-        (old, new) if old == new => old.unwrap_or_else(dash),
-        (old, new) => {
-            [old, new].map(|side| side.unwrap_or_else(|| "not reached".to_owned())).join(" -> ")
-        }
-    };
-    let work = |work: Option<f64>| work.map(|work| format!("{work:.3e}"));
-    let reached = old.is_some() && new.is_some();
+/// Least work for a target error.
+pub(super) fn targets<'a>() -> [Column<'a, CheapestMove>; 5] {
     [
-        moved.place.clone(),
-        format!("{:.0e}", moved.target),
-        if reached { times(moved.ratio()) } else { dash() },
-        both(work(old), work(new)),
-        both(old_case, new_case),
+        Column::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
+            moved.place.clone()
+        })
+        .flush_left(),
+        Column::<CheapestMove>::text("error", "target error", |moved| {
+            format!("{:.0e}", moved.target)
+        }),
+        Column::<CheapestMove>::text("times", "ratio of the work", |moved| {
+            moved.old.as_ref().zip(moved.new.as_ref()).map(|_| times(moved.ratio()))
+        }),
+        Column::<CheapestMove>::text("work", "least work", |moved| {
+            both(moved, |(work, _)| format!("{work:.3e}"))
+        }),
+        Column::<CheapestMove>::text("cheapest", "method", |moved| {
+            both(moved, |(_, case)| case.clone())
+        })
+        .flush_left(),
     ]
+}
+
+fn both(moved: &CheapestMove, part: impl Fn(&(f64, String)) -> String) -> String {
+    let [old, new] = [&moved.old, &moved.new].map(|side| side.as_ref().map(&part));
+    if old == new {
+        return old.unwrap_or_else(dash);
+    }
+    [old, new].map(|side| side.unwrap_or_else(|| "not reached".to_owned())).join(" -> ")
 }
 
 /// The first notes of a case.

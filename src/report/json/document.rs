@@ -45,18 +45,20 @@
 //! are those of one entry.
 //! `floor` is what became of the finest level's error with another spacing halved, where that was
 //! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
-//! or removed without a new major version.
+//! or removed without a new major version. `docs/columns.md` lists those of rows.
 
 use super::{cost, number::number, stability};
 use crate::{
-    report::text::cost::by_transfers,
+    report::{
+        columns::{force, json_object, level},
+        text::cost::by_transfers,
+    },
     subject::{Column, Holder, Profile},
     verify::{
-        Axis, CaseOutcome, Conserved, Convergence, Floor, FloorCause, ForceRow, Interval,
-        LevelOutcome, Probe, Study, SuiteOutcome,
+        Axis, CaseOutcome, Convergence, Floor, FloorCause, Interval, Probe, Study, SuiteOutcome,
     },
 };
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// The document for `outcomes`, indented, with a newline at its end.
 pub fn json(outcomes: &[SuiteOutcome]) -> String {
@@ -75,8 +77,8 @@ fn suite(outcome: &SuiteOutcome) -> Value {
 
 fn case(outcome: &CaseOutcome) -> Value {
     let study = outcome.convergence();
-    let levels = study.map_or(&[][..], |study| &study.levels);
-    let compared = study.is_some_and(|study| study.compared);
+    let columns = level::json_columns();
+    let levels = study.into_iter().flat_map(level::rows);
     json!({
         "case": outcome.case,
         "subject": outcome.subject,
@@ -93,9 +95,11 @@ fn case(outcome: &CaseOutcome) -> Value {
         "unmet": outcome.unmet,
         "profile": outcome.profile.as_ref().map(profile),
         "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
-        "levels": levels.iter().map(|one| level(one, compared)).collect::<Vec<_>>(),
+        "levels": levels.map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
         "forces": match &outcome.study {
-            Study::InternalForce(rows) => rows.iter().map(force).collect(),
+            Study::InternalForce(rows) => {
+                rows.iter().map(|row| json_object(&force::columns(), row)).collect()
+            }
             _ => Value::Null,
         },
         "stability": match &outcome.study {
@@ -145,51 +149,5 @@ fn floor(floor: &Floor) -> Value {
         "cause": floor.cause().map(FloorCause::name),
         "error": number(floor.error),
         "probes": floor.probes.iter().map(probe).collect::<Vec<_>>(),
-    })
-}
-
-/// One level; errors only where something was `compared`.
-fn level(level: &LevelOutcome, compared: bool) -> Value {
-    let (run, counters) = (&level.run, &level.run.counters);
-    let error = |value: f64| compared.then(|| number(value));
-    json!({
-        "cells": level.cells,
-        "h": number(level.h),
-        "spacing": number(level.spacing),
-        "dt": number(level.dt),
-        "ppc": level.ppc,
-        "particles": counters.particles,
-        "steps": run.steps,
-        "transfers": counters.transfers,
-        "crossings": counters.crossings,
-        "left_domain": counters.left_domain,
-        "min_j": number(counters.min_j),
-        "errors": {
-            "rms": error(run.errors.rms),
-            "l1": error(run.errors.l1),
-            "l2": error(run.errors.l2),
-            "linf": error(run.errors.linf),
-            "max_rms": error(run.max_rms),
-        },
-        "judged": error(level.error),
-        "drift": run.drift.map(|drift| -> Value {
-            let sum = |sum: &Conserved| (sum.name().to_owned(), number(drift.of(*sum)));
-            Conserved::ALL.iter().map(sum).collect::<Map<_, _>>().into()
-        }),
-        "energy_rate": run.energy_rate.map(|rate| [rate.value, rate.low, rate.high].map(number)),
-        "unrest": run.unrest.map(number),
-        "safe_step": level.safe_step.map(number),
-        "order": level.order.map(number),
-        "failure": run.failure,
-    })
-}
-
-fn force(row: &ForceRow) -> Value {
-    json!({
-        "position": number(row.position),
-        "n_left": row.left,
-        "n_right": row.right,
-        "force": number(row.force),
-        "predicted": number(row.predicted),
     })
 }

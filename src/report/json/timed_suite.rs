@@ -17,8 +17,12 @@
 
 use super::{cost::rankings, number::number};
 use crate::{
-    subject::{Column, Holder, Profile},
-    verify::{Bid, CaseOutcome, LevelOutcome, Load, Machine, Model, TimedSuite, Timing},
+    report::columns::{
+        cost::{model, models},
+        json_object,
+        timed_level::{json_columns, rows, timing},
+    },
+    verify::{Bid, CaseOutcome, Machine, TimedSuite},
 };
 use serde_json::{Value, json};
 
@@ -55,61 +59,14 @@ fn machine(machine: &Machine) -> Value {
     })
 }
 
-fn timing(timing: Timing) -> Value {
-    let Timing { median, low, high, repeats } = timing;
-    json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
-}
-
 fn case(priced: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
-    let levels = case.convergence().map_or(&[][..], |study| &study.levels);
-    let size = case.convergence().map_or(f64::NAN, |study| study.yardstick.size);
-    let bytes = case.profile.as_ref().map(of_a_particle);
-    let level = |(level, (load, timing)): (&LevelOutcome, &(Load, Option<Timing>))| {
-        one_level(level, load, *timing, size, bytes)
-    };
-    let fitted = priced.model(index).map(|(found, off)| {
-        let mut value = model(&found);
-        value["finest_off"] = off.map_or(Value::Null, number);
-        value
-    });
+    let columns = json_columns();
+    let fitted = priced.model(index).map(|(model, off)| (case.case.clone(), model, off));
     json!({
         "case": case.case,
-        "model": fitted,
-        "levels": levels.iter().zip(&priced.levels[index]).map(level).collect::<Vec<_>>(),
+        "model": fitted.map(|fitted| json_object(&models(), &fitted)),
+        "levels": rows(priced, index).map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
     })
-}
-
-/// Bytes that every particle has.
-fn of_a_particle(profile: &Profile) -> usize {
-    let whole =
-        |column: &&Column| column.holder == Holder::Particle && column.entries == profile.particles;
-    profile.columns.iter().filter(whole).map(|column| column.bytes).sum()
-}
-
-fn one_level(
-    level: &LevelOutcome,
-    load: &Load,
-    measured: Option<Timing>,
-    size: f64,
-    bytes: Option<usize>,
-) -> Value {
-    json!({
-        "cells": level.cells,
-        "dt": number(level.dt),
-        "ppc": level.ppc,
-        "error": number(level.error / size),
-        "transfers": level.run.counters.transfers,
-        "particle_updates": load.updates as u64,
-        "steps": level.run.steps,
-        "bytes": bytes.map(|bytes| bytes as u64 * load.updates as u64),
-        "failure": level.run.failure,
-        "seconds": measured.map(timing),
-    })
-}
-
-fn model(model: &Model) -> Value {
-    let [transfer, particle, node, step] = model.seconds.map(number);
-    json!({"transfer": transfer, "particle": particle, "node": node, "step": step})
 }
 
 fn bid(bid: &Bid) -> Value {
@@ -125,7 +82,7 @@ fn bid(bid: &Bid) -> Value {
         "beyond": bid.beyond,
         "limit": bid.limit,
         "failure": bid.failure,
-        "model": model(&bid.model),
+        "model": json_object(&model(), &bid.model),
         "fitted": bid.fitted,
     })
 }

@@ -4,7 +4,7 @@
 //! figure and goes last, whichever way.
 
 use super::html::Html;
-use crate::{report::text::table::scientific, verify::CaseOutcome};
+use crate::{report::columns::scientific, verify::CaseOutcome};
 
 /// What is wider than a narrow screen scrolls by itself; by keyboard too.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {

@@ -3,13 +3,11 @@
 //! Errors have four significant digits, orders two decimals; counters are exact. Nothing in it
 //! depends on the machine.
 
-use super::{
-    cost, levels,
-    profile::profile,
-    stability,
-    table::{Table, optional, scientific},
+use super::{cost, levels, profile::profile, stability, table::Table};
+use crate::{
+    report::columns::{Column, force},
+    verify::{CaseOutcome, Convergence, Interval, LevelOutcome, Study, SuiteOutcome},
 };
-use crate::verify::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
 
 /// Width to which prose is wrapped.
 const WIDTH: usize = 100;
@@ -46,20 +44,30 @@ pub fn case(outcome: &CaseOutcome) -> String {
 
 /// One line for each case: the table that `run` prints.
 pub fn summary(outcomes: &[SuiteOutcome]) -> String {
-    let mut table = Table::new(&["", "case", "verdict", "order", "expected"]);
-    for suite in outcomes {
-        for case in &suite.cases {
-            let order = case.convergence().and_then(|study| study.judgement.order);
-            table.row(vec![
-                if case.passed() { "pass" } else { "FAIL" }.to_owned(),
-                format!("{}::{}", suite.suite, case.case),
-                case.verdict.clone(),
-                optional(order.map(|o| format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high))),
-                case.expected.clone(),
-            ]);
-        }
-    }
-    table.flush_left(&[1, 2, 4]).lines().join("\n") + "\n"
+    let rows = outcomes.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)));
+    Table::new(&verdicts(), rows).lines().join("\n") + "\n"
+}
+
+type SuiteCase<'a> = (&'a SuiteOutcome, &'a CaseOutcome);
+
+fn verdicts<'a>() -> [Column<'a, SuiteCase<'a>>; 5] {
+    let interval = |o: Interval| format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high);
+    [
+        Column::<SuiteCase<'a>>::text("", "whether all is as expected", |(_, case)| {
+            if case.passed() { "pass" } else { "FAIL" }
+        }),
+        Column::<SuiteCase<'a>>::text("case", "suite and case", |(suite, case)| {
+            format!("{}::{}", suite.suite, case.case)
+        })
+        .flush_left(),
+        Column::<SuiteCase<'a>>::text("verdict", "verdict", |(_, case)| case.verdict.clone())
+            .flush_left(),
+        Column::<SuiteCase<'a>>::text("order", "observed order", move |(_, case)| {
+            case.convergence().and_then(|study| study.judgement.order).map(interval)
+        }),
+        Column::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| case.expected.clone())
+            .flush_left(),
+    ]
 }
 
 fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
@@ -73,7 +81,7 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
     lines.push(String::new());
     match &case.study {
         Study::Convergence(study) => convergence(lines, study),
-        Study::InternalForce(rows) => internal_force(lines, rows),
+        Study::InternalForce(rows) => lines.extend(Table::new(&force::columns(), rows).lines()),
         Study::Stability(study) => stability::tables(lines, study),
         Study::Refused => {}
     }
@@ -132,21 +140,6 @@ fn order_lost(study: &Convergence) -> Option<String> {
         finest.run.counters.crossings.unwrap_or(0),
         pair(finest),
     ))
-}
-
-fn internal_force(lines: &mut Vec<String>, rows: &[ForceRow]) {
-    let mut table = Table::new(&["x/h", "n left", "n right", "force", "predicted", "difference"]);
-    for force in rows {
-        table.row(vec![
-            format!("{:.4}", force.position),
-            force.left.to_string(),
-            force.right.to_string(),
-            scientific(force.force),
-            scientific(force.predicted),
-            format!("{:.0e}", force.force - force.predicted),
-        ]);
-    }
-    lines.extend(table.lines());
 }
 
 /// `key` in a column of its own, `value` wrapped beside it.

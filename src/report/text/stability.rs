@@ -1,11 +1,12 @@
 //! Tables of a stability study.
 
-use super::table::{Table, optional, scientific};
+use super::table::Table;
 use crate::{
-    report::figure::{Field, Map},
-    verify::{
-        Critical, Prediction, StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial,
+    report::{
+        columns::stability::{self, limit_of, limit_text},
+        figure::{Field, Map},
     },
+    verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial},
 };
 
 /// The studies of a suite that seek a limit, with the names of their cases.
@@ -19,23 +20,8 @@ pub(crate) fn overview(lines: &mut Vec<String>, outcome: &SuiteOutcome) {
     let studies = seeking(outcome);
     let [(_, first), _, ..] = studies[..] else { return };
     let sought = first.sought.as_deref().unwrap_or_default();
-    let heads: Vec<String> =
-        first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value)).collect();
-    let title = format!("limit of {sought}");
-    let heads: Vec<&str> =
-        std::iter::once(title.as_str()).chain(heads.iter().map(String::as_str)).collect();
-    let mut table = Table::new(&heads);
-    for (name, study) in studies {
-        let value = |row: &StabilityRow| optional(of_row(row).map(limit));
-        let cells = std::iter::once(name.to_owned()).chain(study.rows.iter().map(value));
-        table.row(cells.collect());
-    }
     lines.push(String::new());
-    lines.extend(table.flush_left(&[0]).lines());
-}
-
-fn of_row(row: &StabilityRow) -> Option<StabilityLimit> {
-    row.critical.as_ref().and_then(Critical::limit)
+    lines.extend(Table::new(&stability::overview(first, sought), studies.iter().copied()).lines());
 }
 
 /// The same as a figure.
@@ -44,10 +30,10 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
     let (_, first) = studies.first()?;
     let sought = first.sought.as_deref().unwrap_or_default();
     let field = |row: &StabilityRow| Field {
-        value: of_row(row).and_then(StabilityLimit::value),
-        text: of_row(row).map_or("-".to_owned(), |found| match found {
+        value: limit_of(row).and_then(StabilityLimit::value),
+        text: limit_of(row).map_or("-".to_owned(), |found| match found {
             StabilityLimit::At(value) => format!("{value:.3}"),
-            beyond => limit(beyond),
+            beyond => limit_text(beyond),
         }),
     };
     let row = |(name, study): &(&str, &StabilityStudy)| {
@@ -106,72 +92,19 @@ pub(crate) fn tables(lines: &mut Vec<String>, study: &StabilityStudy) {
 }
 
 fn trials(lines: &mut Vec<String>, study: &StabilityStudy) {
-    let mut heads = vec![study.swept.as_str(), "verdict", "steps"];
-    heads.extend(study.figures.iter().map(|figure| figure.head()));
-    let mut table = Table::new(&heads);
-    let trials = || study.rows.iter().filter_map(|row| Some((row.value, row.trial.as_ref()?)));
-    for (value, trial) in trials() {
-        let mut cells =
-            vec![value.to_string(), trial.verdict.words().to_owned(), trial.steps.to_string()];
-        cells.extend(study.figures.iter().map(|figure| short(figure.of(trial))));
-        table.row(cells);
-    }
-    lines.extend(table.flush_left(&[1]).lines());
+    let rows = study.rows.iter().filter(|row| row.trial.is_some());
+    lines.extend(Table::new(&stability::trials(study), rows).lines());
+    let trials = study.rows.iter().filter_map(|row| Some((row.value, row.trial.as_ref()?)));
     let why = |(value, trial): (f64, &Trial)| Some((value, trial.why.clone()?));
-    for (value, why) in trials().filter_map(why) {
+    for (value, why) in trials.filter_map(why) {
         lines.push(format!("  {} = {value}: {why}", study.swept));
     }
 }
 
 fn limits(lines: &mut Vec<String>, study: &StabilityStudy, sought: &str) {
-    let confirmed: Vec<f64> = study
-        .rows
-        .iter()
-        .filter_map(|row| row.critical.as_ref())
-        .max_by_key(|critical| critical.confirmed.len())
-        .map_or(Vec::new(), |critical| {
-            critical.confirmed.iter().map(|(share, _)| *share).collect()
-        });
-    let mut heads = vec![study.swept.clone(), format!("predicted {sought}")];
-    heads.extend(["leaves at".to_owned(), format!("observed {sought}")]);
-    heads.extend(confirmed.iter().map(|share| format!("at {share}")));
-    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-    let mut table = Table::new(&heads);
-    for (row, critical) in study.rows.iter().filter_map(|row| Some((row, row.critical.as_ref()?))) {
-        table.row(cells(row, critical, confirmed.len()));
-    }
+    let rows = study.rows.iter().filter(|row| row.critical.is_some());
+    let table = Table::new(&stability::limits(study, sought), rows);
     lines.extend(table.without_empty_columns().lines());
-}
-
-fn cells(row: &StabilityRow, critical: &Critical, runs: usize) -> Vec<String> {
-    let mut cells = vec![
-        row.value.to_string(),
-        optional(critical.predicted.map(|prediction| limit(prediction.limit))),
-        optional(critical.predicted.as_ref().and_then(leaves)),
-        optional(critical.observed.map(limit)),
-    ];
-    let words = |(_, trial): &(f64, Trial)| trial.verdict.words().to_owned();
-    cells.extend(critical.confirmed.iter().map(words));
-    cells.resize(4 + runs, "-".to_owned());
-    cells
-}
-
-fn limit(limit: StabilityLimit) -> String {
-    match limit {
-        StabilityLimit::At(value) => format!("{value:.4}"),
-        StabilityLimit::Above(high) => format!("> {high}"),
-        StabilityLimit::Below(low) => format!("< {low}"),
-    }
-}
-
-/// Where in the complex plane the eigenvalue leaves the unit circle.
-fn leaves(prediction: &Prediction) -> Option<String> {
-    let (re, im) = prediction.leaves?;
-    Some(if im == 0.0 { format!("{re:.2}") } else { format!("{re:.2} +- {im:.2} i") })
-}
-
-fn short(value: f64) -> String {
-    if value.is_nan() { "-".to_owned() } else { scientific(value) }
 }
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! What a suite costs in seconds, as text: what depends on the machine is shown here and in no snapshot.
 
 use super::{
-    cost::{TRANSFERS, cost, short},
-    table::{Table, optional},
+    cost::{TRANSFERS, cost},
+    table::Table,
 };
-use crate::verify::{Bid, LevelOutcome, Machine, Model, Ranked, Ranking, TimedSuite, Timing};
+use crate::{
+    report::columns::{Column, cost as columns, short, timed_level},
+    verify::{Bid, Machine, Model, TimedSuite},
+};
 
 /// The report of a suite whose levels have been timed. `varied` says that there are cases besides the
 /// suite's own, whose best splits are shown.
@@ -20,7 +23,10 @@ pub fn priced(priced: &TimedSuite, varied: bool) -> String {
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
         if varied {
-            text += &format!("\n{}", lines(&splits(seconds)));
+            text += &format!(
+                "\n{}",
+                lines(&Table::new(&columns::splits(seconds), 0..seconds.targets.len()).lines())
+            );
         }
         text += &format!("\n{}", cost(transfers, TRANSFERS));
     }
@@ -57,85 +63,22 @@ pub(crate) fn machine(machine: &Machine) -> String {
         + &row("noise", &format!("{waited}{noise}"))
 }
 
-/// Every level of every case: what it gave and took.
+/// Every level of every case: its error and its time.
 fn levels(priced: &TimedSuite) -> Vec<String> {
-    let heads = [
-        "case",
-        "cells",
-        "dt",
-        "ppc",
-        "error",
-        "transfers",
-        "seconds",
-        "quartiles",
-        "repeats",
-        "ns/transfer",
-    ];
-    let mut table = Table::new(&heads);
-    for (case, timed) in priced.outcome.cases.iter().zip(&priced.levels) {
-        let Some(study) = case.convergence() else { continue };
-        for (level, (_, timing)) in study.levels.iter().zip(timed) {
-            let error = match &level.run.failure {
-                Some(_) => "failed".to_owned(),
-                None => short(level.error / study.yardstick.size),
-            };
-            let figures = [case.case.clone(), level.cells.to_string(), short(level.dt)];
-            let rest = [optional(level.ppc), error, level.run.counters.transfers.to_string()];
-            table
-                .row(figures.into_iter().chain(rest).chain(timing_cells(level, *timing)).collect());
-        }
-    }
-    table.flush_left(&[0]).without_empty_columns().lines()
-}
-
-fn timing_cells(level: &LevelOutcome, timing: Option<Timing>) -> [String; 4] {
-    let nanoseconds = |timing: &Timing| 1e9 * timing.median / level.run.counters.transfers as f64;
-    [
-        optional(timing.map(|timing| short(timing.median))),
-        optional(timing.map(|timing| format!("{}..{}", short(timing.low), short(timing.high)))),
-        optional(timing.map(|timing| timing.repeats)),
-        optional(timing.as_ref().map(|timing| format!("{:.2}", nanoseconds(timing)))),
-    ]
+    let cases = 0..priced.outcome.cases.len();
+    let rows = cases.flat_map(|case| timed_level::rows(priced, case));
+    Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
 }
 
 /// The cost model of each case, and how well it predicts the finest level before that runs.
 fn models(priced: &TimedSuite) -> Option<Vec<String>> {
-    let heads = ["cost model, ns", "a transfer", "a particle", "a node", "a step", "finest"];
-    let mut table = Table::new(&heads);
-    let mut any = false;
-    for (index, case) in priced.outcome.cases.iter().enumerate() {
-        let Some((model, off)) = priced.model(index) else { continue };
-        any = true;
-        let cells = model.seconds.iter().map(|seconds| nanoseconds(*seconds));
-        let off = optional(off.map(|off| format!("{:+.0} %", 100.0 * off)));
-        let name = std::iter::once(case.case.clone());
-        table.row(name.chain(cells).chain(std::iter::once(off)).collect());
-    }
-    any.then(|| table.flush_left(&[0]).lines())
-}
-
-fn nanoseconds(seconds: f64) -> String {
-    if seconds == 0.0 { "-".to_owned() } else { format!("{:.2}", 1e9 * seconds) }
-}
-
-/// The cheapest setting for each target, of all that were varied.
-fn splits(ranking: &Ranking) -> Vec<String> {
-    let mut table = Table::new(&["best split for", "case", "h", "seconds"]);
-    for (k, target) in ranking.targets.iter().enumerate() {
-        let reached = ranking.rows.iter().filter(|row| row.reaches[k].work().is_some());
-        let cost = |row: &Ranked| row.reaches[k].work().unwrap_or(f64::NAN);
-        let best = reached.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        let cells = match best {
-            None => ["not reached".to_owned(), "-".to_owned(), "-".to_owned()],
-            Some(row) => [
-                row.contender.name.clone(),
-                optional(row.reaches[k].spacing().map(short)),
-                super::cost::work(row.reaches[k]),
-            ],
-        };
-        table.row(std::iter::once(format!("<= {target:e}")).chain(cells).collect());
-    }
-    table.flush_left(&[0, 1]).lines()
+    let cases = priced.outcome.cases.iter().enumerate();
+    let rows = cases.filter_map(|(index, case)| {
+        let (model, off) = priced.model(index)?;
+        Some((case.case.clone(), model, off))
+    });
+    let table = Table::new(&columns::models(), rows);
+    (!table.is_empty()).then(|| table.lines())
 }
 
 /// What came of a budget.
@@ -146,12 +89,8 @@ pub fn bid(suite: &str, bid: &Bid) -> String {
     let ppc = ppc.map_or(String::new(), |ppc| format!(", {ppc} particles per cell"));
     let beyond = if bid.beyond { ", finer than all levels of the suite" } else { "" };
     text += &row("setting", &format!("{cells} cells, dt = {} s{ppc}{beyond}", short(*dt)));
-    let mut table = Table::new(&["", "predicted", "measured", "off"]);
-    for (name, [predicted, measured]) in [("seconds", seconds), ("error", error)] {
-        let off = format!("{:+.0} %", 100.0 * (predicted / measured - 1.0));
-        table.row(vec![name.to_owned(), short(*predicted), short(*measured), off]);
-    }
-    text += &format!("\n{}\n", lines(&table.flush_left(&[0]).lines()));
+    let rows = [("seconds", *seconds), ("error", *error)];
+    text += &format!("\n{}\n", lines(&Table::new(&predictions(), rows).lines()));
     text += &row("share of budget", &format!("{:.0} %", 100.0 * seconds[1] / budget));
     text += &row("model", &model(&bid.model, bid.fitted));
     if let Some(limit) = bid.limit {
@@ -163,10 +102,25 @@ pub fn bid(suite: &str, bid: &Bid) -> String {
     text
 }
 
+type Predicted = (&'static str, [f64; 2]);
+
+fn predictions() -> [Column<'static, Predicted>; 4] {
+    [
+        Column::<Predicted>::text("", "figure", |(name, _)| *name).flush_left(),
+        Column::<Predicted>::text("predicted", "by the models", |(_, [predicted, _])| {
+            short(*predicted)
+        }),
+        Column::<Predicted>::text("measured", "by the run", |(_, [_, measured])| short(*measured)),
+        Column::<Predicted>::text("off", "relative difference", |(_, [predicted, measured])| {
+            format!("{:+.0} %", 100.0 * (predicted / measured - 1.0))
+        }),
+    ]
+}
+
 fn model(model: &Model, fitted: usize) -> String {
-    let names = ["a transfer", "a particle", "a node", "a step"];
-    let parts = model.seconds.iter().zip(names).filter(|(seconds, _)| **seconds > 0.0);
+    let terms = columns::model();
+    let parts = terms.iter().zip(model.seconds).filter(|(_, seconds)| *seconds > 0.0);
     let parts: Vec<String> =
-        parts.map(|(seconds, name)| format!("{:.2} ns {name}", 1e9 * seconds)).collect();
+        parts.map(|(term, _)| format!("{} ns {}", term.cell(model).text, term.heading)).collect();
     format!("{}, fitted to {fitted} shorter runs", parts.join(", "))
 }

@@ -46,6 +46,11 @@ impl Quantity {
         matches!(self, Self::Stress | Self::DeformationGradient | Self::Temperature)
     }
 
+    /// Whether it is the unknown that a subject solves for, whose errors tables show.
+    pub fn is_primary(self) -> bool {
+        matches!(self, Self::Displacement | Self::Temperature)
+    }
+
     /// Numbers at each label in `d` dimensions.
     pub(crate) fn components(self, d: usize) -> usize {
         match self {

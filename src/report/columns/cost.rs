@@ -1,0 +1,198 @@
+//! Columns of the tables of cost: the work that methods take for an error.
+
+use super::{Cell, Column, decimals, json_object, short};
+use crate::{
+    report::json::number::number,
+    verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach},
+};
+
+type MethodColumn<'a> = Column<'a, Ranked>;
+
+/// The table of work for each target error.
+pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
+    let mut columns = vec![name("cheapest for")];
+    for (k, target) in ranking.targets.iter().enumerate() {
+        columns.extend([
+            MethodColumn::text(format!("<= {target:e}"), "work for the error", move |row| {
+                reach_text(row.reaches[k])
+            }),
+            MethodColumn::text("x", "times the least work", move |row| row.times[k].map(ratio)),
+        ]);
+    }
+    columns.extend([
+        MethodColumn::new(
+            "best error",
+            "best",
+            "least error, over the size of the solution",
+            |row| Cell::number(row.best, short),
+        ),
+        MethodColumn::new("not reached", "not_reached", "why the finest target is not", |row| {
+            Cell::plain(row.obstacle().map(End::words))
+        }),
+        MethodColumn::new("front", "front", "levels that no other one beats", |row| {
+            let (count, all) = (row.front.len(), row.contender.tried.len());
+            let text = (count > 0).then(|| format!("{count} of {all}"));
+            Cell { json: row.front.clone().into(), ..Cell::text(text) }
+        }),
+    ]);
+    columns
+}
+
+fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
+    MethodColumn::new(heading, "case", "method", |row| Cell::plain(row.contender.name.clone()))
+        .flush_left()
+}
+
+/// The table of exponents, where they are known.
+pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
+    let columns = exponent().map(|column| column.within(|row: &Ranked| row.exponent.as_ref()));
+    std::iter::once(name("work ~ error^k")).chain(columns).collect()
+}
+
+fn exponent<'a>() -> [Column<'a, Exponent>; 5] {
+    let two = |value: f64| Cell::number(value, decimals(2));
+    [
+        Column::<Exponent>::new("k", "value", "exponent of work ~ error^k", move |e| {
+            two(e.observed.value)
+        }),
+        Column::<Exponent>::new("low", "low", "lower end of its interval", move |e| {
+            two(e.observed.low)
+        }),
+        Column::<Exponent>::new("high (95 %)", "high", "upper end", move |e| two(e.observed.high)),
+        Column::<Exponent>::new("theory", "theory", "exponent in theory", move |e| two(e.theory)),
+        Column::<Exponent>::new(
+            "",
+            "agrees",
+            "whether theory is met, or else the difference",
+            |e| Cell::new(agreement(e), e.agreement() == Agreement::Agrees),
+        )
+        .flush_left(),
+    ]
+}
+
+/// All columns with a JSON key.
+pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
+    let mut columns = methods(ranking);
+    columns.extend([
+        MethodColumn::json("reached", "work for each target", |row| {
+            let pairs = row.reaches.iter().zip(&row.times);
+            let reached = |(reach, times): (&Reach, &Option<f64>)| {
+                reach.work().is_some().then(|| json_object(&reached(), &(*reach, *times)))
+            };
+            pairs.map(reached).collect::<Vec<_>>()
+        }),
+        MethodColumn::json("exponent", "exponent of work ~ error^k", |row| {
+            row.exponent.as_ref().map(|found| json_object(&exponent(), found))
+        }),
+    ]);
+    columns
+}
+
+/// A target, and how many times the least work it takes.
+type Reached = (Reach, Option<f64>);
+
+fn reached<'a>() -> [Column<'a, Reached>; 3] {
+    [
+        Column::<Reached>::json("work", "work for the error", |(reach, _)| {
+            reach.work().map(number)
+        }),
+        Column::<Reached>::json("at_most", "whether less may do", |(reach, _)| {
+            matches!(reach, Reach::Already { .. })
+        }),
+        Column::<Reached>::json("times", "times the least work", |(_, times)| times.map(number)),
+    ]
+}
+
+/// The cheapest setting for each target, of all that were varied.
+pub(crate) fn splits(ranking: &Ranking) -> [Column<'_, usize>; 4] {
+    [
+        Column::<usize>::text("best split for", "target error", |k| {
+            format!("<= {:e}", ranking.targets[*k])
+        })
+        .flush_left(),
+        Column::<usize>::text("case", "method", |k| {
+            let found = cheapest(ranking, *k);
+            found.map_or("not reached", |row| &row.contender.name).to_owned()
+        })
+        .flush_left(),
+        Column::<usize>::text("h", "spacing", |k| {
+            cheapest(ranking, *k).and_then(|row| row.reaches[*k].spacing()).map(short)
+        }),
+        Column::<usize>::text("seconds", "work", |k| {
+            cheapest(ranking, *k).map(|row| reach_text(row.reaches[*k]))
+        }),
+    ]
+}
+
+fn cheapest(ranking: &Ranking, target: usize) -> Option<&Ranked> {
+    let work = |row: &&Ranked| row.reaches[target].work();
+    let reached = ranking.rows.iter().filter(|row| work(row).is_some());
+    let cost = |row: &&Ranked| work(row).unwrap_or(f64::NAN);
+    reached.min_by(|a, b| cost(a).total_cmp(&cost(b)))
+}
+
+/// The terms of the cost model.
+pub(crate) fn model<'a>() -> [Column<'a, Model>; 4] {
+    let column = |k: usize, (heading, key): (&'static str, &'static str)| {
+        Column::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
+            let seconds = model.seconds[k];
+            let text = (seconds != 0.0).then(|| format!("{:.2}", 1e9 * seconds));
+            Cell { json: number(seconds), ..Cell::text(text) }
+        })
+    };
+    [
+        column(0, ("a transfer", "transfer")),
+        column(1, ("a particle", "particle")),
+        column(2, ("a node", "node")),
+        column(3, ("a step", "step")),
+    ]
+}
+
+/// The model of a case, and its relative error on the finest level before that runs.
+pub(crate) type FittedModel = (String, Model, Option<f64>);
+
+/// The table of cost models.
+pub(crate) fn models<'a>() -> Vec<Column<'a, FittedModel>> {
+    let name = Column::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
+    let terms = model().map(|column| column.within(|(_, model, _): &FittedModel| Some(model)));
+    let about = "relative error of the prediction for the finest level";
+    let finest = Column::<FittedModel>::new("finest", "finest_off", about, |(.., off)| {
+        Cell::number(*off, |off| format!("{:+.0} %", 100.0 * off))
+    });
+    std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
+}
+
+/// Whether theory is met, and if not, what differs.
+fn agreement(found: &Exponent) -> String {
+    match found.agreement() {
+        Agreement::Agrees => "agrees".to_owned(),
+        Agreement::Order => {
+            let (observed, formal) = found.order;
+            differing("order", observed, formal)
+        }
+        Agreement::Growth => {
+            let (observed, expected) = found.growth;
+            differing("growth of work", observed, expected)
+        }
+    }
+}
+
+/// With as many decimals as tell the numbers apart.
+fn differing(name: &str, observed: f64, expected: f64) -> String {
+    let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
+    format!("{name} {observed:.decimals$}, not {expected:.decimals$}")
+}
+
+/// Work: at most so much where the coarsest level is good enough.
+fn reach_text(reach: Reach) -> String {
+    match reach {
+        Reach::At { work, .. } => short(work),
+        Reach::Already { work, .. } => format!("<={}", short(work)),
+        Reach::Never => "-".to_owned(),
+    }
+}
+
+/// How many times: two decimals, more digits being noise.
+fn ratio(times: f64) -> String {
+    if times < 1000.0 { format!("{times:.2}") } else { short(times) }
+}

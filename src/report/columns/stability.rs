@@ -1,0 +1,169 @@
+//! Columns of a stability study.
+
+use super::{Cell, Column, json_object, scientific};
+use crate::{
+    report::json::number::number,
+    verify::{
+        Critical, Prediction, RunFigure, StabilityLimit, StabilityRow, StabilityStudy, Trial,
+    },
+};
+use serde_json::{Value, json};
+
+type RowColumn<'a> = Column<'a, StabilityRow>;
+type TrialColumn<'a> = Column<'a, Trial>;
+type CaseColumn<'a> = Column<'a, (&'a str, &'a StabilityStudy)>;
+
+/// The value of the parameter that is swept.
+fn swept(study: &StabilityStudy) -> RowColumn<'_> {
+    RowColumn::new(study.swept.as_str(), "value", "value of the parameter that is swept", |row| {
+        Cell::new(row.value.to_string(), number(row.value))
+    })
+}
+
+/// A figure of a run.
+fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
+    TrialColumn::new(figure.head(), figure.name(), "figure of the run", move |trial| {
+        let value = figure.of(trial);
+        let text = if value.is_nan() { "-".to_owned() } else { scientific(value) };
+        Cell::new(text, number(value))
+    })
+}
+
+fn verdict<'a>() -> TrialColumn<'a> {
+    TrialColumn::new("verdict", "verdict", "how the run ended", |trial| {
+        Cell::new(trial.verdict.words(), trial.verdict.name())
+    })
+    .flush_left()
+}
+
+fn steps<'a>() -> TrialColumn<'a> {
+    TrialColumn::new("steps", "steps", "steps taken", |trial| Cell::plain(trial.steps))
+}
+
+/// The table of runs, where no limit is sought.
+pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
+    let figures = study.figures.iter().map(|one| figure(*one));
+    let columns = [verdict(), steps()].into_iter().chain(figures);
+    let columns = columns.map(|column| column.within(|row: &StabilityRow| row.trial.as_ref()));
+    std::iter::once(swept(study)).chain(columns).collect()
+}
+
+/// The table of limits of the parameter `sought`.
+pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
+    let mut columns = vec![
+        swept(study),
+        RowColumn::new(
+            format!("predicted {sought}"),
+            "predicted",
+            "where the spectral radius of a step leaves one",
+            |row| limit_cell(predicted(row).map(|prediction| prediction.limit)),
+        ),
+        RowColumn::text("leaves at", "eigenvalue that leaves the unit circle", |row| {
+            predicted(row).and_then(|prediction| leaves(&prediction))
+        }),
+        RowColumn::new(
+            format!("observed {sought}"),
+            "observed",
+            "limit by bisection of runs",
+            |row| limit_cell(row.critical.as_ref().and_then(|critical| critical.observed)),
+        ),
+    ];
+    columns.extend(confirmed(study));
+    columns
+}
+
+/// One column for each share of the predicted limit at which runs confirm it.
+fn confirmed(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
+    let critical = study.rows.iter().filter_map(|row| row.critical.as_ref());
+    let longest = critical.max_by_key(|critical| critical.confirmed.len());
+    let shares = longest.into_iter().flat_map(|critical| &critical.confirmed).enumerate();
+    let column = |(k, (share, _)): (usize, &(f64, Trial))| {
+        let about = "verdict of a run at this share of the predicted limit";
+        RowColumn::text(format!("at {share}"), about, move |row| {
+            let run = row.critical.as_ref().and_then(|critical| critical.confirmed.get(k));
+            run.map(|(_, trial)| trial.verdict.words())
+        })
+    };
+    shares.map(column).collect()
+}
+
+/// All columns with a JSON key.
+pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
+    let mut columns = limits(study, study.sought.as_deref().unwrap_or_default());
+    columns.extend([
+        RowColumn::json("run", "verdict and figures, where no limit is sought", |row| {
+            row.trial.as_ref().map(run)
+        }),
+        RowColumn::json("confirmed", "runs at shares of the predicted limit", |row| {
+            row.critical.as_ref().map(|critical| confirmations(critical))
+        }),
+        RowColumn::json("refused", "why there is neither", |row| row.refused.clone()),
+    ]);
+    columns
+}
+
+fn run(trial: &Trial) -> Value {
+    let figures: Vec<_> = RunFigure::ALL.iter().map(|one| figure(*one)).collect();
+    let columns = [
+        verdict(),
+        TrialColumn::json("why", "why it did not come to its end", |trial| trial.why.clone()),
+        TrialColumn::json("figures", "all figures", |trial| json_object(&figures, trial)),
+    ];
+    json_object(&columns, trial)
+}
+
+fn confirmations(critical: &Critical) -> Value {
+    let run = |(share, trial): &(f64, Trial)| {
+        let mut run = json_object(&[verdict(), steps()], trial);
+        run["share"] = number(*share);
+        run
+    };
+    critical.confirmed.iter().map(run).collect()
+}
+
+/// The limits of all cases in one table, one row for each case and one column for each value of the
+/// parameter that is swept, those of the `first`.
+pub(crate) fn overview<'a>(first: &'a StabilityStudy, sought: &str) -> Vec<CaseColumn<'a>> {
+    let name = CaseColumn::text(format!("limit of {sought}"), "case", |(name, _)| *name);
+    let value = |(k, row): (usize, &StabilityRow)| {
+        let heading = format!("{} = {}", first.swept, row.value);
+        CaseColumn::text(heading, "limit", move |(_, study)| {
+            study.rows.get(k).and_then(limit_of).map(limit_text)
+        })
+    };
+    let values = first.rows.iter().enumerate().map(value);
+    std::iter::once(name.flush_left()).chain(values).collect()
+}
+
+/// The limit that a row has found, predicted or observed.
+pub(crate) fn limit_of(row: &StabilityRow) -> Option<StabilityLimit> {
+    row.critical.as_ref().and_then(Critical::limit)
+}
+
+/// A limit with four decimals, or the end of the range beyond which it lies.
+pub(crate) fn limit_text(limit: StabilityLimit) -> String {
+    match limit {
+        StabilityLimit::At(value) => format!("{value:.4}"),
+        StabilityLimit::Above(high) => format!("> {high}"),
+        StabilityLimit::Below(low) => format!("< {low}"),
+    }
+}
+
+fn limit_cell(limit: Option<StabilityLimit>) -> Cell {
+    let json = |limit: StabilityLimit| match limit {
+        StabilityLimit::At(value) => json!({"at": number(value)}),
+        StabilityLimit::Above(high) => json!({"above": number(high)}),
+        StabilityLimit::Below(low) => json!({"below": number(low)}),
+    };
+    Cell { json: limit.map_or(Value::Null, json), ..Cell::text(limit.map(limit_text)) }
+}
+
+fn predicted(row: &StabilityRow) -> Option<Prediction> {
+    row.critical.as_ref().and_then(|critical| critical.predicted)
+}
+
+/// An eigenvalue, real and imaginary part, or only the former on the real axis.
+fn leaves(prediction: &Prediction) -> Option<String> {
+    let (re, im) = prediction.leaves?;
+    Some(if im == 0.0 { format!("{re:.2}") } else { format!("{re:.2} +- {im:.2} i") })
+}

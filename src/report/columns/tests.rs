@@ -1,0 +1,59 @@
+//! `docs/columns.md` lists every column that is declared, and no other.
+
+use super::{Column, cost, force, level, stability, timed_level};
+use crate::verify::{Axis, Ranking, StabilityStudy};
+
+const DOCUMENT: &str = include_str!("../../../docs/columns.md");
+
+/// A section of the document: one row for each column, those of several tables once.
+fn section<R>(title: &str, tables: Vec<Vec<Column<'_, R>>>) -> String {
+    let mut rows = vec!["| column | JSON key | meaning |".to_owned(), "|---|---|---|".to_owned()];
+    for column in tables.into_iter().flatten() {
+        let code = |text: &str| match text {
+            "" => String::new(),
+            text => format!("`{text}`"),
+        };
+        let row =
+            format!("| {} | {} | {} |", code(&column.heading), code(column.key), column.about);
+        if !rows.contains(&row) {
+            rows.push(row);
+        }
+    }
+    format!("## {title}\n\n{}\n", rows.join("\n"))
+}
+
+#[test]
+fn the_document_lists_the_columns() {
+    let levels = vec![
+        level::errors(Axis::Space),
+        level::work(Axis::Space),
+        level::energy_rate().into(),
+        level::json_columns(),
+    ];
+    let study = StabilityStudy {
+        swept: "VALUE".to_owned(),
+        sought: Some("LIMIT".to_owned()),
+        figures: Vec::new(),
+        rows: Vec::new(),
+    };
+    let stability = vec![
+        stability::trials(&study),
+        stability::limits(&study, "LIMIT"),
+        stability::json_columns(&study),
+    ];
+    let ranking = Ranking::new(String::new(), 1.0, &[], Vec::new());
+    let cost = vec![cost::methods(&ranking), cost::json_columns(&ranking)];
+    let timed = vec![timed_level::columns().into(), timed_level::json_columns()];
+    let sections = [
+        section("Levels of a convergence study (`levels`)", levels),
+        section("Internal force (`forces`)", vec![force::columns().into()]),
+        section("Rows of a stability study (`stability.rows`)", stability),
+        section("Methods by cost (`cost.methods`)", cost),
+        section("Exponents (`cost.methods.exponent`)", vec![cost::exponents()]),
+        section("Timed levels of `mpm-verify cost` (`levels`)", timed),
+        section("Cost models of `mpm-verify cost` (`model`)", vec![cost::models()]),
+    ];
+    let (_, listed) = DOCUMENT.split_once("\n## ").expect("a section");
+    let expected = sections.join("\n");
+    assert_eq!(format!("## {listed}"), expected, "docs/columns.md must list:\n{expected}");
+}

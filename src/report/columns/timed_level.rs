@@ -1,0 +1,103 @@
+//! Columns of the levels of a suite that has been timed.
+
+use super::{Cell, Column, short};
+use crate::{
+    report::json::number::number,
+    subject::{Column as MemoryColumn, Holder, Profile},
+    verify::{CaseOutcome, LevelOutcome, Load, TimedSuite, Timing},
+};
+use serde_json::{Value, json};
+
+/// A level of a case, with its work and time.
+pub(crate) struct TimedLevel<'a> {
+    case: &'a CaseOutcome,
+    level: &'a LevelOutcome,
+    /// Size of the solution, which errors are divided by.
+    size: f64,
+    load: &'a Load,
+    timing: Option<Timing>,
+}
+
+type TimedColumn<'a> = Column<'a, TimedLevel<'a>>;
+
+/// The levels of the case with this index, coarse to fine.
+pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = TimedLevel<'_>> {
+    let outcome = &suite.outcome.cases[case];
+    let levels = outcome
+        .convergence()
+        .into_iter()
+        .flat_map(|study| study.levels.iter().map(|level| (level, study.yardstick.size)));
+    levels.zip(&suite.levels[case]).map(move |((level, size), (load, timing))| TimedLevel {
+        case: outcome,
+        level,
+        size,
+        load,
+        timing: *timing,
+    })
+}
+
+/// The table of levels.
+pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
+    [
+        TimedColumn::text("case", "case", |row| row.case.case.clone()).flush_left(),
+        TimedColumn::new("cells", "cells", "cells along the first axis", |row| {
+            Cell::plain(row.level.cells)
+        }),
+        TimedColumn::new("dt", "dt", "time step (s)", |row| Cell::number(row.level.dt, short)),
+        TimedColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| {
+            Cell::plain(row.level.ppc)
+        }),
+        TimedColumn::new("error", "error", "error over the size of the solution", |row| {
+            let error = Cell::number(row.level.error / row.size, short);
+            error.or_failed(row.level.run.failure.as_ref())
+        }),
+        TimedColumn::new("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
+            Cell::plain(row.level.run.counters.transfers)
+        }),
+        TimedColumn::new("seconds", "seconds", "time of the steps, median of the repeats", |row| {
+            let text = Cell::text(row.timing.map(|timing| short(timing.median)));
+            Cell { json: row.timing.map_or(Value::Null, timing), ..text }
+        }),
+        TimedColumn::text("quartiles", "quartiles of the time (s)", |row| {
+            row.timing.map(|timing| format!("{}..{}", short(timing.low), short(timing.high)))
+        }),
+        TimedColumn::text("repeats", "repeats", |row| row.timing.map(|timing| timing.repeats)),
+        TimedColumn::text("ns/transfer", "time of a transfer (ns)", |row| {
+            let transfers = row.level.run.counters.transfers as f64;
+            row.timing.map(|timing| format!("{:.2}", 1e9 * timing.median / transfers))
+        }),
+    ]
+}
+
+/// All columns with a JSON key.
+pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
+    let mut list: Vec<_> = columns().into();
+    list.extend([
+        TimedColumn::json("particle_updates", "particles times steps", |row| {
+            row.load.updates as u64
+        }),
+        TimedColumn::json("steps", "steps taken", |row| row.level.run.steps),
+        TimedColumn::json("bytes", "particle data passed over (B)", |row| {
+            let bytes = row.case.profile.as_ref().map(bytes_of_a_particle);
+            bytes.map(|bytes| bytes as u64 * row.load.updates as u64)
+        }),
+        TimedColumn::json("failure", "why and when the run broke", |row| {
+            row.level.run.failure.clone()
+        }),
+    ]);
+    list
+}
+
+/// Median and quartiles (s).
+pub(crate) fn timing(timing: Timing) -> Value {
+    let Timing { median, low, high, repeats } = timing;
+    json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
+}
+
+/// Bytes that every particle has.
+fn bytes_of_a_particle(profile: &Profile) -> usize {
+    let whole = |column: &&MemoryColumn| {
+        column.holder == Holder::Particle && column.entries == profile.particles
+    };
+    profile.columns.iter().filter(whole).map(|column| column.bytes).sum()
+}
