@@ -1,9 +1,9 @@
-//! Work that threads share by halves, each half again, until it is not worth one's while. What is shared
+//! Work that threads share by par_split, each half again, until it is not worth one's while. What is shared
 //! decides nothing: every number is computed by one thread, whichever, from the same ones.
 
 /// Runs both, at once if there is a thread to spare. Where there is none, nothing goes to another
 /// thread, which would have to be woken.
-pub(super) fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+pub(super) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();
         other();
@@ -22,14 +22,14 @@ pub(super) fn split<T>(
 
 /// Rows of a field, which threads share.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rows {
+pub(super) struct RowChunks {
     /// Entries of a row; the last may have fewer.
     pub(super) length: usize,
     /// Entries that are not worth a thread of their own.
     pub(super) few: usize,
 }
 
-impl Rows {
+impl RowChunks {
     /// Calls `work` with each row of `field` and its number.
     pub(super) fn each<T: Send>(self, field: &mut [T], work: &(impl Fn(usize, &mut [T]) + Sync)) {
         self.each_from(0, field, work);
@@ -47,7 +47,7 @@ impl Rows {
             return rows.for_each(|(k, row)| work(first + k, row));
         }
         let (low, high) = field.split_at_mut(middle * self.length);
-        both(|| self.each_from(first, low, work), || self.each_from(first + middle, high, work));
+        join(|| self.each_from(first, low, work), || self.each_from(first + middle, high, work));
     }
 }
 
@@ -66,7 +66,7 @@ mod tests {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut field = vec![0; total];
         pool.install(|| {
-            Rows { length, few: 16 }
+            RowChunks { length, few: 16 }
                 .each(&mut field, &|k, row| row.iter_mut().for_each(|entry| *entry += k + 1));
         });
         let expected: Vec<usize> = (0..total).map(|i| i / length + 1).collect();

@@ -7,10 +7,10 @@
 //! algorithm A2.2).
 
 use super::{
+    cell_locator::{CellLocator, CellPositions},
     contract::{Basis, Domain},
-    lattice::{Lattice, Places},
     product::Product,
-    product_batch::Products,
+    product_batch::ProductBatch,
     weights_1d::Weights1d,
     weights_1d_batch::{Weights1dBatch, WeightsSimd},
 };
@@ -18,7 +18,7 @@ use crate::mpm::{
     algebra::array,
     grid::Grid,
     particles::Particles,
-    simd::{FOUR, Four, Plain, Width},
+    simd::{F64x4, LANES, Plain, Simd},
 };
 
 /// Quadratic B-splines.
@@ -84,15 +84,15 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
 
 /// The same where no knot is repeated, at `xi` from 0 to 1 within the cell: all spans have length 1.
 #[inline(always)]
-fn uniform<W: Width, const K: usize>(width: W, xi: W::Four) -> ([W::Four; K], [W::Four; K]) {
-    let zero = width.all(0.0);
+fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S::F64x4; K]) {
+    let zero = simd.splat(0.0);
     let (mut value, mut lower) = ([zero; K], [zero; K]);
-    value[0] = width.all(1.0);
+    value[0] = simd.splat(1.0);
     for degree in 1..K {
         lower = value;
         for r in 0..degree {
             let share = lower[r] * (1.0 / degree as f64);
-            let falling = (width.all((r + 1) as f64) - xi) * share;
+            let falling = (simd.splat((r + 1) as f64) - xi) * share;
             value[r] = if r > 0 { value[r] + falling } else { falling };
             value[r + 1] = (xi + (degree - 1 - r) as f64) * share;
         }
@@ -107,20 +107,20 @@ fn uniform<W: Width, const K: usize>(width: W, xi: W::Four) -> ([W::Four; K], [W
 
 /// The functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
-fn along<W: Width, const K: usize>(
-    width: W,
-    xi: W::Four,
+fn along<S: Simd, const K: usize>(
+    simd: S,
+    xi: S::F64x4,
     h: f64,
     inverse_h: f64,
-) -> WeightsSimd<W, K> {
-    let (weight, slope) = uniform::<W, K>(width, xi);
-    let first = width.all(1.0 - 0.5 * K as f64) - xi;
+) -> WeightsSimd<S, K> {
+    let (weight, slope) = uniform::<S, K>(simd, xi);
+    let first = simd.splat(1.0 - 0.5 * K as f64) - xi;
     WeightsSimd {
         weight,
         slope: array(xi, |r| slope[r] * inverse_h),
         offset: array(xi, |r| (first + r as f64) * h),
         // A sum of p + 1 boxes has p + 1 times the variance 1/12 of one.
-        variance: width.all(K as f64 / 12.0 * (h * h)),
+        variance: simd.splat(K as f64 / 12.0 * (h * h)),
     }
 }
 
@@ -159,14 +159,14 @@ fn along_wall<const D: usize, const K: usize>(
 fn put_right<const D: usize, const K: usize>(
     grid: &Grid<D>,
     axis: usize,
-    (cell, xi): ([f64; FOUR], [f64; FOUR]),
+    (cell, xi): ([f64; LANES], [f64; LANES]),
     lane: usize,
-    alongs: &mut Weights1dBatch<K>,
+    weights: &mut Weights1dBatch<K>,
 ) {
     let (low, high) = uniform_cells(K - 1, grid.cells[axis] as f64, grid.periodic[axis]);
-    for k in 0..FOUR {
+    for k in 0..LANES {
         if cell[k] < low || cell[k] >= high {
-            alongs.put(lane + k, &along_wall(grid, axis, cell[k] as usize, xi[k]));
+            weights.put(lane + k, &along_wall(grid, axis, cell[k] as usize, xi[k]));
         }
     }
 }
@@ -200,41 +200,42 @@ macro_rules! bspline {
                 grid: &Grid<D>,
                 particles: &Particles<D>,
                 p: usize,
-                mut see: impl FnMut(&Product<D, $functions>),
+                mut visit: impl FnMut(&Product<D, $functions>),
             ) {
                 let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-                see(&Product(array(Weights1d::NONE, |axis| {
+                visit(&Product(array(Weights1d::NONE, |axis| {
                     let (cell, xi, cells) = (cell[axis], xi[axis], grid.cells[axis] as f64);
                     let (low, high) = uniform_cells($degree, cells, grid.periodic[axis]);
                     if !(low..high).contains(&(cell as f64)) {
                         return along_wall(grid, axis, cell, xi);
                     }
-                    along(Plain, Plain.all(xi), grid.h, grid.inverse_h()).take(0, cell)
+                    along(Plain, Plain.splat(xi), grid.h, grid.inverse_h()).take(0, cell)
                 })));
             }
 
             #[inline(always)]
-            fn four<W: Width, const D: usize>(
-                width: W,
-                (grid, lattice): (&Grid<D>, &Lattice<D>),
+            fn patches_x4<S: Simd, const D: usize>(
+                simd: S,
+                (grid, locator): (&Grid<D>, &CellLocator<D>),
                 particles: &Particles<D>,
                 (first, lane): (usize, usize),
-                patches: &mut Products<D, $functions>,
+                patches: &mut ProductBatch<D, $functions>,
             ) -> u32 {
-                let Places { cell, xi, inside } = lattice.locate(width, grid, &particles.x, first);
-                patches.put_starts(lane, lattice.starts(&cell));
+                let CellPositions { cell, xi, inside } =
+                    locator.locate(simd, grid, &particles.x, first);
+                patches.put_starts(lane, locator.starts(&cell));
                 for axis in 0..D {
                     let (cell, xi) = (cell[axis], xi[axis]);
-                    let alongs = &mut patches.axes[axis];
-                    along(width, xi, lattice.h, lattice.inverse_h).put(
-                        lane / FOUR,
-                        lattice.needs,
-                        alongs,
+                    let weights = &mut patches.axes[axis];
+                    along(simd, xi, locator.h, locator.inverse_h).put(
+                        lane / LANES,
+                        locator.needs,
+                        weights,
                     );
                     let (low, high) =
-                        uniform_cells($degree, lattice.ends[axis], lattice.periodic[axis]);
+                        uniform_cells($degree, locator.ends[axis], locator.periodic[axis]);
                     if !cell.are_in(low, high) {
-                        put_right(grid, axis, (cell.into(), xi.into()), lane, alongs);
+                        put_right(grid, axis, (cell.into(), xi.into()), lane, weights);
                     }
                 }
                 inside

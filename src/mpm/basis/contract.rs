@@ -1,13 +1,13 @@
 //! What a basis is to the rest of the solver.
 
 use super::{
-    lattice::Lattice,
-    patch::{Patch, Seen},
+    cell_locator::CellLocator,
+    patch::{NodeWeight, Patch},
 };
 use crate::mpm::{
     grid::Grid,
     particles::Particles,
-    simd::{FOUR, Width},
+    simd::{LANES, Simd},
 };
 
 /// What a basis must know of a particle besides its position.
@@ -55,7 +55,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        see: impl FnMut(&Self::Patch<D>),
+        visit: impl FnMut(&Self::Patch<D>),
     );
 
     /// Puts the patches of the four particles from `first` on into the lanes from `lane` on, and
@@ -63,20 +63,20 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// Others are left to [`Basis::patches`], which gives the same bits. Weights that are computed for four
     /// particles at once do not wait for one another; a basis that does not care needs no method of its own.
     #[inline(always)]
-    fn four<W: Width, const D: usize>(
-        _width: W,
-        (grid, lattice): (&Grid<D>, &Lattice<D>),
+    fn patches_x4<S: Simd, const D: usize>(
+        _width: S,
+        (grid, locator): (&Grid<D>, &CellLocator<D>),
         particles: &Particles<D>,
         (first, lane): (usize, usize),
-        patches: &mut <Self::Patch<D> as Patch<D>>::Several,
+        patches: &mut <Self::Patch<D> as Patch<D>>::Batch,
     ) -> u32 {
         let mut seen = 0;
         if !Self::ONE_PATCH {
             return seen;
         }
-        for k in 0..FOUR.min(particles.len() - first) {
+        for k in 0..LANES.min(particles.len() - first) {
             Self::patches(grid, particles, first + k, |patch| {
-                patch.put(lane + k, &lattice.layout, patches);
+                patch.put(lane + k, &locator.layout, patches);
                 seen |= 1 << k;
             });
         }
@@ -89,7 +89,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        mut visit: impl FnMut(Seen<'_, D>),
+        mut visit: impl FnMut(NodeWeight<'_, D>),
     ) {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }

@@ -24,7 +24,7 @@
 use super::{
     contract::{Basis, Domain},
     corner_batch::Corners,
-    patch::{Patch, Seen, WeightMoments},
+    patch::{NodeWeight, Patch, WeightMoments},
     product::Product,
     weights_1d::Weights1d,
 };
@@ -93,7 +93,7 @@ fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weight
 }
 
 impl<const D: usize> Patch<D> for Corner<D> {
-    type Several = Corners<D>;
+    type Batch = Corners<D>;
 
     #[inline(always)]
     fn put(&self, lane: usize, layout: &Layout, patches: &mut Corners<D>) {
@@ -102,8 +102,8 @@ impl<const D: usize> Patch<D> for Corner<D> {
     }
 
     #[inline(always)]
-    fn spread(&self) -> WeightMoments<D> {
-        self.hats.spread()
+    fn weight_moments(&self) -> WeightMoments<D> {
+        self.hats.weight_moments()
     }
 
     #[inline(always)]
@@ -112,8 +112,8 @@ impl<const D: usize> Patch<D> for Corner<D> {
     }
 
     #[inline(always)]
-    fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(Seen<'_, D>)) {
-        self.hats.visit(grid, |i| visit(Seen { gradient: &(self.outward * i.weight), ..i }));
+    fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(NodeWeight<'_, D>)) {
+        self.hats.visit(grid, |i| visit(NodeWeight { gradient: &(self.outward * i.weight), ..i }));
     }
 }
 
@@ -138,7 +138,7 @@ impl Basis for Cpdi {
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        mut see: impl FnMut(&Corner<D>),
+        mut visit: impl FnMut(&Corner<D>),
     ) {
         if grid.cell(&particles.x[p]).is_none() {
             return;
@@ -154,7 +154,7 @@ impl Basis for Cpdi {
             let mut axes = array(Weights1d::NONE, |axis| hats(grid, at[axis], own[axis], axis));
             let Weights1d { first, weight, slope, offset, .. } = axes[0];
             axes[0] = Weights1d::new(first, weight.map(|weight| weight * share), slope, offset);
-            see(&Corner { hats: Product(axes), outward: inverse_transposed * side });
+            visit(&Corner { hats: Product(axes), outward: inverse_transposed * side });
         }
     }
 

@@ -1,14 +1,14 @@
 //! Domains of GIMP along one axis, and the functions there: hats averaged over a domain, with its ends at
 //! `low` and `high`.
 //!
-//! Four at a time where no domain sees more than three nodes; one at a time, three nodes after three, where one
+//! F64x4 at a time where no domain sees more than three nodes; one at a time, three nodes after three, where one
 //! does.
 
 use super::{weights_1d::Weights1d, weights_1d_batch::WeightsSimd};
 use crate::mpm::{
     algebra::array,
     grid::Grid,
-    simd::{FOUR, Four, Plain, Width},
+    simd::{F64x4, LANES, Plain, Simd},
 };
 
 /// Functions along an axis that are seen at once: all of them while the domain is not longer than a
@@ -32,19 +32,19 @@ fn integral(z: f64) -> f64 {
 
 /// Domains of four particles along one axis, in cells.
 #[derive(Clone, Copy)]
-pub(in crate::mpm) struct Domain1dSimd<W: Width> {
+pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
     /// The particle and the ends of its domain.
-    at: W::Four,
-    low: W::Four,
-    high: W::Four,
+    at: S::F64x4,
+    low: S::F64x4,
+    high: S::F64x4,
     /// The first node that it sees.
-    pub(in crate::mpm) first: W::Four,
+    pub(in crate::mpm) first: S::F64x4,
 }
 
-impl<W: Width> Domain1dSimd<W> {
+impl<S: Simd> Domain1dSimd<S> {
     /// The domain at `at`, cut off at walls: at the first node and this last one, if there are any.
     #[inline(always)]
-    pub(in crate::mpm) fn new(at: W::Four, half: W::Four, last: Option<f64>) -> Self {
+    pub(in crate::mpm) fn new(at: S::F64x4, half: S::F64x4, last: Option<f64>) -> Self {
         let half = half.abs().at_most(LONGEST);
         let (mut low, mut high) = (at - half, at + half);
         if let Some(last) = last {
@@ -55,22 +55,17 @@ impl<W: Width> Domain1dSimd<W> {
 
     /// How far the last of [`AT_ONCE`] nodes is beyond the domain. Less than nothing if there are more.
     #[inline(always)]
-    pub(in crate::mpm) fn spare(&self) -> W::Four {
+    pub(in crate::mpm) fn spare(&self) -> S::F64x4 {
         self.first + (AT_ONCE - 1) as f64 - self.high
     }
 
     /// The functions of domains that end before the third node. It is known on which side of which node
     /// the ends are: what is computed are [`integral`] and [`hat`] there, to the bit.
     #[inline(always)]
-    pub(in crate::mpm) fn along(
-        &self,
-        width: W,
-        h: f64,
-        inverse_h: f64,
-    ) -> WeightsSimd<W, AT_ONCE> {
-        let (zero, one) = (width.all(0.0), width.all(1.0));
-        let rising = |z: W::Four| (z + 1.0) * 0.5 * (z + 1.0);
-        let falling = |z: W::Four| z + 0.5 - z * 0.5 * z;
+    pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
+        let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
+        let rising = |z: S::F64x4| (z + 1.0) * 0.5 * (z + 1.0);
+        let falling = |z: S::F64x4| z + 0.5 - z * 0.5 * z;
         let node: [_; AT_ONCE] = array(zero, |k| self.first + k as f64);
         let (low, high) =
             ([self.low - node[0], self.low - node[1]], |k: usize| self.high - node[k]);
@@ -115,8 +110,8 @@ impl Domain1d {
         axis: usize,
     ) -> Self {
         let last = (!grid.periodic[axis]).then_some(grid.cells[axis] as f64);
-        let extent = Domain1dSimd::<Plain>::new(Plain.all(at), Plain.all(half), last);
-        let [spare, ..]: [f64; FOUR] = extent.spare().into();
+        let extent = Domain1dSimd::<Plain>::new(Plain.splat(at), Plain.splat(half), last);
+        let [spare, ..]: [f64; LANES] = extent.spare().into();
         let groups = if spare >= 0.0 { 1 } else { 2 + (-spare / AT_ONCE as f64) as usize };
         Self { extent, groups }
     }
@@ -132,7 +127,7 @@ impl Domain1d {
         if self.groups > 1 {
             return self.one_of_many(grid, axis, group);
         }
-        let first = <[f64; FOUR]>::from(self.extent.first)[0];
+        let first = <[f64; LANES]>::from(self.extent.first)[0];
         let along = self.extent.along(Plain, grid.h, grid.inverse_h());
         along.take(0, grid.wrap_signed(first, axis))
     }
@@ -147,7 +142,7 @@ impl Domain1d {
     ) -> Weights1d<AT_ONCE> {
         let Domain1dSimd { at, low, high, first } = self.extent;
         let [at, low, high, first] =
-            [at, low, high, first].map(|four| <[f64; FOUR]>::from(four)[0]);
+            [at, low, high, first].map(|four| <[f64; LANES]>::from(four)[0]);
         let first = first + (group * AT_ONCE) as f64;
         let (share, node) = (1.0 / (high - low), |k: usize| first + k as f64);
         let (low, high) = (|k| low - node(k), |k| high - node(k));

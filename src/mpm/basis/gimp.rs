@@ -7,18 +7,18 @@
 //! diagonal of F, so that domains neither part nor overlap. At walls the domain is cut off.
 
 use super::{
+    cell_locator::{CellLocator, CellPositions},
     contract::{Basis, Domain},
     domain_1d::{AT_ONCE, Domain1d, Domain1dSimd},
-    lattice::{Lattice, Places},
     product::Product,
-    product_batch::Products,
+    product_batch::ProductBatch,
     weights_1d::Weights1d,
 };
 use crate::mpm::{
     algebra::{Matrix, array},
     grid::Grid,
     particles::Particles,
-    simd::{FOUR, Four, Width},
+    simd::{F64x4, LANES, Simd},
 };
 
 /// GIMP with domains of constant size.
@@ -42,7 +42,7 @@ fn patches<const D: usize>(
     particles: &Particles<D>,
     p: usize,
     follows: bool,
-    mut see: impl FnMut(&Product<D, AT_ONCE>),
+    mut visit: impl FnMut(&Product<D, AT_ONCE>),
 ) {
     let x = &particles.x[p];
     if grid.cell(x).is_none() {
@@ -55,7 +55,7 @@ fn patches<const D: usize>(
     let axes: [Domain1d; D] = array(alone(0), alone);
     let groups: usize = axes.iter().map(|axis| axis.groups).product();
     for mut group in 0..groups {
-        see(&Product(array(Weights1d::NONE, |axis| {
+        visit(&Product(array(Weights1d::NONE, |axis| {
             let along = axes[axis].along(grid, axis, group % axes[axis].groups);
             group /= axes[axis].groups;
             along
@@ -65,60 +65,60 @@ fn patches<const D: usize>(
 
 /// Those of four particles that see one group along each axis.
 #[inline(always)]
-fn four<W: Width, const D: usize>(
-    width: W,
-    (grid, lattice): (&Grid<D>, &Lattice<D>),
+fn patches_x4<S: Simd, const D: usize>(
+    simd: S,
+    (grid, locator): (&Grid<D>, &CellLocator<D>),
     particles: &Particles<D>,
     (first, lane): (usize, usize),
     follows: bool,
-    patches: &mut Products<D, AT_ONCE>,
+    patches: &mut ProductBatch<D, AT_ONCE>,
 ) -> u32 {
-    let Places { cell, xi, inside } = lattice.locate(width, grid, &particles.x, first);
+    let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
     let (mut start, mut one) = (cell, inside);
-    let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<FOUR>);
+    let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<LANES>);
     for axis in 0..D {
         let half = match domains {
-            _ if !follows => width.all(0.5 * particles.spacing[axis]),
-            Some(four) => width.four(array(0.0, |k| four[k][(axis, axis)])),
-            None => width.four(last(particles, first, axis)),
+            _ if !follows => simd.splat(0.5 * particles.spacing[axis]),
+            Some(four) => simd.load(array(0.0, |k| four[k][(axis, axis)])),
+            None => simd.load(last(particles, first, axis)),
         };
-        let wall = (!lattice.periodic[axis]).then_some(lattice.ends[axis]);
+        let wall = (!locator.periodic[axis]).then_some(locator.ends[axis]);
         let at = cell[axis] + xi[axis];
-        let extent = Domain1dSimd::<W>::new(at, half * lattice.inverse_h, wall);
-        let along = extent.along(width, lattice.h, lattice.inverse_h);
-        along.put(lane / FOUR, lattice.needs, &mut patches.axes[axis]);
+        let extent = Domain1dSimd::<S>::new(at, half * locator.inverse_h, wall);
+        let along = extent.along(simd, locator.h, locator.inverse_h);
+        along.put(lane / LANES, locator.needs, &mut patches.axes[axis]);
         start[axis] = extent.first;
-        if wall.is_none() && !start[axis].are_in(0.0, lattice.ends[axis]) {
-            start[axis] = width.four(beyond_seam(grid, axis, start[axis].into()));
+        if wall.is_none() && !start[axis].are_in(0.0, locator.ends[axis]) {
+            start[axis] = simd.load(beyond_seam(grid, axis, start[axis].into()));
         }
         let spare = extent.spare();
         if !spare.are_in(0.0, f64::INFINITY) {
             one &= not_below_zero(spare.into());
         }
     }
-    patches.put_starts(lane, lattice.starts(&start));
+    patches.put_starts(lane, locator.starts(&start));
     one
 }
 
 /// Half the lengths of the last few domains.
 #[cold]
 #[inline(never)]
-fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; FOUR] {
+fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; LANES] {
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
 /// First nodes of domains, some of which begin before the first node of a periodic axis.
 #[cold]
 #[inline(never)]
-fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; FOUR]) -> [f64; FOUR] {
+fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {
     first.map(|first| grid.wrap_signed(first, axis) as f64)
 }
 
 /// Which of four are not below zero: bit k for the k-th.
 #[cold]
 #[inline(never)]
-fn not_below_zero(four: [f64; FOUR]) -> u32 {
-    (0..FOUR).map(|k| u32::from(four[k] >= 0.0) << k).sum()
+fn not_below_zero(four: [f64; LANES]) -> u32 {
+    (0..LANES).map(|k| u32::from(four[k] >= 0.0) << k).sum()
 }
 
 macro_rules! gimp {
@@ -144,20 +144,20 @@ macro_rules! gimp {
                 grid: &Grid<D>,
                 particles: &Particles<D>,
                 p: usize,
-                see: impl FnMut(&Product<D, AT_ONCE>),
+                visit: impl FnMut(&Product<D, AT_ONCE>),
             ) {
-                patches(grid, particles, p, Self::DOMAIN == Domain::Follows, see);
+                patches(grid, particles, p, Self::DOMAIN == Domain::Follows, visit);
             }
 
             #[inline(always)]
-            fn four<W: Width, const D: usize>(
-                width: W,
-                grid: (&Grid<D>, &Lattice<D>),
+            fn patches_x4<S: Simd, const D: usize>(
+                simd: S,
+                grid: (&Grid<D>, &CellLocator<D>),
                 particles: &Particles<D>,
                 at: (usize, usize),
-                patches: &mut Products<D, AT_ONCE>,
+                patches: &mut ProductBatch<D, AT_ONCE>,
             ) -> u32 {
-                four(width, grid, particles, at, Self::DOMAIN == Domain::Follows, patches)
+                patches_x4(simd, grid, particles, at, Self::DOMAIN == Domain::Follows, patches)
             }
 
             /// Three nodes along an axis while the domain is not longer than a cell.

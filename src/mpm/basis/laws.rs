@@ -2,15 +2,15 @@
 //! on periodic axes.
 
 use super::{
-    Basis, BasisName, Domain, Lattice, Needs, Patch, PatchBatch, contract, product, weights_1d,
-    with_basis,
+    Basis, BasisName, CellLocator, Domain, Patch, PatchBatch, WeightNeeds, contract, product,
+    weights_1d, with_basis,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     grid::Grid,
     packed_grid::Layout,
     particles::{Block, Particles},
-    simd::{FOUR, Plain},
+    simd::{LANES, Plain},
 };
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
@@ -129,19 +129,19 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
 fn fill<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
     let layout = Layout::of(&grid);
-    for four in points(&grid).chunks_exact(FOUR) {
+    for four in points(&grid).chunks_exact(LANES) {
         let mut particles = particle(&grid, four[0]);
         particles.x = four.to_vec();
-        particles.domain = vec![particles.domain[0]; FOUR];
-        let none = <<B as Basis>::Patch<D> as Patch<D>>::Several::none;
+        particles.domain = vec![particles.domain[0]; LANES];
+        let none = <<B as Basis>::Patch<D> as Patch<D>>::Batch::none;
         let (mut together, mut alone) = (none(), none());
-        let needs = Needs { slopes: true, places: true };
-        let lattice = Lattice::new(&grid, layout, needs);
-        let one = B::four(Plain, (&grid, &lattice), &particles, (0, FOUR), &mut together);
-        for k in 0..FOUR {
+        let needs = WeightNeeds { slopes: true, offsets: true };
+        let locator = CellLocator::new(&grid, layout, needs);
+        let one = B::patches_x4(Plain, (&grid, &locator), &particles, (0, LANES), &mut together);
+        for k in 0..LANES {
             let mut patches = 0;
             B::patches(&grid, &particles, k, |patch| {
-                patch.put(FOUR + k, &layout, &mut alone);
+                patch.put(LANES + k, &layout, &mut alone);
                 patches += 1;
             });
             assert_eq!(one >> k & 1 == 1, patches == 1, "all that the particle sees");

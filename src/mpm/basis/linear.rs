@@ -5,10 +5,10 @@
 //! (grid crossing).
 
 use super::{
+    cell_locator::{CellLocator, CellPositions},
     contract::{Basis, Domain},
-    lattice::{Lattice, Places},
     product::Product,
-    product_batch::Products,
+    product_batch::ProductBatch,
     weights_1d::Weights1d,
     weights_1d_batch::WeightsSimd,
 };
@@ -16,17 +16,17 @@ use crate::mpm::{
     algebra::array,
     grid::Grid,
     particles::Particles,
-    simd::{FOUR, Plain, Width},
+    simd::{LANES, Plain, Simd},
 };
 
 /// The hats along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
-fn along<W: Width>(width: W, xi: W::Four, h: f64, inverse_h: f64) -> WeightsSimd<W, 2> {
-    let rest = width.all(1.0) - xi;
+fn along<S: Simd>(simd: S, xi: S::F64x4, h: f64, inverse_h: f64) -> WeightsSimd<S, 2> {
+    let rest = simd.splat(1.0) - xi;
     WeightsSimd {
         weight: [rest, xi],
-        slope: [width.all(-inverse_h), width.all(inverse_h)],
-        offset: [width.all(0.0) - xi * h, rest * h],
+        slope: [simd.splat(-inverse_h), simd.splat(inverse_h)],
+        offset: [simd.splat(0.0) - xi * h, rest * h],
         variance: xi * rest * h * h,
     }
 }
@@ -54,27 +54,27 @@ impl Basis for Linear {
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        mut see: impl FnMut(&Product<D, 2>),
+        mut visit: impl FnMut(&Product<D, 2>),
     ) {
         let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-        see(&Product(array(Weights1d::NONE, |axis| {
-            along(Plain, Plain.all(xi[axis]), grid.h, grid.inverse_h()).take(0, cell[axis])
+        visit(&Product(array(Weights1d::NONE, |axis| {
+            along(Plain, Plain.splat(xi[axis]), grid.h, grid.inverse_h()).take(0, cell[axis])
         })));
     }
 
     #[inline(always)]
-    fn four<W: Width, const D: usize>(
-        width: W,
-        (grid, lattice): (&Grid<D>, &Lattice<D>),
+    fn patches_x4<S: Simd, const D: usize>(
+        simd: S,
+        (grid, locator): (&Grid<D>, &CellLocator<D>),
         particles: &Particles<D>,
         (first, lane): (usize, usize),
-        patches: &mut Products<D, 2>,
+        patches: &mut ProductBatch<D, 2>,
     ) -> u32 {
-        let Places { cell, xi, inside } = lattice.locate(width, grid, &particles.x, first);
-        patches.put_starts(lane, lattice.starts(&cell));
+        let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
+        patches.put_starts(lane, locator.starts(&cell));
         for axis in 0..D {
-            let along = along(width, xi[axis], lattice.h, lattice.inverse_h);
-            along.put(lane / FOUR, lattice.needs, &mut patches.axes[axis]);
+            let along = along(simd, xi[axis], locator.h, locator.inverse_h);
+            along.put(lane / LANES, locator.needs, &mut patches.axes[axis]);
         }
         inside
     }

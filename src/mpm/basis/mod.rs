@@ -2,12 +2,12 @@
 //! wants).
 
 mod bspline;
+mod cell_locator;
 mod contract;
 mod corner_batch;
 mod cpdi;
 mod domain_1d;
 mod gimp;
-mod lattice;
 #[cfg(test)]
 mod laws;
 mod linear;
@@ -19,12 +19,12 @@ mod sums;
 mod weights_1d;
 mod weights_1d_batch;
 
+pub use cell_locator::{CellLocator, WeightNeeds};
 pub use contract::{Basis, Domain};
 pub use corner_batch::Corners;
-pub use lattice::{Lattice, Needs};
-pub use patch::{Patch, PatchBatch, Seen, WeightMoments};
+pub use patch::{NodeWeight, Patch, PatchBatch, WeightMoments};
 pub use product::Product;
-pub use product_batch::Products;
+pub use product_batch::ProductBatch;
 pub use weights_1d::Weights1d;
 pub use weights_1d_batch::Weights1dBatch;
 

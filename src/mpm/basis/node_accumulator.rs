@@ -7,27 +7,27 @@
 
 use crate::mpm::{
     algebra::array,
-    packed_grid::{Node, ViewMut},
-    simd::Width,
+    packed_grid::{FieldViewMut, PackedNode},
+    simd::Simd,
 };
 
 /// A field that is added to, and the sums of K nodes in a row.
 #[derive(Debug)]
-pub struct NodeAccumulator<'a, W: Width, const K: usize> {
-    pub(in crate::mpm) width: W,
-    pub(in crate::mpm) field: ViewMut<'a>,
+pub struct NodeAccumulator<'a, S: Simd, const K: usize> {
+    pub(in crate::mpm) simd: S,
+    pub(in crate::mpm) field: FieldViewMut<'a>,
     /// The first of the nodes whose sums are at hand, if there are any.
     start: usize,
-    sums: [W::Four; K],
+    sums: [S::F64x4; K],
 }
 
 /// No node.
 const NONE: usize = usize::MAX;
 
-impl<'a, W: Width, const K: usize> NodeAccumulator<'a, W, K> {
+impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
     #[inline(always)]
-    pub(in crate::mpm) fn new(width: W, field: ViewMut<'a>) -> Self {
-        Self { width, field, start: NONE, sums: [width.all(0.0); K] }
+    pub(in crate::mpm) fn new(simd: S, field: FieldViewMut<'a>) -> Self {
+        Self { simd, field, start: NONE, sums: [simd.splat(0.0); K] }
     }
 
     /// Adds to row `j` of plane `k` of the box of nodes from `start` on.
@@ -36,21 +36,21 @@ impl<'a, W: Width, const K: usize> NodeAccumulator<'a, W, K> {
         &mut self,
         start: usize,
         (j, k): (usize, usize),
-        term: impl Fn(usize) -> W::Four,
+        term: impl Fn(usize) -> S::F64x4,
     ) {
         let row = self.field.row::<K>(start + self.field.layout.row(j, k));
-        for (i, Node(node)) in row.iter_mut().enumerate() {
-            *node = (self.width.four(*node) + term(i)).into();
+        for (i, PackedNode(node)) in row.iter_mut().enumerate() {
+            *node = (self.simd.load(*node) + term(i)).into();
         }
     }
 
-    /// Adds to the nodes from `start` on, in registers: [`put`](Self::put) must follow the last.
+    /// Adds to the nodes from `start` on, in registers: [`flush`](Self::flush) must follow the last.
     #[inline(always)]
-    pub(in crate::mpm) fn hold(&mut self, start: usize, terms: [W::Four; K]) {
+    pub(in crate::mpm) fn add_in_registers(&mut self, start: usize, terms: [S::F64x4; K]) {
         if start != self.start {
-            self.put();
+            self.flush();
             let row = self.field.row::<K>(start);
-            self.sums = array(terms[0], |i| self.width.four(row[i].0));
+            self.sums = array(terms[0], |i| self.simd.load(row[i].0));
             self.start = start;
         }
         for i in 0..K {
@@ -60,7 +60,7 @@ impl<'a, W: Width, const K: usize> NodeAccumulator<'a, W, K> {
 
     /// Puts the sums at hand to their nodes.
     #[inline(always)]
-    pub(in crate::mpm) fn put(&mut self) {
+    pub(in crate::mpm) fn flush(&mut self) {
         if self.start != NONE {
             let row = self.field.row::<K>(self.start);
             for i in 0..K {

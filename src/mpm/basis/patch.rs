@@ -3,14 +3,14 @@
 use crate::mpm::{
     algebra::{Matrix, Vector},
     grid::Grid,
-    packed_grid::{Layout, View, ViewMut},
-    simd::Width,
+    packed_grid::{FieldView, FieldViewMut, Layout},
+    simd::Simd,
 };
 use std::{fmt::Debug, ops::Range};
 
 /// One node as a particle sees it.
 #[derive(Debug, Clone, Copy)]
-pub struct Seen<'a, const D: usize> {
+pub struct NodeWeight<'a, const D: usize> {
     /// Number of the node.
     pub node: usize,
     /// N_i at the particle.
@@ -34,20 +34,20 @@ pub struct WeightMoments<const D: usize> {
 /// Nodes that a particle sees, and the functions there, as a basis gives them.
 pub trait Patch<const D: usize>: Copy {
     /// Several of them, as the loops use them.
-    type Several: PatchBatch<D>;
+    type Batch: PatchBatch<D>;
 
     /// Takes the place of patch `lane`.
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Several);
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch);
 
     /// Moments of the weights.
-    fn spread(&self) -> WeightMoments<D>;
+    fn weight_moments(&self) -> WeightMoments<D>;
 
     /// Mean of `x_i - x_p` (m) and its variance about it (m^2) along each axis, where the patch has all
     /// nodes that the particle sees and its functions are products: there is no covariance.
     fn variance(&self) -> ([f64; D], [f64; D]);
 
     /// Calls `visit` for every node.
-    fn visit(&self, grid: &Grid<D>, visit: impl FnMut(Seen<'_, D>));
+    fn visit(&self, grid: &Grid<D>, visit: impl FnMut(NodeWeight<'_, D>));
 }
 
 /// Several patches. What depends on weights only is computed for four at once, each lane of a register
@@ -55,77 +55,83 @@ pub trait Patch<const D: usize>: Copy {
 /// and so do particles: each method does the same to all four.
 pub trait PatchBatch<const D: usize>: Debug {
     /// Where they add to nodes.
-    type NodeAccumulator<'a, W: Width>;
+    type NodeAccumulator<'a, S: Simd>;
 
     /// No patches.
     fn none() -> Self;
 
     /// Prepares what `scatter` and its likes need of these patches.
-    fn cross<W: Width>(&mut self, width: W, lanes: &Range<usize>);
+    fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
     /// Prepares what is affine of these patches: levers `x_i - x_p - mean` about `mean`, or about the mean of the
     /// nodes of each patch, which then is all that its particle sees; and for these the inverse of
     /// the inertia tensor (1/m^2), `h` being the cell size (m).
-    fn lever<W: Width>(&mut self, width: W, lanes: &Range<usize>, h: f64, mean: Option<&Vector<D>>);
+    fn compute_offsets<S: Simd>(
+        &mut self,
+        simd: S,
+        lanes: &Range<usize>,
+        h: f64,
+        mean: Option<&Vector<D>>,
+    );
 
     /// The matrix with these columns, times the inverse inertia tensor of patch `lane`.
-    fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D];
+    fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
     /// A field to be added to.
-    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::NodeAccumulator<'_, W>;
+    fn accumulator<S: Simd>(simd: S, field: FieldViewMut<'_>) -> Self::NodeAccumulator<'_, S>;
 
     /// Ends what was added.
-    fn put<W: Width>(sink: Self::NodeAccumulator<'_, W>);
+    fn flush<S: Simd>(accumulator: Self::NodeAccumulator<'_, S>);
 
     /// Adds `value N_i` to the nodes of patch `lane`.
-    fn scatter<W: Width>(
+    fn scatter<S: Simd>(
         &self,
         lane: usize,
-        value: W::Four,
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        value: S::F64x4,
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     );
 
     /// Adds `(value + sum_a slope_a lever_a) N_i` to the nodes.
-    fn scatter_affine<W: Width>(
+    fn scatter_affine<S: Simd>(
         &self,
         lane: usize,
-        value_and_slope: (W::Four, &[W::Four; D]),
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        value_and_slope: (S::F64x4, &[S::F64x4; D]),
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     );
 
     /// Adds `sum_a flux_a dN_i/dx_a` to the nodes.
-    fn scatter_flux<W: Width>(
+    fn scatter_flux<S: Simd>(
         &self,
         lane: usize,
-        flux: &[W::Four; D],
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        flux: &[S::F64x4; D],
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     );
 
     /// What the others add, in one visit: `(value + slope lever) N_i + flux dN_i/dx`. Along one axis only.
-    fn scatter_all<W: Width>(
+    fn scatter_all<S: Simd>(
         &self,
         lane: usize,
-        value_and_slope: (W::Four, Option<W::Four>),
-        flux: W::Four,
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        value_and_slope: (S::F64x4, Option<S::F64x4>),
+        flux: S::F64x4,
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     );
 
     /// `sum_i field_i N_i`.
-    fn gather<W: Width>(&self, width: W, lane: usize, field: &View<'_>) -> W::Four;
+    fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
 
     /// `sum_i field_i N_i` and, for each axis, `sum_i field_i lever_a N_i`.
-    fn gather_moment<W: Width>(
+    fn gather_moment<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         lane: usize,
-        field: &View<'_>,
-    ) -> (W::Four, [W::Four; D]);
+        field: &FieldView<'_>,
+    ) -> (S::F64x4, [S::F64x4; D]);
 
     /// `sum_i field_i N_i` and, for each axis, `sum_i field_i dN_i/dx_a`.
-    fn gather_gradient<W: Width>(
+    fn gather_gradient<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         lane: usize,
-        field: &View<'_>,
-    ) -> (W::Four, [W::Four; D]);
+        field: &FieldView<'_>,
+    ) -> (S::F64x4, [S::F64x4; D]);
 }

@@ -1,8 +1,8 @@
-//! Products of functions along the axes: the patch of nodes that most bases show to a particle.
+//! ProductBatch of functions along the axes: the patch of nodes that most bases show to a particle.
 
 use super::{
-    patch::{Patch, Seen, WeightMoments},
-    product_batch::Products,
+    patch::{NodeWeight, Patch, WeightMoments},
+    product_batch::ProductBatch,
     weights_1d::{Weights1d, product},
 };
 use crate::mpm::{
@@ -16,10 +16,10 @@ use crate::mpm::{
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
 impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
-    type Several = Products<D, K>;
+    type Batch = ProductBatch<D, K>;
 
     #[inline(always)]
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut Products<D, K>) {
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, K>) {
         let first = array::<D, _>(0, |axis| self.0[axis].first);
         patches.start[lane] = layout.number(&first) as u32;
         for (along, axis) in self.0.iter().zip(&mut patches.axes) {
@@ -28,17 +28,17 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 
     #[inline(always)]
-    fn spread(&self) -> WeightMoments<D> {
+    fn weight_moments(&self) -> WeightMoments<D> {
         let moments: [[f64; 3]; D] = array([0.0; 3], |axis| self.0[axis].moments());
-        let mut spread = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
+        let mut weight_moments = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
         for i in 0..D {
-            spread.first[i] = product(&moments, |axis| usize::from(axis == i));
+            weight_moments.first[i] = product(&moments, |axis| usize::from(axis == i));
             for j in 0..D {
                 let order = |axis| usize::from(axis == i) + usize::from(axis == j);
-                spread.second[(i, j)] = product(&moments, order);
+                weight_moments.second[(i, j)] = product(&moments, order);
             }
         }
-        spread
+        weight_moments
     }
 
     #[inline(always)]
@@ -48,7 +48,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 
     #[inline(always)]
-    fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(Seen<'_, D>)) {
+    fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(NodeWeight<'_, D>)) {
         for n in 0..K.pow(D as u32) {
             let mut rest = n;
             let at: [usize; D] = std::array::from_fn(|_| {
@@ -71,7 +71,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
                 (0..D).map(factor).product()
             });
             let offset = Vector::from_fn(|axis, _| self.0[axis].offset[at[axis]]);
-            visit(Seen { node: grid.node(&index), weight, gradient: &gradient, offset });
+            visit(NodeWeight { node: grid.node(&index), weight, gradient: &gradient, offset });
         }
     }
 }

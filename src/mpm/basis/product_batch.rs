@@ -1,6 +1,6 @@
 //! Several products of functions along the axes, and the loops over their nodes.
 //!
-//! The weights along each axis are computed once for a particle. Sums over the K^D nodes are taken
+//! The weights along each axis are computed once for a particle. Sums over the K^D nodes are sums
 //! axis by axis, so that a node costs a product and a sum for each function, not one for each axis.
 
 use super::{
@@ -8,42 +8,42 @@ use super::{
 };
 use crate::mpm::{
     algebra::{Vector, array},
-    packed_grid::{View, ViewMut},
-    simd::{FOUR, LANES, Lanes, Width, parts},
+    packed_grid::{FieldView, FieldViewMut},
+    simd::{BATCH, F64Batch, LANES, Simd, registers_of},
 };
 use std::ops::Range;
 
 /// Several [`Product`](super::Product)s.
 #[derive(Debug)]
-pub struct Products<const D: usize, const K: usize> {
+pub struct ProductBatch<const D: usize, const K: usize> {
     /// Where the first node of each is in a packed field.
-    pub(in crate::mpm) start: [u32; LANES],
+    pub(in crate::mpm) start: [u32; BATCH],
     /// The functions along each axis.
     pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
     /// Weights of the rows of a plane times those of the planes.
-    across: [[Lanes; K]; K],
+    row_weights: [[F64Batch; K]; K],
 }
 
 /// Functions `k` of patch `lane`.
 #[inline(always)]
-pub(in crate::mpm) fn of<const K: usize>(functions: &[Lanes; K], lane: usize) -> [f64; K] {
+pub(in crate::mpm) fn of<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
     array(0.0, |k| functions[k].get(lane))
 }
 
-impl<const D: usize, const K: usize> Products<D, K> {
+impl<const D: usize, const K: usize> ProductBatch<D, K> {
     /// Rows of a plane, and planes: one where there is no such axis.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
     /// Puts the starts of four.
     #[inline(always)]
-    pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; FOUR]) {
-        self.start[lane % LANES / FOUR * FOUR..][..FOUR].copy_from_slice(&starts);
+    pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
+        self.start[lane % BATCH / LANES * LANES..][..LANES].copy_from_slice(&starts);
     }
 
     #[inline(always)]
     pub(in crate::mpm) fn start(&self, lane: usize) -> usize {
-        self.start[lane % LANES] as usize
+        self.start[lane % BATCH] as usize
     }
 
     /// Weight of function `k` along `axis`, one where there is no such axis.
@@ -55,26 +55,30 @@ impl<const D: usize, const K: usize> Products<D, K> {
     /// Weight of row `j` in plane `k`.
     #[inline(always)]
     fn row_weight(&self, lane: usize, j: usize, k: usize) -> f64 {
-        if D > 2 { self.across[k][j].get(lane) } else { self.weight(lane, 1, j) }
+        if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
     }
 }
 
-impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
-    type NodeAccumulator<'a, W: Width> = NodeAccumulator<'a, W, K>;
+impl<const D: usize, const K: usize> PatchBatch<D> for ProductBatch<D, K> {
+    type NodeAccumulator<'a, S: Simd> = NodeAccumulator<'a, S, K>;
 
     fn none() -> Self {
-        Self { start: [0; LANES], axes: [Weights1dBatch::NONE; D], across: [[Lanes::ZERO; K]; K] }
+        Self {
+            start: [0; BATCH],
+            axes: [Weights1dBatch::NONE; D],
+            row_weights: [[F64Batch::ZERO; K]; K],
+        }
     }
 
     #[inline(always)]
-    fn cross<W: Width>(&mut self, width: W, lanes: &Range<usize>) {
+    fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>) {
         if D > 2 {
-            for part in parts(lanes) {
+            for register in registers_of(lanes) {
                 for k in 0..K {
-                    let plane = self.axes[2].weight[k].four(width, part);
+                    let plane = self.axes[2].weight[k].load(simd, register);
                     for j in 0..K {
-                        let row = self.axes[1].weight[j].four(width, part);
-                        self.across[k][j].put(part, row * plane);
+                        let row = self.axes[1].weight[j].load(simd, register);
+                        self.row_weights[k][j].store(register, row * plane);
                     }
                 }
             }
@@ -82,50 +86,50 @@ impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn lever<W: Width>(
+    fn compute_offsets<S: Simd>(
         &mut self,
-        width: W,
+        simd: S,
         lanes: &Range<usize>,
         h: f64,
         mean: Option<&Vector<D>>,
     ) {
-        for part in parts(lanes) {
+        for register in registers_of(lanes) {
             for axis in 0..D {
-                self.axes[axis].about(width, part, h, mean.map(|mean| mean[axis]));
+                self.axes[axis].center_offsets(simd, register, h, mean.map(|mean| mean[axis]));
             }
         }
     }
 
     #[inline(always)]
-    fn divide<W: Width>(&self, lane: usize, columns: &[W::Four; D]) -> [W::Four; D] {
+    fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D] {
         array(columns[0], |axis| columns[axis] * self.axes[axis].inverse.get(lane))
     }
 
     #[inline(always)]
-    fn sink<W: Width>(width: W, field: ViewMut<'_>) -> Self::NodeAccumulator<'_, W> {
-        NodeAccumulator::new(width, field)
+    fn accumulator<S: Simd>(simd: S, field: FieldViewMut<'_>) -> Self::NodeAccumulator<'_, S> {
+        NodeAccumulator::new(simd, field)
     }
 
     #[inline(always)]
-    fn put<W: Width>(mut sink: Self::NodeAccumulator<'_, W>) {
-        sink.put();
+    fn flush<S: Simd>(mut accumulator: Self::NodeAccumulator<'_, S>) {
+        accumulator.flush();
     }
 
     #[inline(always)]
-    fn scatter<W: Width>(
+    fn scatter<S: Simd>(
         &self,
         lane: usize,
-        value: W::Four,
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        value: S::F64x4,
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     ) {
         let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
         if D == 1 {
-            return sink.hold(start, array(value, |i| value * weights[i]));
+            return accumulator.add_in_registers(start, array(value, |i| value * weights[i]));
         }
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
                 let term = value * self.row_weight(lane, j, k);
-                sink.add(
+                accumulator.add(
                     start,
                     (j, k),
                     #[inline(always)]
@@ -136,19 +140,20 @@ impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn scatter_affine<W: Width>(
+    fn scatter_affine<S: Simd>(
         &self,
         lane: usize,
-        (value, slope): (W::Four, &[W::Four; D]),
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        (value, slope): (S::F64x4, &[S::F64x4; D]),
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     ) {
         let (start, x) = (self.start(lane), &self.axes[0]);
         let (weights, lever) = (of(&x.weight, lane), |axis: usize, k: usize| {
-            slope[axis] * self.axes[axis].lever[k].get(lane)
+            slope[axis] * self.axes[axis].offset_from_mean[k].get(lane)
         });
-        let growth: [_; K] = array(slope[0], |i| slope[0] * x.arm[i].get(lane));
+        let growth: [_; K] = array(slope[0], |i| slope[0] * x.weighted_offset[i].get(lane));
         if D == 1 {
-            return sink.hold(start, array(value, |i| value * weights[i] + growth[i]));
+            return accumulator
+                .add_in_registers(start, array(value, |i| value * weights[i] + growth[i]));
         }
         let rise: [_; K] = array(slope[0], |j| lever(1, j));
         for k in 0..Self::PLANES {
@@ -157,7 +162,7 @@ impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
                 let value = value + rise[j];
                 let weight = self.row_weight(lane, j, k);
                 let term = value * weight;
-                sink.add(
+                accumulator.add(
                     start,
                     (j, k),
                     #[inline(always)]
@@ -168,17 +173,17 @@ impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn scatter_flux<W: Width>(
+    fn scatter_flux<S: Simd>(
         &self,
         lane: usize,
-        flux: &[W::Four; D],
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        flux: &[S::F64x4; D],
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     ) {
         let (start, x) = (self.start(lane), &self.axes[0]);
         let (weights, slopes) = (of(&x.weight, lane), of(&x.slope, lane));
         let along: [_; K] = array(flux[0], |i| flux[0] * slopes[i]);
         if D == 1 {
-            return sink.hold(start, along);
+            return accumulator.add_in_registers(start, along);
         }
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
@@ -189,7 +194,7 @@ impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
                     let slope = self.axes[2].slope[k].get(lane);
                     across += flux[2] * (slope * self.weight(lane, 1, j));
                 }
-                sink.add(
+                accumulator.add(
                     start,
                     (j, k),
                     #[inline(always)]
@@ -200,44 +205,49 @@ impl<const D: usize, const K: usize> PatchBatch<D> for Products<D, K> {
     }
 
     #[inline(always)]
-    fn scatter_all<W: Width>(
+    fn scatter_all<S: Simd>(
         &self,
         lane: usize,
-        (value, slope): (W::Four, Option<W::Four>),
-        flux: W::Four,
-        sink: &mut Self::NodeAccumulator<'_, W>,
+        (value, slope): (S::F64x4, Option<S::F64x4>),
+        flux: S::F64x4,
+        accumulator: &mut Self::NodeAccumulator<'_, S>,
     ) {
         let x = &self.axes[0];
         let terms = array(value, |i| {
             let term = value * x.weight[i].get(lane);
-            let term = slope.map_or(term, |slope| term + slope * x.arm[i].get(lane));
+            let term = slope.map_or(term, |slope| term + slope * x.weighted_offset[i].get(lane));
             term + flux * x.slope[i].get(lane)
         });
-        sink.hold(self.start(lane), terms);
+        accumulator.add_in_registers(self.start(lane), terms);
     }
 
     #[inline(always)]
-    fn gather<W: Width>(&self, width: W, lane: usize, field: &View<'_>) -> W::Four {
-        self.sum(width, lane, field)
+    fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4 {
+        self.sum(simd, lane, field)
     }
 
     #[inline(always)]
-    fn gather_moment<W: Width>(
+    fn gather_moment<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         lane: usize,
-        field: &View<'_>,
-    ) -> (W::Four, [W::Four; D]) {
-        self.sums(width, lane, field, &array([0.0; K], |axis| of(&self.axes[axis].arm, lane)))
+        field: &FieldView<'_>,
+    ) -> (S::F64x4, [S::F64x4; D]) {
+        self.sums(
+            simd,
+            lane,
+            field,
+            &array([0.0; K], |axis| of(&self.axes[axis].weighted_offset, lane)),
+        )
     }
 
     #[inline(always)]
-    fn gather_gradient<W: Width>(
+    fn gather_gradient<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         lane: usize,
-        field: &View<'_>,
-    ) -> (W::Four, [W::Four; D]) {
-        self.sums(width, lane, field, &array([0.0; K], |axis| of(&self.axes[axis].slope, lane)))
+        field: &FieldView<'_>,
+    ) -> (S::F64x4, [S::F64x4; D]) {
+        self.sums(simd, lane, field, &array([0.0; K], |axis| of(&self.axes[axis].slope, lane)))
     }
 }

@@ -1,20 +1,20 @@
-//! Sums over the nodes of a patch, taken axis by axis: a node costs a product and a sum for each
+//! Sums over the nodes of a patch, sums axis by axis: a node costs a product and a sum for each
 //! function, not one for each axis.
 
-use super::product_batch::{Products, of};
+use super::product_batch::{ProductBatch, of};
 use crate::mpm::{
     algebra::array,
-    packed_grid::{Node, View},
-    simd::Width,
+    packed_grid::{FieldView, PackedNode},
+    simd::Simd,
 };
 use std::ops::AddAssign;
 
 /// `sum_k row_k factors_k`.
 #[inline(always)]
-fn dot<W: Width, const K: usize>(width: W, row: &[Node], factors: &[f64; K]) -> W::Four {
-    let mut sum = width.four(row[0].0) * factors[0];
+fn dot<S: Simd, const K: usize>(simd: S, row: &[PackedNode], factors: &[f64; K]) -> S::F64x4 {
+    let mut sum = simd.load(row[0].0) * factors[0];
     for k in 1..K {
-        sum += width.four(row[k].0) * factors[k];
+        sum += simd.load(row[k].0) * factors[k];
     }
     sum
 }
@@ -29,16 +29,16 @@ fn put<F: AddAssign>(sum: &mut F, k: usize, term: F) {
     }
 }
 
-impl<const D: usize, const K: usize> Products<D, K> {
+impl<const D: usize, const K: usize> ProductBatch<D, K> {
     /// `sum_i field_i N_i`.
     #[inline(always)]
-    pub(super) fn sum<W: Width>(&self, width: W, lane: usize, field: &View<'_>) -> W::Four {
+    pub(super) fn sum<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4 {
         let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
-        let (mut sum, mut plane) = (width.all(0.0), width.all(0.0));
+        let (mut sum, mut plane) = (simd.splat(0.0), simd.splat(0.0));
         for k in 0..Self::PLANES {
             for j in 0..Self::ROWS {
                 let row = field.row::<K>(start + field.layout.row(j, k));
-                let terms = dot(width, row, &weights);
+                let terms = dot(simd, row, &weights);
                 if D == 1 {
                     return terms;
                 }
@@ -55,22 +55,21 @@ impl<const D: usize, const K: usize> Products<D, K> {
     /// `sum_i field_i N_i`, and the same with the functions along one axis replaced by `others`,
     /// for each axis.
     #[inline(always)]
-    pub(super) fn sums<W: Width>(
+    pub(super) fn sums<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         lane: usize,
-        field: &View<'_>,
+        field: &FieldView<'_>,
         others: &[[f64; K]; D],
-    ) -> (W::Four, [W::Four; D]) {
+    ) -> (S::F64x4, [S::F64x4; D]) {
         let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
-        let zero = width.all(0.0);
+        let zero = simd.splat(0.0);
         let (mut sum, mut other) = (zero, [zero; D]);
         for k in 0..Self::PLANES {
             let (mut plane, mut across, mut along) = (zero, zero, zero);
             for j in 0..Self::ROWS {
                 let row = field.row::<K>(start + field.layout.row(j, k));
-                let (terms, others_of_row) =
-                    (dot(width, row, &weights), dot(width, row, &others[0]));
+                let (terms, others_of_row) = (dot(simd, row, &weights), dot(simd, row, &others[0]));
                 if D == 1 {
                     return (terms, [others_of_row; D]);
                 }

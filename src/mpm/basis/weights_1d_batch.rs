@@ -1,49 +1,54 @@
 //! Functions along one axis, for several particles at once.
 
-use super::{lattice::Needs, weights_1d::Weights1d};
+use super::{cell_locator::WeightNeeds, weights_1d::Weights1d};
 use crate::mpm::{
     algebra::array,
     kernel::moments::SMALLEST,
-    simd::{Four, Lanes, Width},
+    simd::{F64Batch, F64x4, Simd},
 };
 
 /// K neighbouring functions for each of four particles, in registers.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::mpm) struct WeightsSimd<W: Width, const K: usize> {
+pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
     /// Their values.
-    pub(in crate::mpm) weight: [W::Four; K],
+    pub(in crate::mpm) weight: [S::F64x4; K],
     /// Their derivatives (1/m).
-    pub(in crate::mpm) slope: [W::Four; K],
+    pub(in crate::mpm) slope: [S::F64x4; K],
     /// Where they sit, from the particle (m).
-    pub(in crate::mpm) offset: [W::Four; K],
+    pub(in crate::mpm) offset: [S::F64x4; K],
     /// `sum weight offset^2` (m^2), about their mean.
-    pub(in crate::mpm) variance: W::Four,
+    pub(in crate::mpm) variance: S::F64x4,
 }
 
-impl<W: Width, const K: usize> WeightsSimd<W, K> {
+impl<S: Simd, const K: usize> WeightsSimd<S, K> {
     /// To memory, what a pass needs.
     #[inline(always)]
-    pub(in crate::mpm) fn put(self, part: usize, needs: Needs, alongs: &mut Weights1dBatch<K>) {
+    pub(in crate::mpm) fn put(
+        self,
+        register: usize,
+        needs: WeightNeeds,
+        weights: &mut Weights1dBatch<K>,
+    ) {
         for k in 0..K {
-            alongs.weight[k].put(part, self.weight[k]);
+            weights.weight[k].store(register, self.weight[k]);
         }
         if needs.slopes {
             for k in 0..K {
-                alongs.slope[k].put(part, self.slope[k]);
+                weights.slope[k].store(register, self.slope[k]);
             }
         }
-        if needs.places {
+        if needs.offsets {
             for k in 0..K {
-                alongs.offset[k].put(part, self.offset[k]);
+                weights.offset[k].store(register, self.offset[k]);
             }
-            alongs.variance.put(part, self.variance);
+            weights.variance.store(register, self.variance);
         }
     }
 
     /// One of the four.
     #[inline(always)]
     pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Weights1d<K> {
-        let of = |functions: &[W::Four; K]| array(0.0, |k| functions[k].into()[lane]);
+        let of = |functions: &[S::F64x4; K]| array(0.0, |k| functions[k].into()[lane]);
         Weights1d {
             first,
             weight: of(&self.weight),
@@ -58,31 +63,31 @@ impl<W: Width, const K: usize> WeightsSimd<W, K> {
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1dBatch<const K: usize> {
     /// Their values.
-    pub(in crate::mpm) weight: [Lanes; K],
+    pub(in crate::mpm) weight: [F64Batch; K],
     /// Their derivatives (1/m).
-    pub(in crate::mpm) slope: [Lanes; K],
+    pub(in crate::mpm) slope: [F64Batch; K],
     /// Where they sit, from the particle (m).
-    pub(in crate::mpm) offset: [Lanes; K],
+    pub(in crate::mpm) offset: [F64Batch; K],
     /// `sum weight offset^2` (m^2), about their mean where they are all that a particle sees.
-    pub(in crate::mpm) variance: Lanes,
+    pub(in crate::mpm) variance: F64Batch,
     /// Offsets from a mean (m).
-    pub(in crate::mpm) lever: [Lanes; K],
+    pub(in crate::mpm) offset_from_mean: [F64Batch; K],
     /// The same, times weight.
-    pub(in crate::mpm) arm: [Lanes; K],
+    pub(in crate::mpm) weighted_offset: [F64Batch; K],
     /// The inverse of the variance (1/m^2), zero where there is none.
-    pub(in crate::mpm) inverse: Lanes,
+    pub(in crate::mpm) inverse: F64Batch,
 }
 
 impl<const K: usize> Weights1dBatch<K> {
     /// No functions.
     pub(in crate::mpm) const NONE: Self = Self {
-        weight: [Lanes::ZERO; K],
-        slope: [Lanes::ZERO; K],
-        offset: [Lanes::ZERO; K],
-        variance: Lanes::ZERO,
-        lever: [Lanes::ZERO; K],
-        arm: [Lanes::ZERO; K],
-        inverse: Lanes::ZERO,
+        weight: [F64Batch::ZERO; K],
+        slope: [F64Batch::ZERO; K],
+        offset: [F64Batch::ZERO; K],
+        variance: F64Batch::ZERO,
+        offset_from_mean: [F64Batch::ZERO; K],
+        weighted_offset: [F64Batch::ZERO; K],
+        inverse: F64Batch::ZERO,
     };
 
     /// Puts functions into a lane.
@@ -97,19 +102,19 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 
     /// Levers and arms about `mean` (m), or about the mean of the functions of each particle, and
-    /// the inverse of the variance. Arms are taken before any sum: near a wall the offset is small
+    /// the inverse of the variance. Arms are sums before any sum: near a wall the offset is small
     /// where the weight is not, and what an inertia tensor divides must not be lost in rounding.
     #[inline(always)]
-    pub(in crate::mpm) fn about<W: Width>(
+    pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,
-        width: W,
-        part: usize,
+        simd: S,
+        register: usize,
         h: f64,
         mean: Option<f64>,
     ) {
-        let zero = width.all(0.0);
-        let four = |functions: &[Lanes; K]| -> [W::Four; K] {
-            array(zero, |k| functions[k].four(width, part))
+        let zero = simd.splat(0.0);
+        let four = |functions: &[F64Batch; K]| -> [S::F64x4; K] {
+            array(zero, |k| functions[k].load(simd, register))
         };
         let (weight, offset) = (four(&self.weight), four(&self.offset));
         let mean = mean.map_or_else(
@@ -120,30 +125,30 @@ impl<const K: usize> Weights1dBatch<K> {
                 }
                 mean
             },
-            |mean| width.all(mean),
+            |mean| simd.splat(mean),
         );
         for k in 0..K {
             let lever = offset[k] - mean;
-            self.lever[k].put(part, lever);
-            self.arm[k].put(part, lever * weight[k]);
+            self.offset_from_mean[k].store(register, lever);
+            self.weighted_offset[k].store(register, lever * weight[k]);
         }
-        let inverse = self.variance.four(width, part).inverse_above(SMALLEST * h * h);
-        self.inverse.put(part, inverse);
+        let inverse = self.variance.load(simd, register).inverse_above(SMALLEST * h * h);
+        self.inverse.store(register, inverse);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::simd::{FOUR, Plain};
+    use crate::mpm::simd::{LANES, Plain};
 
     #[test]
     fn an_axis_without_a_moment_has_no_inverse() {
-        let mut alongs = Weights1dBatch::<2>::NONE;
+        let mut weights = Weights1dBatch::<2>::NONE;
         for (lane, variance) in [0.25, 1e-20, 0.0, f64::NAN].into_iter().enumerate() {
-            alongs.variance.0[FOUR + lane] = variance;
+            weights.variance.0[LANES + lane] = variance;
         }
-        alongs.about(Plain, 1, 1.0, None);
-        assert_eq!(alongs.inverse.0[FOUR..2 * FOUR], [4.0, 0.0, 0.0, 0.0]);
+        weights.center_offsets(Plain, 1, 1.0, None);
+        assert_eq!(weights.inverse.0[LANES..2 * LANES], [4.0, 0.0, 0.0, 0.0]);
     }
 }

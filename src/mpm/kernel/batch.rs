@@ -2,27 +2,27 @@
 
 use super::{inertia::inertia, moments::InertiaTensor};
 use crate::mpm::{
-    basis::{Basis, Lattice, Needs, Patch},
+    basis::{Basis, CellLocator, Patch, WeightNeeds},
     grid::Grid,
     packed_grid::Layout,
     particles::Particles,
-    simd::{FOUR, LANES, Width},
+    simd::{BATCH, LANES, Simd},
 };
 use std::{marker::PhantomData, ops::Range};
 
 /// Several patches of a basis.
-pub(in crate::mpm) type Several<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Several;
+pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Batch;
 
 /// The bits of all lanes.
-pub(in crate::mpm) const ALL: u32 = (1 << LANES) - 1;
+pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
 /// What several particles see. The patches are not part of it: what is beside them in memory would be
 /// read anew after each of their weights is written.
 pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
-    lattice: Lattice<D>,
-    needs: Needs,
+    locator: CellLocator<D>,
+    needs: WeightNeeds,
     basis: PhantomData<B>,
 }
 
@@ -31,10 +31,10 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     pub(in crate::mpm) fn new(
         (grid, layout): (&'a Grid<D>, Layout),
         particles: &'a Particles<D>,
-        needs: Needs,
+        needs: WeightNeeds,
     ) -> Self {
-        let lattice = Lattice::new(grid, layout, needs);
-        Self { particles, grid, lattice, needs, basis: PhantomData }
+        let locator = CellLocator::new(grid, layout, needs);
+        Self { particles, grid, locator, needs, basis: PhantomData }
     }
 
     /// Calls `see` for the patches of the particles from `first` on, in their order, with the lanes
@@ -43,27 +43,27 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     /// Where a particle sees several patches, their moments must be known before the first of them is seen;
     /// where it sees one, they follow from its weights at no cost.
     #[inline(always)]
-    pub(in crate::mpm) fn of<W: Width>(
+    pub(in crate::mpm) fn visit<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         first: usize,
-        patches: &mut Several<B, D>,
-        mut see: impl FnMut(&mut Several<B, D>, Range<usize>, Option<&InertiaTensor<D>>),
+        patches: &mut Batch<B, D>,
+        mut visit: impl FnMut(&mut Batch<B, D>, Range<usize>, Option<&InertiaTensor<D>>),
     ) -> u32 {
-        let Self { particles, grid, lattice, .. } = self;
-        let count = LANES.min(particles.len() - first);
+        let Self { particles, grid, locator, .. } = self;
+        let count = BATCH.min(particles.len() - first);
         let (mut one, mut lane) = (0, 0);
         while lane < count {
             let at = (first + lane, lane);
-            one |= B::four(width, (grid, lattice), particles, at, patches) << lane;
-            lane += FOUR;
+            one |= B::patches_x4(simd, (grid, locator), particles, at, patches) << lane;
+            lane += LANES;
         }
         if B::ONE_PATCH {
             let (mut rest, mut lane) = (one, 0);
             while rest != 0 {
                 let from = lane + rest.trailing_zeros();
                 lane = from + (one >> from).trailing_ones();
-                see(patches, from as usize..lane as usize, None);
+                visit(patches, from as usize..lane as usize, None);
                 rest = one >> lane;
             }
             return one;
@@ -72,19 +72,19 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         while lane < count {
             let to = lane + (one >> lane).trailing_ones() as usize;
             if to > lane {
-                see(patches, lane..to, None);
+                visit(patches, lane..to, None);
                 lane = to;
                 continue;
             }
-            let of_all = self.needs.places.then(|| inertia::<D, B>(grid, particles, first + lane));
+            let of_all = self.needs.offsets.then(|| inertia::<D, B>(grid, particles, first + lane));
             B::patches(
                 grid,
                 particles,
                 first + lane,
                 #[inline(always)]
                 |patch| {
-                    patch.put(lane, &lattice.layout, patches);
-                    see(patches, lane..lane + 1, of_all.as_ref());
+                    patch.put(lane, &locator.layout, patches);
+                    visit(patches, lane..lane + 1, of_all.as_ref());
                 },
             );
             lane += 1;

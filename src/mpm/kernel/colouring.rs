@@ -14,16 +14,16 @@ use crate::mpm::{
     grid::Grid,
     packed_grid::{MARGIN, layers},
     particles::Particles,
-    simd::LANES,
-    threads::Rows,
+    simd::BATCH,
+    threads::RowChunks,
 };
 use std::ops::Range;
 
 /// Fewest particles of a scene that is cut: others stay near as they are.
-const FEWEST: usize = 1 << 17;
+const MIN_PARTICLES: usize = 1 << 17;
 
 /// Fewest particles of a block: the nodes that its neighbours see as well must be few beside them.
-const LEAST: usize = 1 << 13;
+const MIN_BLOCK: usize = 1 << 13;
 
 /// Chunks of such a block: particles whose layers are looked up together.
 pub(in crate::mpm) const CHUNKS: usize = 8;
@@ -36,7 +36,7 @@ const COUNTS: [usize; 8] = [512, 256, 128, 64, 32, 16, 8, 4];
 
 /// Particles in a row, and the nodes that they see.
 #[derive(Debug)]
-pub(in crate::mpm) struct Block {
+pub(in crate::mpm) struct ParticleBlock {
     pub(in crate::mpm) particles: Range<usize>,
     /// Layers of nodes across the last axis.
     pub(in crate::mpm) layers: Range<usize>,
@@ -56,12 +56,17 @@ pub(in crate::mpm) struct Blocks {
     pub(in crate::mpm) fewest: usize,
     pub(in crate::mpm) least: usize,
     spans: Vec<Span>,
-    pub(in crate::mpm) colours: [Vec<Block>; 2],
+    pub(in crate::mpm) colours: [Vec<ParticleBlock>; 2],
 }
 
 impl Default for Blocks {
     fn default() -> Self {
-        Self { fewest: FEWEST, least: LEAST, spans: Vec::new(), colours: Default::default() }
+        Self {
+            fewest: MIN_PARTICLES,
+            least: MIN_BLOCK,
+            spans: Vec::new(),
+            colours: Default::default(),
+        }
     }
 }
 
@@ -70,16 +75,16 @@ impl Span {
     const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
     #[inline(always)]
-    fn meet(&mut self, x: f64) {
+    fn include(&mut self, x: f64) {
         self.low = if x < self.low { x } else { self.low };
         self.high = if x > self.high { x } else { self.high };
     }
 
-    fn with(self, other: Self) -> Self {
+    fn union(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// That of some particles. One whose position is not a number sees nothing.
+    /// That of some particles. One whose position is not a number sees zero.
     fn of<B: Basis, const D: usize>(particles: &Particles<D>, these: Range<usize>) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
@@ -88,13 +93,13 @@ impl Span {
             let mut spans = [span; TOGETHER];
             for several in many {
                 for (span, x) in spans.iter_mut().zip(several) {
-                    span.meet(x[D - 1]);
+                    span.include(x[D - 1]);
                 }
             }
             for x in rest {
-                span.meet(x[D - 1]);
+                span.include(x[D - 1]);
             }
-            return spans.into_iter().fold(span, Self::with);
+            return spans.into_iter().fold(span, Self::union);
         }
         for (p, x) in these.zip(x) {
             let of_domain = |r: &Matrix<D>| r.row(D - 1).iter().map(|r| r.abs()).sum();
@@ -103,7 +108,7 @@ impl Span {
             if !reach.is_finite() {
                 return Self::ALL;
             }
-            span = span.with(Self { low: x[D - 1] - reach, high: x[D - 1] + reach });
+            span = span.union(Self { low: x[D - 1] - reach, high: x[D - 1] + reach });
         }
         span
     }
@@ -133,7 +138,7 @@ impl Span {
 impl Blocks {
     /// Particles whose layers are looked up together: a multiple of those that a loop takes at once.
     fn chunk(&self) -> usize {
-        (self.least / CHUNKS).next_multiple_of(LANES)
+        (self.least / CHUNKS).next_multiple_of(BATCH)
     }
 
     /// Cuts the particles into blocks, if there are enough and they are in order.
@@ -147,14 +152,14 @@ impl Blocks {
         let enough = |count: &usize| is_large && count * least <= total;
         if COUNTS.iter().any(enough) {
             self.spans.resize(total.div_ceil(chunk), Span::NONE);
-            Rows { length: 1, few: CHUNKS }.each(&mut self.spans, &|k, span| {
+            RowChunks { length: 1, few: CHUNKS }.each(&mut self.spans, &|k, span| {
                 span[0] = Span::of::<B, D>(particles, k * chunk..total.min((k + 1) * chunk));
             });
         }
         let mut counts = COUNTS.into_iter().filter(enough);
         if !counts.any(|count| self.cut_into::<B, D>(count, grid, total)) {
             self.colours.iter_mut().for_each(Vec::clear);
-            self.colours[0].push(Block { particles: 0..total, layers: layers(grid) });
+            self.colours[0].push(ParticleBlock { particles: 0..total, layers: layers(grid) });
         }
     }
 
@@ -171,13 +176,14 @@ impl Blocks {
         self.colours.iter_mut().for_each(Vec::clear);
         (0..count).all(|k| {
             let (from, to) = (k * chunks / count, (k + 1) * chunks / count);
-            let span = self.spans[from..to].iter().fold(Span::NONE, |all, span| all.with(*span));
+            let span = self.spans[from..to].iter().fold(Span::NONE, |all, span| all.union(*span));
             let layers = span.layers::<B, D>(grid);
             let colour = &mut self.colours[k % 2];
             let is_apart = colour.last().is_none_or(|before| before.layers.end <= layers.start);
             let is_in_order = start <= layers.start;
             start = layers.start;
-            colour.push(Block { particles: from * chunk..particles.min(to * chunk), layers });
+            colour
+                .push(ParticleBlock { particles: from * chunk..particles.min(to * chunk), layers });
             is_apart && is_in_order
         })
     }

@@ -51,8 +51,8 @@ impl Tally {
 
     /// The passes since the last call, with the particles that each has visited.
     pub fn take(&self) -> Vec<(&'static str, u64)> {
-        let taken = NAMES.iter().zip(&self.0).map(|(name, count)| (*name, count.swap(0, Relaxed)));
-        taken.filter(|(_, visited)| *visited > 0).collect()
+        let sums = NAMES.iter().zip(&self.0).map(|(name, count)| (*name, count.swap(0, Relaxed)));
+        sums.filter(|(_, visited)| *visited > 0).collect()
     }
 }
 

@@ -1,16 +1,16 @@
 //! From nodes to particles: velocity, first moment and gradient in one visit.
 
 use super::{
-    batch::{ALL, ParticleBatches, Several},
+    batch::{ALL, Batch, ParticleBatches},
     request::G2pRequest,
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
-    basis::{Basis, Needs, PatchBatch},
+    basis::{Basis, PatchBatch, WeightNeeds},
     grid::Grid,
-    packed_grid::View,
+    packed_grid::FieldView,
     particles::Particles,
-    simd::{FOUR, Four, LANES, Pass, Width, part},
+    simd::{BATCH, F64x4, LANES, Pass, Simd, components},
 };
 use std::{marker::PhantomData, ops::Range};
 
@@ -22,14 +22,14 @@ pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     /// The particles that take.
     pub(in crate::mpm) these: Range<usize>,
     pub(in crate::mpm) takes: G2pRequest<'a, D>,
-    pub(in crate::mpm) fields: [View<'a>; 2],
+    pub(in crate::mpm) fields: [FieldView<'a>; 2],
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
 /// Whether velocities and accelerations stand in one field, side by side, where both are wanted: four
 /// numbers hold both in 1-D and 2-D, and the nodes are visited once.
 pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
-    2 * D <= FOUR
+    2 * D <= LANES
 }
 
 /// Writes these columns, number by number: a matrix that went by memory as a whole would be waited for.
@@ -43,42 +43,42 @@ fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(matrix: &mut Matrix<D>,
     }
 }
 
-/// What several particles have taken so far.
-struct Taken<W: Width, const D: usize> {
-    change: [W::Four; LANES],
-    velocity: [W::Four; LANES],
-    moment: [[W::Four; D]; LANES],
-    gradient: [[W::Four; D]; LANES],
+/// What several particles have sums so far.
+struct G2pSums<S: Simd, const D: usize> {
+    change: [S::F64x4; BATCH],
+    velocity: [S::F64x4; BATCH],
+    moment: [[S::F64x4; D]; BATCH],
+    gradient: [[S::F64x4; D]; BATCH],
 }
 
-impl<W: Width, const D: usize> Taken<W, D> {
+impl<S: Simd, const D: usize> G2pSums<S, D> {
     #[inline(always)]
-    fn nothing(width: W) -> Self {
-        let zero = width.all(0.0);
+    fn zero(simd: S) -> Self {
+        let zero = simd.splat(0.0);
         Self {
-            change: [zero; LANES],
-            velocity: [zero; LANES],
-            moment: [[zero; D]; LANES],
-            gradient: [[zero; D]; LANES],
+            change: [zero; BATCH],
+            velocity: [zero; BATCH],
+            moment: [[zero; D]; BATCH],
+            gradient: [[zero; D]; BATCH],
         }
     }
 
     /// Nothing for some of them.
     #[inline(always)]
-    fn forget(&mut self, width: W, these: impl Fn(usize) -> bool) {
-        let nothing = Self::nothing(width);
-        for lane in (0..LANES).filter(|lane| these(*lane)) {
-            self.change[lane] = nothing.change[lane];
-            self.velocity[lane] = nothing.velocity[lane];
-            self.moment[lane] = nothing.moment[lane];
-            self.gradient[lane] = nothing.gradient[lane];
+    fn reset(&mut self, simd: S, these: impl Fn(usize) -> bool) {
+        let zero = Self::zero(simd);
+        for lane in (0..BATCH).filter(|lane| these(*lane)) {
+            self.change[lane] = zero.change[lane];
+            self.velocity[lane] = zero.velocity[lane];
+            self.moment[lane] = zero.moment[lane];
+            self.gradient[lane] = zero.gradient[lane];
         }
     }
 }
 
 /// Takes what a patch gives: the sum over all patches, of which there may be one only.
 #[inline(always)]
-fn put<B: Basis, F: Four>(sum: &mut F, term: F) {
+fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
     if B::ONE_PATCH {
         *sum = term;
     } else {
@@ -89,86 +89,86 @@ fn put<B: Basis, F: Four>(sum: &mut F, term: F) {
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
     /// Adds what the nodes of patches give.
     #[inline(always)]
-    fn see<W: Width>(
+    fn gather_patches<S: Simd>(
         &self,
-        width: W,
-        patches: &mut Several<B, D>,
+        simd: S,
+        patches: &mut Batch<B, D>,
         (lanes, mean): (Range<usize>, Option<&Vector<D>>),
-        taken: &mut Taken<W, D>,
+        sums: &mut G2pSums<S, D>,
     ) {
         let ([velocity, acceleration], takes) = (&self.fields, &self.takes);
         let beside = takes.change.is_some() && are_beside::<D>();
         if takes.change.is_some() && !beside {
             for lane in lanes.clone() {
-                put::<B, _>(&mut taken.change[lane], patches.gather(width, lane, acceleration));
+                put::<B, _>(&mut sums.change[lane], patches.gather(simd, lane, acceleration));
             }
         }
         let mut is_summed = takes.mix.is_none() && takes.advected.is_none() && !beside;
         if takes.moment.is_some() {
-            patches.lever(width, &lanes, self.grid.h, mean);
+            patches.compute_offsets(simd, &lanes, self.grid.h, mean);
             for lane in lanes.clone() {
-                let (sum, moment) = patches.gather_moment(width, lane, velocity);
+                let (sum, moment) = patches.gather_moment(simd, lane, velocity);
                 for axis in 0..D {
-                    put::<B, _>(&mut taken.moment[lane][axis], moment[axis]);
+                    put::<B, _>(&mut sums.moment[lane][axis], moment[axis]);
                 }
                 if !is_summed {
-                    put::<B, _>(&mut taken.velocity[lane], sum);
+                    put::<B, _>(&mut sums.velocity[lane], sum);
                 }
             }
             is_summed = true;
         }
         if takes.gradient.is_some() {
             for lane in lanes.clone() {
-                let (sum, gradient) = patches.gather_gradient(width, lane, velocity);
+                let (sum, gradient) = patches.gather_gradient(simd, lane, velocity);
                 for axis in 0..D {
-                    put::<B, _>(&mut taken.gradient[lane][axis], gradient[axis]);
+                    put::<B, _>(&mut sums.gradient[lane][axis], gradient[axis]);
                 }
                 if !is_summed {
-                    put::<B, _>(&mut taken.velocity[lane], sum);
+                    put::<B, _>(&mut sums.velocity[lane], sum);
                 }
             }
             is_summed = true;
         }
         if !is_summed {
             for lane in lanes {
-                put::<B, _>(&mut taken.velocity[lane], patches.gather(width, lane, velocity));
+                put::<B, _>(&mut sums.velocity[lane], patches.gather(simd, lane, velocity));
             }
         }
     }
 
-    /// Gives the particles from `first` of these on what they have taken.
+    /// Gives the particles from `first` of these on what they have sums.
     #[inline(always)]
-    fn give<W: Width>(&mut self, first: usize, taken: &Taken<W, D>) {
+    fn write<S: Simd>(&mut self, first: usize, sums: &G2pSums<S, D>) {
         let takes = &mut self.takes;
         if let Some(value) = &mut takes.value {
             let value = value[first..].iter_mut();
             if let Some(dt) = takes.change {
                 let (change, at) =
-                    if are_beside::<D>() { (&taken.velocity, D) } else { (&taken.change, 0) };
+                    if are_beside::<D>() { (&sums.velocity, D) } else { (&sums.change, 0) };
                 for (value, change) in value.zip(change) {
-                    *value += part::<D>(*change * dt, at);
+                    *value += components::<D>(*change * dt, at);
                 }
             }
         }
         if let (Some(value), Some((keep, factor))) = (&mut takes.value, takes.mix) {
-            for (value, velocity) in value[first..].iter_mut().zip(&taken.velocity) {
-                *value = *value * keep + part::<D>(*velocity * factor, 0);
+            for (value, velocity) in value[first..].iter_mut().zip(&sums.velocity) {
+                *value = *value * keep + components::<D>(*velocity * factor, 0);
             }
         }
         if let Some(moment) = &mut takes.moment {
-            for (moment, taken) in moment[first..].iter_mut().zip(&taken.moment) {
-                put_columns(moment, taken);
+            for (moment, sums) in moment[first..].iter_mut().zip(&sums.moment) {
+                put_columns(moment, sums);
             }
         }
         if let Some(gradient) = &mut takes.gradient {
-            for (gradient, taken) in gradient[first..].iter_mut().zip(&taken.gradient) {
-                put_columns(gradient, taken);
+            for (gradient, sums) in gradient[first..].iter_mut().zip(&sums.gradient) {
+                put_columns(gradient, sums);
             }
         }
         if let Some((dt, advected)) = &mut takes.advected {
             let x = &self.particles.positions()[self.these.start + first..];
-            for ((advected, x), taken) in advected[first..].iter_mut().zip(x).zip(&taken.velocity) {
-                *advected = x + part::<D>(*taken * *dt, 0);
+            for ((advected, x), sums) in advected[first..].iter_mut().zip(x).zip(&sums.velocity) {
+                *advected = x + components::<D>(*sums * *dt, 0);
             }
         }
     }
@@ -176,38 +176,38 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 
 impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
     // Sums along two axes at once, with all that they are multiplied by.
-    const NEEDS_REGISTERS: bool = true;
+    const NEEDS_32_REGISTERS: bool = true;
 
     #[inline(always)]
-    fn run<W: Width>(mut self, width: W) {
-        let (slopes, places) = (self.takes.gradient.is_some(), self.takes.moment.is_some());
+    fn run<S: Simd>(mut self, simd: S) {
+        let (slopes, offsets) = (self.takes.gradient.is_some(), self.takes.moment.is_some());
         let layout = self.fields[0].layout;
-        let mut patches = Several::<B, D>::none();
-        let needs = Needs { slopes, places };
-        let sight = ParticleBatches::<B, D>::new((self.grid, layout), self.particles, needs);
-        let mut taken = Taken::nothing(width);
-        for first in self.these.clone().step_by(LANES) {
+        let mut patches = Batch::<B, D>::none();
+        let needs = WeightNeeds { slopes, offsets };
+        let batches = ParticleBatches::<B, D>::new((self.grid, layout), self.particles, needs);
+        let mut sums = G2pSums::zero(simd);
+        for first in self.these.clone().step_by(BATCH) {
             if !B::ONE_PATCH {
-                taken = Taken::nothing(width);
+                sums = G2pSums::zero(simd);
             }
-            let seen = sight.of(
-                width,
+            let seen = batches.visit(
+                simd,
                 first,
                 &mut patches,
                 #[inline(always)]
                 |patches, lanes, of_all| {
-                    self.see(
-                        width,
+                    self.gather_patches(
+                        simd,
                         patches,
                         (lanes, of_all.map(|of_all| &of_all.mean)),
-                        &mut taken,
+                        &mut sums,
                     );
                 },
             );
             if seen != ALL {
-                taken.forget(width, |lane| seen >> lane & 1 == 0);
+                sums.reset(simd, |lane| seen >> lane & 1 == 0);
             }
-            self.give(first - self.these.start, &taken);
+            self.write(first - self.these.start, &sums);
         }
     }
 }

@@ -22,9 +22,9 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
         one = InertiaTensor::diagonal(patch.variance());
         patches += 1;
         if !B::ONE_PATCH {
-            let spread = patch.spread();
-            all.first += spread.first;
-            all.second += spread.second;
+            let weight_moments = patch.weight_moments();
+            all.first += weight_moments.first;
+            all.second += weight_moments.second;
         }
     });
     // What is one patch is a product.

@@ -13,7 +13,7 @@ use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     basis::{Basis, BasisName, with_basis},
     grid::Grid,
-    packed_grid::{Columns, Packed, ViewMut},
+    packed_grid::{Columns, FieldViewMut, PackedField},
     particles::{Block, Particles},
     simd::{Pass, Plain, lower_levels, run_at},
 };
@@ -122,7 +122,7 @@ fn alone<const D: usize>(particles: &Particles<D>, p: usize) -> Particles<D> {
 }
 
 /// What particles see does not depend on which others are near in their columns; those outside the grid
-/// see nothing.
+/// see zero.
 fn together_is_alone<B: Basis, const D: usize>(periodic: bool) {
     let kernel = Loops::<B>::default();
     let (grid, mut particles) = scene::<D>(&kernel, periodic);
@@ -160,12 +160,12 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     let momentum = Some(ParticleField { v: &particles.v, affine: Some(Affine::Moment(&slopes)) });
     let maps = P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) };
     kernel.p2g(&particles, &maps, &mut grid);
-    let mut room = [Packed::default(), Packed::default()];
-    let mut fields = room.each_mut().map(|field| field.shaped(&start));
-    fields.iter_mut().for_each(ViewMut::clear);
+    let mut workspace = [PackedField::default(), PackedField::default()];
+    let mut fields = workspace.each_mut().map(|field| field.shaped(&start));
+    fields.iter_mut().for_each(FieldViewMut::clear);
     let (maps, these, basis) = (&maps, 0..particles.len(), PhantomData);
     Scatter::<D, B> { grid: &start, particles: &particles, these, maps, fields, basis }.run(Plain);
-    for field in &mut room {
+    for field in &mut workspace {
         field.fold(&start);
     }
     let mut plain = start.clone();
@@ -176,7 +176,7 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
         is_one_field: D == 1,
         ..Columns::default()
     };
-    columns.unpack_all(&start, &room.each_mut().map(|field| field.shaped(&start)));
+    columns.unpack_all(&start, &workspace.each_mut().map(|field| field.shaped(&start)));
     assert_eq!(nodes(&grid), nodes(&plain));
 
     let take = |run: &dyn Fn(G2pRequest<'_, D>)| {
@@ -193,9 +193,9 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
         bits(v.iter().flatten().chain(sigma.iter().flatten()).chain(gradient.iter().flatten()))
     };
     let best = take(&|takes| kernel.g2p_all(&start, &particles, takes));
-    let mut room = [Packed::default(), Packed::default()];
-    pack(&mut room, &start, &start.velocity, true);
-    let fields = room.each_ref().map(Packed::view);
+    let mut workspace = [PackedField::default(), PackedField::default()];
+    pack(&mut workspace, &start, &start.velocity, true);
+    let fields = workspace.each_ref().map(PackedField::view);
     let gather = |level: Option<Level>| {
         take(&|takes| {
             let (these, basis) = (0..particles.len(), PhantomData);

@@ -22,9 +22,9 @@ const H: f64 = 0.25;
 /// Cuts as a scene of so few particles would not be.
 fn cutting<B: Basis>() -> Loops<B> {
     let loops = Loops::<B>::default();
-    let mut room = loops.room();
-    (room.blocks.fewest, room.blocks.least) = (0, 16 * CHUNKS);
-    drop(room);
+    let mut workspace = loops.workspace();
+    (workspace.blocks.fewest, workspace.blocks.least) = (0, 16 * CHUNKS);
+    drop(workspace);
     loops
 }
 
@@ -65,7 +65,7 @@ fn mapped<const D: usize>(
     grid.mass.iter().chain(vectors).copied().collect()
 }
 
-fn taken<const D: usize>(
+fn sums<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -95,10 +95,10 @@ fn is_shared<B: Basis, const D: usize>(periodic: bool) {
     let serial = mapped(&whole, &grid, &particles);
     let run = |threads: usize| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let pass = || (mapped(&loops, &grid, &particles), taken(&loops, &grid, &particles));
+        let pass = || (mapped(&loops, &grid, &particles), sums(&loops, &grid, &particles));
         pool.install(pass)
     };
-    let (blocks, (nodes, takes)) = (&loops.room, run(1));
+    let (blocks, (nodes, takes)) = (&loops.workspace, run(1));
     let is_cut = blocks.lock().unwrap().blocks.colours[1].len() >= 2;
     let has_seam = periodic && B::DOMAIN != Domain::Point;
     assert_eq!(is_cut, !has_seam, "domains beyond a seam see both ends of the field");

@@ -50,20 +50,20 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
 /// The kernel of basis `B`.
 struct Loops<B> {
     /// Kept from one pass to the next. No result depends on what it holds.
-    room: Mutex<Workspace>,
+    workspace: Mutex<Workspace>,
     basis: PhantomData<B>,
 }
 
 impl<B> Default for Loops<B> {
     fn default() -> Self {
-        Self { room: Mutex::default(), basis: PhantomData }
+        Self { workspace: Mutex::default(), basis: PhantomData }
     }
 }
 
 impl<B> Loops<B> {
-    fn room(&self) -> MutexGuard<'_, Workspace> {
+    fn workspace(&self) -> MutexGuard<'_, Workspace> {
         // A pass that has panicked leaves numbers that the next one overwrites.
-        self.room.lock().unwrap_or_else(PoisonError::into_inner)
+        self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -78,7 +78,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
             force: maps.force.is_some().then_some(&mut force),
             ..Columns::default()
         };
-        self.room().scatter::<B, D>(particles, maps, grid, columns);
+        self.workspace().scatter::<B, D>(particles, maps, grid, columns);
         (grid.mass, grid.velocity, grid.force) = (mass, momentum, force);
     }
 
@@ -91,7 +91,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     ) {
         let maps = P2gRequest { momentum: Some(shown), ..P2gRequest::default() };
         let columns = Columns { momentum: Some(column), ..Columns::default() };
-        self.room().scatter::<B, D>(particles, &maps, grid, columns);
+        self.workspace().scatter::<B, D>(particles, &maps, grid, columns);
     }
 
     fn p2g_point_force(
@@ -107,7 +107,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     }
 
     fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>) {
-        self.room().gather::<B, D>(grid, particles, &grid.velocity, takes);
+        self.workspace().gather::<B, D>(grid, particles, &grid.velocity, takes);
     }
 
     fn g2p(
@@ -119,7 +119,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         value: &mut [Vector<D>],
     ) {
         let (mix, value) = (Some(keep_and_factor), Some(value));
-        self.room().gather::<B, D>(
+        self.workspace().gather::<B, D>(
             grid,
             particles,
             field,
@@ -135,7 +135,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         gradient: &mut [Matrix<D>],
     ) {
         let gradient = Some(gradient);
-        self.room().gather::<B, D>(
+        self.workspace().gather::<B, D>(
             grid,
             particles,
             field,
@@ -151,7 +151,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         moment: &mut [Matrix<D>],
     ) {
         let moment = Some(moment);
-        self.room().gather::<B, D>(
+        self.workspace().gather::<B, D>(
             grid,
             particles,
             field,

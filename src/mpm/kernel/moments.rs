@@ -23,7 +23,7 @@ pub struct Moments<const D: usize> {
 }
 
 impl<const D: usize> Moments<D> {
-    /// Makes room for `particles` particles.
+    /// Makes workspace for `particles` particles.
     pub fn resize(&mut self, particles: usize) {
         self.mean.resize(particles, Vector::zeros());
         self.second.resize(particles, Matrix::zeros());
@@ -59,9 +59,9 @@ impl<const D: usize> InertiaTensor<D> {
 
     /// Of any weights.
     #[inline(always)]
-    pub(in crate::mpm) fn full(spread: &WeightMoments<D>) -> Self {
-        let mean = spread.first;
-        Self { mean, second: spread.second - dyad(&mean, &mean) }
+    pub(in crate::mpm) fn full(weight_moments: &WeightMoments<D>) -> Self {
+        let mean = weight_moments.first;
+        Self { mean, second: weight_moments.second - dyad(&mean, &mean) }
     }
 
     /// `matrix D_p^-1`.

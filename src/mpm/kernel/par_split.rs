@@ -1,9 +1,9 @@
-//! Particles that take from nodes, shared by halves among threads: none waits for another.
+//! Particles that take from nodes, shared by par_split among threads: none waits for another.
 
 use super::request::G2pRequest;
 use crate::mpm::{
-    simd::LANES,
-    threads::{both, split},
+    simd::BATCH,
+    threads::{join, split},
 };
 use std::ops::Range;
 
@@ -34,8 +34,8 @@ impl<const D: usize> G2pRequest<'_, D> {
     }
 }
 
-/// Runs `work` for parts of `these` particles, each with what its particles take.
-pub(in crate::mpm) fn halves<const D: usize>(
+/// Runs `work` for registers_of of `these` particles, each with what its particles take.
+pub(in crate::mpm) fn par_split<const D: usize>(
     these: Range<usize>,
     takes: G2pRequest<'_, D>,
     work: &(impl Fn(Range<usize>, G2pRequest<'_, D>) + Sync),
@@ -43,8 +43,11 @@ pub(in crate::mpm) fn halves<const D: usize>(
     if these.len() <= FEW {
         return work(these, takes);
     }
-    let first = (these.len() / 2).next_multiple_of(LANES);
+    let first = (these.len() / 2).next_multiple_of(BATCH);
     let middle = these.start + first;
     let (left, right) = takes.split_at(first);
-    both(|| halves(these.start..middle, left, work), || halves(middle..these.end, right, work));
+    join(
+        || par_split(these.start..middle, left, work),
+        || par_split(middle..these.end, right, work),
+    );
 }

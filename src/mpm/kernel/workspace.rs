@@ -1,18 +1,18 @@
 //! The two ways between particles and nodes, each a pass that threads may share, and what these keep.
 
 use super::{
-    colouring::{Block, Blocks},
+    colouring::{Blocks, ParticleBlock},
     g2p::{Gather, are_beside},
     p2g::{Scatter, has_one_field},
-    par_split::halves,
-    parallel::{Target, share},
+    par_split::par_split,
+    parallel::{Target, two_colour_schedule},
     request::{G2pRequest, P2gRequest},
 };
 use crate::mpm::{
     algebra::Vector,
     basis::Basis,
     grid::Grid,
-    packed_grid::{Columns, Packed, ViewMut},
+    packed_grid::{Columns, FieldViewMut, PackedField},
     particles::Particles,
     simd,
 };
@@ -22,26 +22,26 @@ use std::marker::PhantomData;
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Workspace {
     /// Two fields of nodes, packed.
-    fields: [Packed; 2],
+    fields: [PackedField; 2],
     pub(in crate::mpm) blocks: Blocks,
 }
 
 /// Those of two fields that are wanted, in the shape of `grid`; nothing in place of the others.
 fn views<'a, const D: usize>(
-    fields: &'a mut [Packed; 2],
+    fields: &'a mut [PackedField; 2],
     grid: &Grid<D>,
     wanted: [bool; 2],
-) -> [ViewMut<'a>; 2] {
+) -> [FieldViewMut<'a>; 2] {
     let mut wanted = wanted.into_iter();
     fields.each_mut().map(|field| match wanted.next() {
         Some(true) => field.shaped(grid),
-        _ => ViewMut::none(),
+        _ => FieldViewMut::none(),
     })
 }
 
 /// Packs velocities, and accelerations too if they are wanted.
 pub(in crate::mpm) fn pack<const D: usize>(
-    [first, second]: &mut [Packed; 2],
+    [first, second]: &mut [PackedField; 2],
     grid: &Grid<D>,
     velocity: &[Vector<D>],
     wants_acceleration: bool,
@@ -67,7 +67,7 @@ impl Workspace {
         columns.is_one_field = has_one_field(particles, maps);
         let wants_inertia = maps.mass || maps.momentum.is_some();
         let wanted = [wants_inertia, maps.force.is_some() && !columns.is_one_field];
-        let add = |block: &Block, fields: [ViewMut<'_>; 2]| {
+        let add = |block: &ParticleBlock, fields: [FieldViewMut<'_>; 2]| {
             let these = block.particles.clone();
             simd::run(Scatter::<D, B> { grid, particles, these, maps, fields, basis: PhantomData });
         };
@@ -79,7 +79,12 @@ impl Workspace {
         };
         let target =
             Target { fields: views(fields, grid, wanted), columns: at_once.unwrap_or_default() };
-        share(grid, blocks.colours.each_ref().map(|colour| &colour[..]), target, &add);
+        two_colour_schedule(
+            grid,
+            blocks.colours.each_ref().map(|colour| &colour[..]),
+            target,
+            &add,
+        );
         let Some(columns) = after else { return };
         for (field, _) in fields.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
             field.fold(grid);
@@ -97,8 +102,8 @@ impl Workspace {
     ) {
         let fields = &mut self.fields;
         pack(fields, grid, field, takes.change.is_some());
-        let fields = fields.each_ref().map(Packed::view);
-        halves(0..particles.len(), takes, &|these, takes| {
+        let fields = fields.each_ref().map(PackedField::view);
+        par_split(0..particles.len(), takes, &|these, takes| {
             simd::run(Gather::<D, B> { grid, particles, these, takes, fields, basis: PhantomData });
         });
     }

@@ -1,11 +1,11 @@
 //! Columns of nodes, into which packed fields are unpacked.
 
-use super::{FEW, MARGIN, view::ViewMut};
+use super::{FEW, MARGIN, view::FieldViewMut};
 use crate::mpm::{
     algebra::Vector,
     grid::Grid,
-    simd::part,
-    threads::{both, split},
+    simd::components,
+    threads::{join, split},
 };
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
 
 impl<const D: usize> Columns<'_, D> {
     /// The same columns.
-    pub(in crate::mpm) fn again(&mut self) -> Columns<'_, D> {
+    pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
         let Self { mass, momentum, force, is_one_field, before } = self;
         let (mass, momentum, force) =
             (mass.as_deref_mut(), momentum.as_deref_mut(), force.as_deref_mut());
@@ -66,7 +66,7 @@ impl<const D: usize> Columns<'_, D> {
     pub(in crate::mpm) fn unpack(
         &mut self,
         grid: &Grid<D>,
-        fields: &[ViewMut<'_>; 2],
+        fields: &[FieldViewMut<'_>; 2],
         layers: Range<usize>,
     ) {
         let end = layers.end.min(grid.counts[D - 1]);
@@ -89,26 +89,26 @@ impl<const D: usize> Columns<'_, D> {
     }
 
     /// Unpacks all layers, which threads share.
-    pub(in crate::mpm) fn unpack_all(mut self, grid: &Grid<D>, fields: &[ViewMut<'_>; 2]) {
-        self.halves(grid, fields, layers(grid));
+    pub(in crate::mpm) fn unpack_all(mut self, grid: &Grid<D>, fields: &[FieldViewMut<'_>; 2]) {
+        self.par_split(grid, fields, layers(grid));
     }
 
-    fn halves(&mut self, grid: &Grid<D>, fields: &[ViewMut<'_>; 2], layers: Range<usize>) {
+    fn par_split(&mut self, grid: &Grid<D>, fields: &[FieldViewMut<'_>; 2], layers: Range<usize>) {
         if layers.len() < 2 || layers.len() * nodes_of_layer(grid) <= FEW {
             return self.unpack(grid, fields, layers);
         }
         let middle = layers.start + layers.len() / 2;
-        let (mut left, mut right) = self.again().split_at(grid, middle);
-        both(
-            || left.halves(grid, fields, layers.start..middle),
-            || right.halves(grid, fields, middle..layers.end),
+        let (mut left, mut right) = self.reborrow().split_at(grid, middle);
+        join(
+            || left.par_split(grid, fields, layers.start..middle),
+            || right.par_split(grid, fields, middle..layers.end),
         );
     }
 
     /// Unpacks `count` nodes in a row, from the one with this index, number `to` of the grid.
     fn unpack_row(
         &mut self,
-        fields: &[ViewMut<'_>; 2],
+        fields: &[FieldViewMut<'_>; 2],
         index: &[usize; D],
         to: usize,
         count: usize,
@@ -123,15 +123,15 @@ impl<const D: usize> Columns<'_, D> {
         }
         if let Some(momentum) = &mut self.momentum {
             let column = momentum[to.clone()].iter_mut();
-            column.zip(lanes(0)).for_each(|(value, lanes)| *value = part(lanes, 0));
+            column.zip(lanes(0)).for_each(|(value, lanes)| *value = components(lanes, 0));
         }
         let Some(force) = &mut self.force else { return };
         let column = force[to].iter_mut();
         // Apart, so that the lane is known where it is compiled.
         if self.is_one_field {
-            column.zip(lanes(0)).for_each(|(value, lanes)| *value = part(lanes, D));
+            column.zip(lanes(0)).for_each(|(value, lanes)| *value = components(lanes, D));
         } else {
-            column.zip(lanes(1)).for_each(|(value, lanes)| *value = part(lanes, 0));
+            column.zip(lanes(1)).for_each(|(value, lanes)| *value = components(lanes, 0));
         }
     }
 }

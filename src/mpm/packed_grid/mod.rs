@@ -9,9 +9,9 @@ mod columns;
 mod view;
 
 pub(in crate::mpm) use columns::{Columns, layers};
-pub(in crate::mpm) use view::{Layout, MARGIN, Node, View, ViewMut};
+pub(in crate::mpm) use view::{FieldView, FieldViewMut, Layout, MARGIN, PackedNode};
 
-use super::{algebra::Vector, grid::Grid, threads::Rows};
+use super::{algebra::Vector, grid::Grid, threads::RowChunks};
 
 /// Nodes that are not worth a thread of their own.
 const FEW: usize = 1 << 14;
@@ -21,8 +21,8 @@ const PIECE: usize = 1 << 12;
 
 /// A field of nodes.
 #[derive(Debug, Default)]
-pub(in crate::mpm) struct Packed {
-    nodes: Vec<Node>,
+pub(in crate::mpm) struct PackedField {
+    nodes: Vec<PackedNode>,
     layout: Layout,
 }
 
@@ -37,18 +37,18 @@ fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
     std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
 }
 
-impl Packed {
+impl PackedField {
     /// The field in the shape of `grid`, whatever stands there yet.
-    pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> ViewMut<'_> {
+    pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_> {
         let layout = Layout::of(grid);
-        self.nodes.resize(layout.strides[3], Node::default());
+        self.nodes.resize(layout.strides[3], PackedNode::default());
         self.layout = layout;
-        ViewMut { nodes: &mut self.nodes, layout }
+        FieldViewMut { nodes: &mut self.nodes, layout }
     }
 
     /// The field, to be read.
-    pub(in crate::mpm) fn view(&self) -> View<'_> {
-        View { nodes: &self.nodes, layout: self.layout }
+    pub(in crate::mpm) fn view(&self) -> FieldView<'_> {
+        FieldView { nodes: &self.nodes, layout: self.layout }
     }
 
     /// Takes over a field of vectors, and perhaps another one, whose numbers then stand `beside` those
@@ -68,20 +68,20 @@ impl Packed {
             if is_there { from..from + across } else { 0..0 }
         };
         let length = if D == 1 { PIECE } else { row };
-        Rows { length, few: FEW }.each(&mut self.nodes, &|k, here| {
+        RowChunks { length, few: FEW }.each(&mut self.nodes, &|k, here| {
             let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
             let values = here.iter_mut().zip(&field[there.clone()]);
             if let Some(beside) = beside {
-                for ((Node(here), value), beside) in values.zip(&beside[there]) {
+                for ((PackedNode(here), value), beside) in values.zip(&beside[there]) {
                     *here = lanes(value);
                     here[D..2 * D].copy_from_slice(beside.as_slice());
                 }
             } else {
-                values.for_each(|(Node(here), value)| *here = lanes(value));
+                values.for_each(|(PackedNode(here), value)| *here = lanes(value));
             }
             // A function of weight zero may stand here, and must not meet what an earlier pass left.
-            beyond.fill(Node::default());
+            beyond.fill(PackedNode::default());
         });
         for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {
@@ -94,7 +94,7 @@ impl Packed {
     pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
         for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {
-                let Node(more) = self.nodes[beyond];
+                let PackedNode(more) = self.nodes[beyond];
                 for (sum, more) in self.nodes[node].0.iter_mut().zip(more) {
                     *sum += more;
                 }
@@ -139,7 +139,7 @@ mod tests {
         ) {
             let grid = grid(counts, periodic);
             let field: Vec<_> = (0..grid.nodes()).map(|i| Vector::<2>::new(i as f64, 1.0)).collect();
-            let mut packed = Packed::default();
+            let mut packed = PackedField::default();
             packed.pack(&grid, &field, Some(&field));
             let reach = |axis: usize| counts[axis] + if periodic[axis] { MARGIN } else { 0 };
             for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
@@ -148,14 +148,14 @@ mod tests {
                 let there = packed.view().row::<1>(at)[0].0;
                 prop_assert_eq!(there, [node as f64, 1.0, node as f64, 1.0]);
 
-                let mut one = Packed::default();
+                let mut one = PackedField::default();
                 let mut view = one.shaped(&grid);
                 view.clear();
                 view.row::<1>(at)[0].0[3] = 1.0;
                 one.fold(&grid);
                 let mut found = vec![0.0; grid.nodes()];
                 let columns = Columns { mass: Some(&mut found), ..Columns::default() };
-                columns.unpack_all(&grid, &[one.shaped(&grid), ViewMut::none()]);
+                columns.unpack_all(&grid, &[one.shaped(&grid), FieldViewMut::none()]);
                 let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
                 prop_assert_eq!(found, expected);
             }

@@ -1,4 +1,4 @@
-//! Packed fields as loops see them: all of a field, or a stretch of it.
+//! PackedField fields as loops see them: all of a field, or a stretch of it.
 
 use crate::mpm::grid::Grid;
 
@@ -8,7 +8,7 @@ pub(in crate::mpm) const MARGIN: usize = 3;
 /// One node: four numbers that share a cache line.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
-pub(in crate::mpm) struct Node(pub(in crate::mpm) [f64; 4]);
+pub(in crate::mpm) struct PackedNode(pub(in crate::mpm) [f64; 4]);
 
 /// Where nodes are in a packed field.
 #[derive(Debug, Clone, Copy, Default)]
@@ -50,27 +50,27 @@ impl Layout {
 
 /// A field as a loop reads it.
 #[derive(Debug, Clone, Copy)]
-pub struct View<'a> {
-    pub(in crate::mpm) nodes: &'a [Node],
+pub struct FieldView<'a> {
+    pub(in crate::mpm) nodes: &'a [PackedNode],
     pub(in crate::mpm) layout: Layout,
 }
 
 /// A field, or a stretch of it, as a loop adds to it.
 #[derive(Debug)]
-pub struct ViewMut<'a> {
-    pub(in crate::mpm) nodes: &'a mut [Node],
+pub struct FieldViewMut<'a> {
+    pub(in crate::mpm) nodes: &'a mut [PackedNode],
     pub(in crate::mpm) layout: Layout,
 }
 
-impl View<'_> {
+impl FieldView<'_> {
     /// K nodes in a row.
     #[inline(always)]
-    pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node] {
+    pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[PackedNode] {
         &self.nodes[start..start + K]
     }
 }
 
-impl ViewMut<'_> {
+impl FieldViewMut<'_> {
     /// No field.
     pub(in crate::mpm) fn none() -> Self {
         Self { nodes: &mut [], layout: Layout::default() }
@@ -78,19 +78,19 @@ impl ViewMut<'_> {
 
     /// The same field.
     #[inline(always)]
-    pub(in crate::mpm) fn again(&mut self) -> ViewMut<'_> {
-        ViewMut { nodes: self.nodes, layout: self.layout }
+    pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_> {
+        FieldViewMut { nodes: self.nodes, layout: self.layout }
     }
 
     /// K nodes in a row.
     #[inline(always)]
-    pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [Node] {
+    pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [PackedNode] {
         &mut self.nodes[start..start + K]
     }
 
     /// Zero everywhere.
     pub(in crate::mpm) fn clear(&mut self) {
-        self.nodes.fill(Node::default());
+        self.nodes.fill(PackedNode::default());
     }
 
     /// The nodes before a layer across the last of D axes, and those from there on.

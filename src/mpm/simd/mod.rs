@@ -1,41 +1,52 @@
-//! Four numbers at a time: the width in which the particle-node loops work.
+//! Registers of four `f64`: the loops over particles and nodes are written once over [`F64x4`] and
+//! compiled for plain arrays, AVX2, and (where 16 registers are too few) AVX-512.
 //!
-//! The loops are written once over [`Four`] and compiled over plain arrays and over the registers of
-//! AVX2, some also over those of AVX-512, which are as wide here but more; the processor at hand decides. All
-//! do the same IEEE operations on each lane, a product and a sum and never a fused one, so the bits are the
-//! same; a test holds them to it.
+//! ```text
+//! particles   0  1  2  3 | 4  5  6  7 | 8  9 10 11 | 12 13 14 15     one F64Batch: BATCH = 16
+//! registers       0      |     1      |     2      |      3          F64x4 each:  LANES = 4
+//!
+//! weights:    one lane for each particle, so that four are computed at once
+//! nodes:      one lane for each component of a node (packed_grid), one particle after another
+//! ```
+//!
+//! Each lane does the same IEEE operations at every level, with products and sums never fused, so
+//! results have the same bits on every processor (held by tests in `kernel/laws.rs`).
 
+mod batch;
+mod f64x4;
+mod level;
 mod plain;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod registers;
-mod width;
 
+pub(in crate::mpm) use batch::{BATCH, F64Batch, components, registers_of};
+pub(in crate::mpm) use f64x4::{F64x4, LANES};
+pub(in crate::mpm) use level::Simd;
 pub(in crate::mpm) use plain::Plain;
-pub(in crate::mpm) use width::{FOUR, Four, LANES, Lanes, Width, part, parts};
 
 use fearless_simd::Level;
 
-/// A loop over fours. Whatever it calls must be `#[inline(always)]`, or it is compiled for any
-/// processor and slow.
+/// Loop over registers. All functions it calls must be `#[inline(always)]`: others are compiled
+/// for the baseline processor.
 pub(in crate::mpm) trait Pass: Sized {
-    /// Whether 16 registers are too few for it: the 32 of AVX-512 are used where there are any.
-    const NEEDS_REGISTERS: bool;
+    /// Whether the loop runs faster with the 32 registers of AVX-512 than with 16.
+    const NEEDS_32_REGISTERS: bool;
 
-    /// Runs it.
-    fn run<W: Width>(self, width: W);
+    /// Runs the loop.
+    fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs `pass` in the best way that the processor has.
+/// Runs `pass` at the best level of this processor.
 pub(in crate::mpm) fn run(pass: impl Pass) {
     run_at(Level::new(), pass);
 }
 
-/// Runs `pass` in the best way of this level.
+/// Runs `pass` at `level`.
 pub(in crate::mpm) fn run_at<P: Pass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
         use fearless_simd::Simd as _;
-        if P::NEEDS_REGISTERS
+        if P::NEEDS_32_REGISTERS
             && let Some(avx512) = level.as_avx512()
         {
             return avx512.vectorize(
@@ -54,7 +65,7 @@ pub(in crate::mpm) fn run_at<P: Pass>(level: Level, pass: P) {
     pass.run(Plain);
 }
 
-/// Levels below that of the processor at which it can run the loops as well.
+/// Levels below the best one of this processor.
 #[cfg(test)]
 pub(in crate::mpm) fn lower_levels() -> Vec<Level> {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

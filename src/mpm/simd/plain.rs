@@ -1,16 +1,16 @@
-//! Fours for every processor.
+//! Register emulated by an array, for every processor.
 
-use super::width::{FOUR, Four, Width};
+use super::f64x4::{F64x4, LANES};
 use crate::mpm::grid::floor;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
-/// Arrays, for every processor.
+/// Level without wide registers.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct Plain;
 
-/// An array of four.
+/// Four `f64` in memory.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::mpm) struct Array([f64; FOUR]);
+pub(in crate::mpm) struct Array(pub(super) [f64; LANES]);
 
 impl Array {
     #[inline(always)]
@@ -78,14 +78,14 @@ impl Mul<f64> for Array {
     }
 }
 
-impl From<Array> for [f64; FOUR] {
+impl From<Array> for [f64; LANES] {
     #[inline(always)]
     fn from(Array(values): Array) -> Self {
         values
     }
 }
 
-impl Four for Array {
+impl F64x4 for Array {
     #[inline(always)]
     fn floor(self) -> Self {
         self.map(floor)
@@ -119,19 +119,5 @@ impl Four for Array {
     #[inline(always)]
     fn inverse_above(self, smallest: f64) -> Self {
         self.map(|x| if x > smallest { 1.0 / x } else { 0.0 })
-    }
-}
-
-impl Width for Plain {
-    type Four = Array;
-
-    #[inline(always)]
-    fn four(self, values: [f64; FOUR]) -> Array {
-        Array(values)
-    }
-
-    #[inline(always)]
-    fn all(self, value: f64) -> Array {
-        Array([value; FOUR])
     }
 }

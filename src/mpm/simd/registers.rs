@@ -1,12 +1,12 @@
-//! Fours in the registers of x86.
+//! Registers of x86.
 
-use super::width::{FOUR, Four, Width};
-use fearless_simd::{Select, SimdBase, SimdFloat, SimdInto, SimdMask};
+use super::f64x4::F64x4;
+use fearless_simd::{Select, SimdBase, SimdFloat, SimdMask};
 
-/// Registers that hold four numbers, of one family of processors.
+/// Implements [`F64x4`] for the 256-bit registers of a processor level.
 macro_rules! registers {
     ($processor:ty) => {
-        impl Four for fearless_simd::f64x4<$processor> {
+        impl F64x4 for fearless_simd::f64x4<$processor> {
             #[inline(always)]
             fn floor(self) -> Self {
                 SimdFloat::floor(self)
@@ -14,7 +14,7 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // Each by itself: their conjunction is a call that the compiler does not take in.
+                // Not the conjunction of the masks: that is a call which is not inlined.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 
@@ -42,20 +42,6 @@ macro_rules! registers {
             fn inverse_above(self, smallest: f64) -> Self {
                 let (zero, one) = (Self::splat(self.simd, 0.0), Self::splat(self.simd, 1.0));
                 self.simd_gt(smallest).select(one / self, zero)
-            }
-        }
-
-        impl Width for $processor {
-            type Four = fearless_simd::f64x4<Self>;
-
-            #[inline(always)]
-            fn four(self, values: [f64; FOUR]) -> Self::Four {
-                values.simd_into(self)
-            }
-
-            #[inline(always)]
-            fn all(self, value: f64) -> Self::Four {
-                value.simd_into(self)
             }
         }
     };

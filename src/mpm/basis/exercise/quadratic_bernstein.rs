@@ -35,10 +35,10 @@ impl Basis for QuadraticBernstein {
         grid: &Grid<D>,
         particles: &Particles<D>,
         p: usize,
-        mut see: impl FnMut(&Product<D, 3>),
+        mut visit: impl FnMut(&Product<D, 3>),
     ) {
         let Some((cell, xi)) = grid.locate(&particles.x[p]) else { return };
-        see(&Product(array(Weights1d::NONE, |axis| {
+        visit(&Product(array(Weights1d::NONE, |axis| {
             let xi = xi[axis];
             let weight = [(1.0 - xi) * (1.0 - xi), 2.0 * xi * (1.0 - xi), xi * xi];
             let slope = [2.0 * xi - 2.0, 2.0 - 4.0 * xi, 2.0 * xi];

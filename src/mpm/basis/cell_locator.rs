@@ -4,21 +4,21 @@ use crate::mpm::{
     algebra::{Vector, array},
     grid::{Grid, WHOLE},
     packed_grid::Layout,
-    simd::{FOUR, Four, Width},
+    simd::{F64x4, LANES, Simd},
 };
 
 /// What a pass needs of functions besides their values.
 #[derive(Debug, Clone, Copy)]
-pub struct Needs {
+pub struct WeightNeeds {
     /// Their derivatives.
     pub(in crate::mpm) slopes: bool,
     /// Where they sit, and their variance.
-    pub(in crate::mpm) places: bool,
+    pub(in crate::mpm) offsets: bool,
 }
 
 /// What a pass must know of the grid, without the grid.
 #[derive(Debug, Clone, Copy)]
-pub struct Lattice<const D: usize> {
+pub struct CellLocator<const D: usize> {
     pub(super) h: f64,
     pub(super) inverse_h: f64,
     origin: [f64; D],
@@ -27,12 +27,12 @@ pub struct Lattice<const D: usize> {
     pub(super) periodic: [bool; D],
     /// Where nodes are in packed fields.
     pub(in crate::mpm) layout: Layout,
-    pub(super) needs: Needs,
+    pub(super) needs: WeightNeeds,
 }
 
 /// Cells of four particles.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Places<F, const D: usize> {
+pub(super) struct CellPositions<F, const D: usize> {
     /// Index of the cell along each axis.
     pub(super) cell: [F; D],
     /// Place in the cell, from 0 to 1.
@@ -42,11 +42,11 @@ pub(super) struct Places<F, const D: usize> {
 }
 
 /// All four particles are there, and inside.
-const ALL: u32 = (1 << FOUR) - 1;
+const ALL: u32 = (1 << LANES) - 1;
 
-impl<const D: usize> Lattice<D> {
+impl<const D: usize> CellLocator<D> {
     /// That of `grid`, with fields of this layout, for a pass with these needs.
-    pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: Needs) -> Self {
+    pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: WeightNeeds) -> Self {
         Self {
             h: grid.h,
             inverse_h: grid.inverse_h(),
@@ -60,15 +60,15 @@ impl<const D: usize> Lattice<D> {
 
     /// Finds the cells of the particles from `first` on, as [`Grid::locate`] does.
     #[inline(always)]
-    pub(super) fn locate<W: Width>(
+    pub(super) fn locate<S: Simd>(
         &self,
-        width: W,
+        simd: S,
         grid: &Grid<D>,
         x: &[Vector<D>],
         first: usize,
-    ) -> Places<W::Four, D> {
-        let zero = width.all(0.0);
-        let mut places = Places { cell: [zero; D], xi: [zero; D], inside: ALL };
+    ) -> CellPositions<S::F64x4, D> {
+        let zero = simd.splat(0.0);
+        let mut places = CellPositions { cell: [zero; D], xi: [zero; D], inside: ALL };
         // Chosen by reference: numbers that went by memory one by one would be waited for.
         let few;
         let x = if let Some(four) = x[first..].first_chunk() {
@@ -79,12 +79,12 @@ impl<const D: usize> Lattice<D> {
         };
         for axis in 0..D {
             let at = [x[0][axis], x[1][axis], x[2][axis], x[3][axis]];
-            let s = (width.four(at) + -self.origin[axis]) * self.inverse_h;
+            let s = (simd.load(at) + -self.origin[axis]) * self.inverse_h;
             let cell = s.floor();
             (places.cell[axis], places.xi[axis]) = (cell, s - cell);
             if !s.are_in(0.0, self.ends[axis]) {
                 let (cell, xi, inside) = at_ends(grid, axis, s.into());
-                (places.cell[axis], places.xi[axis]) = (width.four(cell), width.four(xi));
+                (places.cell[axis], places.xi[axis]) = (simd.load(cell), simd.load(xi));
                 places.inside &= inside;
             }
         }
@@ -93,13 +93,13 @@ impl<const D: usize> Lattice<D> {
 
     /// Where the nodes of these cells start in a packed field.
     #[inline(always)]
-    pub(super) fn starts<F: Four>(&self, cell: &[F; D]) -> [u32; FOUR] {
+    pub(super) fn starts<F: F64x4>(&self, cell: &[F; D]) -> [u32; LANES] {
         let mut start = cell[0];
         for axis in 1..D {
             start += cell[axis] * self.layout.strides[axis] as f64;
         }
         // The last bits of a number from 2^52 on are those of its excess.
-        let whole: [f64; FOUR] = (start + (WHOLE - self.layout.before as f64)).into();
+        let whole: [f64; LANES] = (start + (WHOLE - self.layout.before as f64)).into();
         array(0, |lane| whole[lane].to_bits() as u32)
     }
 }
@@ -107,7 +107,7 @@ impl<const D: usize> Lattice<D> {
 /// The last few particles; not a number where there are no more.
 #[cold]
 #[inline(never)]
-fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; FOUR] {
+fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
     array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
 }
 
@@ -118,10 +118,10 @@ fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; FOUR] {
 fn at_ends<const D: usize>(
     grid: &Grid<D>,
     axis: usize,
-    s: [f64; FOUR],
-) -> ([f64; FOUR], [f64; FOUR], u32) {
-    let (mut cells, mut places, mut inside) = ([0.0; FOUR], [0.0; FOUR], 0);
-    for lane in 0..FOUR {
+    s: [f64; LANES],
+) -> ([f64; LANES], [f64; LANES], u32) {
+    let (mut cells, mut places, mut inside) = ([0.0; LANES], [0.0; LANES], 0);
+    for lane in 0..LANES {
         if let Some((cell, xi)) = grid.locate_along(s[lane], axis) {
             (cells[lane], places[lane]) = (cell, xi);
             inside |= 1 << lane;
