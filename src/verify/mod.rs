@@ -41,11 +41,11 @@ pub use cost::{
 };
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub use error::clock::{Clock, MOST_STEPS};
-pub use error::error_scale::{ErrorScale, largest_exact};
+pub use error::error_scale::ErrorScale;
 pub use error::norm::Norms;
 pub(crate) use error::norm::larger;
 pub use error::observer::{History, displacement_at};
-pub use error::quantity::{Quantity, errors_of};
+pub use error::quantity::Quantity;
 pub use error::run::{Comparison, errors, resume, run};
 pub use error::run_result::Run;
 pub use expectation::limits::{Limits, Measured};

@@ -206,11 +206,10 @@ impl Convergence {
         })
     }
 
-    /// Whether the judged error is not among the errors of the displacement that tables show.
+    /// Whether the judged error is not among the errors of the primary unknown that tables show.
     pub fn is_judged_by_another_figure(&self) -> bool {
         let shown = ["rms", "l1", "l2", "linf", "max_rms"].contains(&self.norm);
-        let own = matches!(self.of, Quantity::Displacement | Quantity::Temperature);
-        !own || self.scale.is_some() || !shown
+        !self.of.is_primary() || self.scale.is_some() || !shown
     }
 
     /// The judged error in words, with its unit.

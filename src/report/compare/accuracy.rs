@@ -6,6 +6,7 @@ use super::{
     moved::{ErrorMove, ratio_moved},
     number::Number,
 };
+use crate::verify::Quantity;
 
 /// Largest relative difference of two spacings that are the same.
 const SAME_SPACING: f64 = 1e-6;
@@ -49,10 +50,11 @@ fn relative(judge: Option<&Judge>, level: &Level) -> f64 {
     let (Number(h), length) = (level.h, level.cells as f64);
     match judge {
         Some(Judge { scale: Some(_), .. }) => error,
-        Some(judge) if judge.of == "deformation_gradient" => error,
-        Some(judge) if judge.of != "displacement" => f64::NAN,
-        // A displacement is the difference of two positions, each rounded.
-        _ => error / (h * length),
+        Some(judge) => {
+            let of = Quantity::named(&judge.of);
+            error / of.map_or(f64::NAN, |of| of.rounding_size(h * length))
+        }
+        None => error / Quantity::default().rounding_size(h * length),
     }
 }
 

@@ -25,7 +25,6 @@ use crate::{
             stability::LatticeEdits,
         },
     },
-    verify::Quantity,
 };
 
 /// Longest formula that is taken apart for its places, with its sums written out.
@@ -57,7 +56,7 @@ impl<'a> Body<'a> {
             initial: Initial::of_body(plan, own),
             manufactured: plan.manufactured(),
             heat: plan.heat_problem(),
-            keeps_deformation: plan.of == Quantity::DeformationGradient,
+            keeps_deformation: plan.of.needs_deformation_gradient(),
             lattice: LatticeEdits::default(),
         }
     }

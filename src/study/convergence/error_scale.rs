@@ -3,7 +3,7 @@
 use crate::{
     exact::Truth,
     suite::model::{Against, Case, ConvergencePlan},
-    verify::{Axis, ErrorScale, largest_exact},
+    verify::{Axis, ErrorScale},
 };
 
 /// Intervals of the raster of places along each axis, and of times, in 1-D and 2-D, and in 3-D, where
@@ -41,7 +41,7 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     let share = |k: usize| case.until * (k as f64 / per_axis as f64);
     let times: Vec<f64> =
         if at_rest { vec![case.until] } else { (0..=per_axis).map(share).collect() };
-    largest_exact(plan.of, truth, &places(plan, per_axis), &times)
+    plan.of.largest_exact(truth, &places(plan, per_axis), &times)
 }
 
 /// A raster of the body, faces included.

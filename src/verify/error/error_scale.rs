@@ -1,15 +1,12 @@
-//! What makes the errors and the work of different methods comparable.
+//! Natural sizes that make the errors and the work of different methods comparable.
 
-use super::quantity::Quantity;
-use crate::exact::Truth;
-
-/// What errors of a case are compared by, and how its work must grow.
+/// Scale that errors of a case are compared by, and growth of its work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorScale {
-    /// Which problem is solved, in words: the end of the run, and the truth. Only cases of one problem
-    /// are compared.
+    /// The problem in words: the end of the run, and the truth. Only cases of one problem are
+    /// compared.
     pub problem: String,
-    /// What an error is divided by to be a share of the solution, in the unit of the judged error: 1
+    /// Divisor that makes an error a share of the solution, in the unit of the judged error: 1
     /// where the suite states a scale, which has been applied, else the largest exact magnitude. NaN
     /// if there is none.
     pub size: f64,
@@ -18,41 +15,9 @@ pub struct ErrorScale {
     pub growth: f64,
 }
 
-/// The largest magnitude of the exact `of` at `places` (m) and `times` (s): of a vector its length, of
-/// a tensor its Frobenius norm. What has no natural zero is measured by how much it changes: F from the
-/// identity, a temperature by its range. NaN if the truth does not know it, or it is zero throughout.
-pub fn largest_exact(of: Quantity, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for place in places {
-        for t in times {
-            let Some(value) = magnitude(of, truth, place, *t) else { return f64::NAN };
-            if !value.is_finite() {
-                return f64::NAN;
-            }
-            (low, high) = (low.min(value), high.max(value));
-        }
-    }
-    let size = if of == Quantity::Temperature { high - low } else { high };
-    if size > 0.0 && size.is_finite() { size } else { f64::NAN }
-}
-
-fn magnitude(of: Quantity, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
-    let d = place.len();
-    let mut exact = vec![0.0; of.components(d)];
-    if !of.exact(truth, place, t, &mut exact) {
-        return None;
-    }
-    match of {
-        Quantity::Temperature => return exact.first().copied(),
-        Quantity::DeformationGradient => (0..d).for_each(|i| exact[i * d + i] -= 1.0),
-        _ => {}
-    }
-    Some(exact.iter().fold(0.0, |all, x| libm::hypot(all, *x)))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::{exact::Truth, verify::Quantity};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -81,7 +46,7 @@ mod tests {
     #[case::a_range(Quantity::Temperature, 2.0)]
     fn sizes(#[case] of: Quantity, #[case] size: f64) {
         let places = [vec![0.0, 0.0], vec![2.0, 0.0]];
-        let found = largest_exact(of, &Rod, &places, &[0.0, 1.0, 2.0]);
+        let found = of.largest_exact(&Rod, &places, &[0.0, 1.0, 2.0]);
         assert_relative_eq!(found, size, max_relative = 1e-14);
     }
 
@@ -90,7 +55,7 @@ mod tests {
     #[case::not_a_number(Quantity::Velocity, 2.0)]
     #[case::zero(Quantity::Displacement, 0.0)]
     fn no_size(#[case] of: Quantity, #[case] until: f64) {
-        assert!(largest_exact(of, &Rod, &[vec![1.0, 0.0]], &[0.0, until]).is_nan());
-        assert!(largest_exact(of, &Rod, &[], &[until]).is_nan());
+        assert!(of.largest_exact(&Rod, &[vec![1.0, 0.0]], &[0.0, until]).is_nan());
+        assert!(of.largest_exact(&Rod, &[], &[until]).is_nan());
     }
 }

@@ -1,10 +1,14 @@
-//! What is compared: the fields of a state, and the error of each.
+//! Quantities that can be judged, each declared once.
+//!
+//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants below, and the
+//! line of [`Quantity::declaration`] that joins them.
 //!
 //! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
 //! length: the square root of the sum of the squares of all components.
 
 use super::norm::Norms;
 use crate::{exact::Truth, named::named, subject::Samples};
+use std::borrow::Cow;
 
 named! {
     /// A field of a state.
@@ -24,7 +28,131 @@ named! {
     }
 }
 
+/// All that is known of a quantity besides its name.
+struct Declaration {
+    /// Its unit; empty for a number.
+    unit: &'static str,
+    shape: TensorShape,
+    /// Values of a subject, label after label; empty from one that has none.
+    computed: fn(&Samples) -> Cow<'_, [f64]>,
+    /// Exact value at the label X at time t; false from a truth that does not know it.
+    exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
+    /// Exact values at all labels in D dimensions at once, where a truth has a faster way.
+    exact_at_all: Option<fn(&dyn Truth, usize, &[f64], f64, &mut [f64])>,
+    /// Natural size of exact values, which errors are compared with.
+    size: SolutionSize,
+    /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN where
+    /// it is not known.
+    rounding_size: fn(f64) -> f64,
+    /// Whether it is an unknown that a subject solves for: tables show its errors.
+    is_primary: bool,
+    /// Whether only some subjects and some truths have it.
+    is_optional: bool,
+    /// Whether only a body that moves has it.
+    is_of_motion: bool,
+    /// Whether a subject must keep F for it.
+    needs_deformation_gradient: bool,
+}
+
+/// Components at a label in D dimensions.
+enum TensorShape {
+    /// 1.
+    Scalar,
+    /// D.
+    Vector,
+    /// D * D, row after row.
+    Tensor,
+}
+
+/// Natural size of a field.
+enum SolutionSize {
+    /// Largest magnitude.
+    Magnitude,
+    /// Largest magnitude of the difference from the identity.
+    FromIdentity,
+    /// Largest less smallest value.
+    Range,
+}
+
+const DISPLACEMENT: Declaration = Declaration {
+    unit: "m",
+    shape: TensorShape::Vector,
+    computed: |samples| Cow::from(&samples.displacement),
+    exact: |truth, label, t, into| {
+        truth.displacement(label, t, into);
+        true
+    },
+    exact_at_all: Some(|truth, d, labels, t, into| truth.displacements(d, labels, t, into)),
+    size: SolutionSize::Magnitude,
+    // The difference of two positions, each rounded.
+    rounding_size: |length| length,
+    is_primary: true,
+    is_optional: false,
+    is_of_motion: true,
+    needs_deformation_gradient: false,
+};
+
+const VELOCITY: Declaration = Declaration {
+    unit: "m/s",
+    computed: |samples| Cow::from(&samples.velocity),
+    exact: |truth, label, t, into| {
+        truth.velocity(label, t, into);
+        true
+    },
+    exact_at_all: None,
+    rounding_size: |_| f64::NAN,
+    is_primary: false,
+    ..DISPLACEMENT
+};
+
+const STRESS: Declaration = Declaration {
+    unit: "Pa",
+    shape: TensorShape::Tensor,
+    computed: |samples| Cow::from(&samples.stress),
+    exact: |truth, label, t, into| truth.stress(label, t, into),
+    is_optional: true,
+    ..VELOCITY
+};
+
+const DEFORMATION_GRADIENT: Declaration = Declaration {
+    unit: "",
+    computed: |samples| Cow::from(&samples.deformation_gradient),
+    exact: |truth, label, t, into| truth.deformation_gradient(label, t, into),
+    size: SolutionSize::FromIdentity,
+    rounding_size: |_| 1.0,
+    needs_deformation_gradient: true,
+    ..STRESS
+};
+
+const TEMPERATURE: Declaration = Declaration {
+    unit: "K",
+    shape: TensorShape::Scalar,
+    computed: |samples| Cow::from(&samples.temperature),
+    exact: |truth, label, t, into| {
+        truth.temperature(label, t).map(|value| into[0] = value).is_some()
+    },
+    size: SolutionSize::Range,
+    is_primary: true,
+    is_of_motion: false,
+    ..STRESS
+};
+
 impl Quantity {
+    const fn declaration(self) -> &'static Declaration {
+        match self {
+            Self::Displacement => &DISPLACEMENT,
+            Self::Velocity => &VELOCITY,
+            Self::Stress => &STRESS,
+            Self::DeformationGradient => &DEFORMATION_GRADIENT,
+            Self::Temperature => &TEMPERATURE,
+        }
+    }
+
+    /// The quantity of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|known| known.name() == name)
+    }
+
     /// The name in a sentence.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
@@ -32,89 +160,107 @@ impl Quantity {
 
     /// Its unit; empty for a number.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Displacement => "m",
-            Self::Velocity => "m/s",
-            Self::Stress => "Pa",
-            Self::DeformationGradient => "",
-            Self::Temperature => "K",
-        }
+        self.declaration().unit
     }
 
-    /// Whether it is no motion, but what comes with it: not every subject and not every truth has it.
-    pub fn is_optional(self) -> bool {
-        matches!(self, Self::Stress | Self::DeformationGradient | Self::Temperature)
-    }
-
-    /// Whether it is the unknown that a subject solves for, whose errors tables show.
+    /// Whether it is an unknown that a subject solves for, whose errors tables show.
     pub fn is_primary(self) -> bool {
-        matches!(self, Self::Displacement | Self::Temperature)
+        self.declaration().is_primary
+    }
+
+    /// Whether only some subjects and some truths have it.
+    pub fn is_optional(self) -> bool {
+        self.declaration().is_optional
+    }
+
+    /// Whether only a body that moves has it.
+    pub fn is_of_motion(self) -> bool {
+        self.declaration().is_of_motion
+    }
+
+    /// Whether a subject must keep F for it.
+    pub fn needs_deformation_gradient(self) -> bool {
+        self.declaration().needs_deformation_gradient
+    }
+
+    /// Size of the numbers whose rounding its error cannot fall below, on a body of length `length` (m);
+    /// NaN where it is not known.
+    pub fn rounding_size(self, length: f64) -> f64 {
+        (self.declaration().rounding_size)(length)
     }
 
     /// Numbers at each label in `d` dimensions.
-    pub(crate) fn components(self, d: usize) -> usize {
-        match self {
-            Self::Displacement | Self::Velocity => d,
-            Self::Stress | Self::DeformationGradient => d * d,
+    fn components(self, d: usize) -> usize {
+        match self.declaration().shape {
             // Without a dimension there is nothing to compare, be it a number.
-            Self::Temperature => d.min(1),
+            TensorShape::Scalar => d.min(1),
+            TensorShape::Vector => d,
+            TensorShape::Tensor => d * d,
         }
-    }
-
-    /// The column of `samples`.
-    fn column(self, samples: &Samples) -> &[f64] {
-        match self {
-            Self::Displacement => &samples.displacement,
-            Self::Velocity => &samples.velocity,
-            Self::Stress => &samples.stress,
-            Self::DeformationGradient => &samples.deformation_gradient,
-            Self::Temperature => &samples.temperature,
-        }
-    }
-
-    /// The exact value at one label; whether the truth knows it.
-    pub(crate) fn exact(self, truth: &dyn Truth, label: &[f64], t: f64, into: &mut [f64]) -> bool {
-        match self {
-            Self::Displacement => truth.displacement(label, t, into),
-            Self::Velocity => truth.velocity(label, t, into),
-            Self::Stress => return truth.stress(label, t, into),
-            Self::DeformationGradient => return truth.deformation_gradient(label, t, into),
-            Self::Temperature => {
-                return truth.temperature(label, t).map(|value| into[0] = value).is_some();
-            }
-        }
-        true
     }
 
     /// The exact values at all labels; whether the truth knows them.
     fn exact_at_all(self, truth: &dyn Truth, samples: &Samples, t: f64, into: &mut [f64]) -> bool {
-        let d = samples.dimension;
-        if self == Self::Displacement {
-            truth.displacements(d, &samples.label, t, into);
+        let (d, declaration) = (samples.dimension, self.declaration());
+        if let Some(exact_at_all) = declaration.exact_at_all {
+            exact_at_all(truth, d, &samples.label, t, into);
             return true;
         }
         let mut places = samples.label.chunks(d).zip(into.chunks_mut(self.components(d)));
-        places.all(|(label, into)| self.exact(truth, label, t, into))
+        places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
-}
 
-/// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject or
-/// the truth has no such quantity.
-pub fn errors_of(quantity: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
-    let d = samples.dimension;
-    let components = quantity.components(d);
-    let column = quantity.column(samples);
-    if components == 0 || column.len() != components * samples.len() {
-        return Norms::NONE;
+    /// The largest magnitude of the exact values at `places` (m) and `times` (s): of a vector its length,
+    /// of a tensor its Frobenius norm. Without a natural zero its change counts: F is taken from the
+    /// identity, of a temperature the range. NaN if the truth does not know it, or it is zero throughout.
+    pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for place in places {
+            for t in times {
+                let Some(value) = self.magnitude(truth, place, *t) else { return f64::NAN };
+                if !value.is_finite() {
+                    return f64::NAN;
+                }
+                (low, high) = (low.min(value), high.max(value));
+            }
+        }
+        let is_range = matches!(self.declaration().size, SolutionSize::Range);
+        let size = if is_range { high - low } else { high };
+        if size > 0.0 && size.is_finite() { size } else { f64::NAN }
     }
-    let mut error = vec![0.0; column.len()];
-    if !quantity.exact_at_all(truth, samples, t, &mut error) {
-        return Norms::NONE;
+
+    /// The magnitude at one place; of what is measured by its range, the value itself.
+    fn magnitude(self, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
+        let (d, declaration) = (place.len(), self.declaration());
+        let mut exact = vec![0.0; self.components(d)];
+        if !(declaration.exact)(truth, place, t, &mut exact) {
+            return None;
+        }
+        match declaration.size {
+            SolutionSize::Range => return exact.first().copied(),
+            SolutionSize::FromIdentity => (0..d).for_each(|i| exact[i * d + i] -= 1.0),
+            SolutionSize::Magnitude => {}
+        }
+        Some(exact.iter().fold(0.0, |all, x| libm::hypot(all, *x)))
     }
-    for (error, computed) in error.iter_mut().zip(column) {
-        *error = computed - *error;
+
+    /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject or
+    /// the truth has no such quantity.
+    pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
+        let components = self.components(samples.dimension);
+        let computed = (self.declaration().computed)(samples);
+        if components == 0 || computed.len() != components * samples.len() {
+            return Norms::NONE;
+        }
+        let mut error = vec![0.0; computed.len()];
+        if !self.exact_at_all(truth, samples, t, &mut error) {
+            return Norms::NONE;
+        }
+        for (error, computed) in error.iter_mut().zip(computed.iter()) {
+            *error = computed - *error;
+        }
+        Norms::of(&error, components, &samples.weight)
     }
-    Norms::of(&error, components, &samples.weight)
 }
 
 #[cfg(test)]
@@ -162,7 +308,7 @@ mod tests {
     #[case(Quantity::Stress)]
     #[case(Quantity::Temperature)]
     fn every_component_counts(#[case] quantity: Quantity) {
-        let Norms { rms, l1, l2, linf } = errors_of(quantity, &off_by_five(), &Sheared, 1.0);
+        let Norms { rms, l1, l2, linf } = quantity.errors(&off_by_five(), &Sheared, 1.0);
         for norm in [rms, l1, l2, linf] {
             assert_relative_eq!(norm, 5.0, max_relative = 1e-15);
         }
@@ -185,7 +331,7 @@ mod tests {
         #[case] samples: Samples,
         #[case] quantity: Quantity,
     ) {
-        let norms = errors_of(quantity, &samples, &Sheared, 1.0);
+        let norms = quantity.errors(&samples, &Sheared, 1.0);
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
 }

@@ -5,7 +5,7 @@ use super::{
     clock::Clock,
     norm::{Norms, larger},
     observer::{History, displacement_at},
-    quantity::{Quantity, errors_of},
+    quantity::Quantity,
     run_result::Run,
 };
 use crate::{
@@ -142,10 +142,9 @@ impl<'a> RunMonitor<'a> {
         }
         self.errors = errors(&self.samples, self.truth, t);
         self.max_rms = larger(self.max_rms, self.errors.rms);
-        self.at_end = match self.comparison.of {
-            Quantity::Displacement => self.errors,
-            other => errors_of(other, &self.samples, self.truth, t),
-        };
+        let of = self.comparison.of;
+        let is_known = of == Quantity::default();
+        self.at_end = if is_known { self.errors } else { of.errors(&self.samples, self.truth, t) };
         self.largest = self.largest.larger(self.at_end);
     }
 
@@ -235,7 +234,7 @@ fn fastest(samples: &Samples) -> f64 {
 
 /// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.
 pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
-    errors_of(Quantity::Displacement, samples, truth, t)
+    Quantity::default().errors(samples, truth, t)
 }
 
 #[cfg(test)]

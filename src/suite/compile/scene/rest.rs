@@ -16,7 +16,6 @@ use crate::{
         model::{Scene, SceneFace, boundary::BoundaryCondition},
         yaml::Diagnostic,
     },
-    verify::Quantity,
 };
 
 /// Lets every face be at rest that has no opposite one to be one with, and refuses words that hold or
@@ -114,7 +113,7 @@ fn methods(
 
 /// Refuses what is judged, observed, expected or stated of a motion.
 fn judged(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
-    if words.judge.of != Quantity::Temperature {
+    if words.judge.of.is_of_motion() {
         let message = "nothing moves, and what is judged belongs to a motion";
         let diagnostic = evaluator.diagnostic(&Path::top("scene").then("material"), message);
         return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
