@@ -11,7 +11,6 @@
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
 //! ```
 
-pub mod adding_a_basis;
 pub(crate) mod analysis;
 pub(crate) mod seeding;
 pub(crate) mod state;

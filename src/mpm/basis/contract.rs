@@ -21,7 +21,7 @@ pub enum Domain {
     Follows,
 }
 
-/// A family of basis functions N_i on the grid. How one is added: [`crate::mpm::adding_a_basis`].
+/// A family of basis functions N_i on the grid. Adding one: `docs/exercises/basis.md`.
 pub trait Basis: Sized + Sync + Send + 'static {
     /// Degree p of the polynomials that the basis reproduces on a smooth field.
     const DEGREE: u8;

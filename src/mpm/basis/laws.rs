@@ -15,9 +15,9 @@ use crate::mpm::{
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
-/// The basis of [`crate::mpm::adding_a_basis`], which the page adds and the crate does not.
+/// The basis that `docs/exercises/basis.md` adds.
 #[allow(unreachable_pub)] // public where the page puts it
-#[path = "exercise/quadratic_bernstein.rs"]
+#[path = "../../../tests/exercises/quadratic_bernstein.rs"]
 mod exercise;
 
 const CELLS: usize = 4;

@@ -2,8 +2,8 @@
 //! the Bernstein form; in MPM: Karamelo, `Bernstein-quadratic`).
 //!
 //! With xi from 0 to 1 across the cell: `(1 - xi)^2`, `2 xi (1 - xi)`, `xi^2`. The first and the last
-//! sit on the cell's nodes and are shared with the cells beside it, the second in its middle. Never
-//! negative, and at walls as everywhere; but gradients jump at nodes, as those of hats do.
+//! belong to the cell's nodes, shared with the neighbouring cells, the second to its centre. They
+//! are nowhere negative and the same at walls; gradients jump at nodes, as for the linear basis.
 
 use super::{
     contract::{Basis, Domain},
