@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::{
     report,
     study::cost::{Over, bid, price, variants},
-    suite::{Extent, StudyPlan, Suite},
+    suite::{ConvergencePlan, Extent, Suite},
     verify::{Bid, TimedSuite},
 };
 use std::{fs, path::Path};
@@ -64,7 +64,7 @@ fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
     let over: Vec<Over> = args.over.iter().map(|what| varied(*what)).collect();
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = PASSED;
-    for suite in suites.iter().filter(|suite| matches!(suite.study, StudyPlan::Convergence(_))) {
+    for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
         let priced = one(suite, &over, args);
         if !args.json {
             output::print(&format!("{}\n", report::priced(&priced, !over.is_empty())));
@@ -86,12 +86,8 @@ fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> TimedSuite {
     let variants = variants(suite, over);
     let levels: usize = std::iter::once(suite)
         .chain(&variants)
-        .filter_map(|suite| match &suite.study {
-            StudyPlan::Convergence(plan) => {
-                Some(plan.cases.len() * plan.refine.levels(extent).len())
-            }
-            _ => None,
-        })
+        .filter_map(|suite| suite.plan::<ConvergencePlan>())
+        .map(|plan| plan.cases.len() * plan.refine.levels(extent).len())
         .sum();
     // Each is run for its error, and timed.
     let bar = ProgressBar::with_draw_target(Some(2 * levels as u64), ProgressDrawTarget::stderr());

@@ -3,8 +3,8 @@
 use super::{args::ExplainArgs, output, show, status::BAD_INPUT};
 use mpm_verify::{
     report,
-    study::describe::{profiles, profiles::Dispensable, statement},
-    suite::{StudyPlan, Suite},
+    study::{self, describe::profiles::Dispensable},
+    suite::Suite,
 };
 
 /// Prints the page of each suite.
@@ -39,15 +39,13 @@ fn named(name: &str) -> Result<Dispensable, String> {
 fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());
     page += &line("source", &suite.source);
-    for (key, value) in statement::rows(suite) {
+    for (key, value) in study::statement(suite) {
         page += &line(&key, &value);
     }
-    for case in cases(suite) {
-        page += &format!(
-            "\n{}\n  expected: {}\n  because: {}\n",
-            case.name, case.outcome, case.because
-        );
-        page += &taken(suite, &case.name, without);
+    for (i, case) in suite.case_names().into_iter().enumerate() {
+        let (expected, because) = suite.study.expectation(i);
+        page += &format!("\n{case}\n  expected: {expected}\n  because: {because}\n");
+        page += &taken(suite, case, without);
     }
     page + "\n"
 }
@@ -58,11 +56,11 @@ fn line(key: &str, value: &str) -> String {
 
 /// What a step of the case takes, and what it would not without an effect.
 fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
-    let Some(all) = profiles::of_case(suite, case, None) else { return String::new() };
+    let Some(all) = study::profile(suite, case, None) else { return String::new() };
     let mut page: String =
         report::profile(&all).iter().map(|(key, text)| line(key, text)).collect();
     let Some(effect) = without else { return page };
-    page += &match profiles::of_case(suite, case, Some(effect)) {
+    page += &match study::profile(suite, case, Some(effect)) {
         _ if !all.effects.contains(&effect.name()) => {
             line("without", &format!("`{}` is not there, nothing changes", effect.name()))
         }
@@ -74,43 +72,4 @@ fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
         }
     };
     page
-}
-
-/// A case with what is expected of it and why.
-struct Expected {
-    name: String,
-    outcome: String,
-    because: String,
-}
-
-fn cases(suite: &Suite) -> Vec<Expected> {
-    match &suite.study {
-        StudyPlan::Convergence(plan) => plan
-            .cases
-            .iter()
-            .map(|case| Expected {
-                name: case.name.clone(),
-                outcome: case.expectation.summary(),
-                because: case.expectation.because.clone(),
-            })
-            .collect(),
-        StudyPlan::Stability(plan) => plan
-            .cases
-            .iter()
-            .map(|case| Expected {
-                name: case.name.clone(),
-                outcome: case.summary.clone(),
-                because: case.because.clone(),
-            })
-            .collect(),
-        StudyPlan::InternalForce(plan) => plan
-            .cases
-            .iter()
-            .map(|case| Expected {
-                name: case.name.clone(),
-                outcome: case.expected.summary(),
-                because: case.because.clone(),
-            })
-            .collect(),
-    }
 }

@@ -16,7 +16,10 @@ pub(crate) mod convergence;
 pub mod cost;
 pub mod describe;
 pub(crate) mod internal_force;
+pub(crate) mod kind;
+pub(crate) mod runner;
 pub(crate) mod stability;
 
 pub use cache::results::ResultCache;
-pub use convergence::runner::{Progress, Runner};
+pub use kind::{Progress, profile, statement};
+pub use runner::Runner;

@@ -21,7 +21,8 @@ pub use model::heat::SceneHeat;
 pub use model::method::Method;
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
 pub use model::stability::{StabilityCase, StabilityPlan};
+pub use model::study_plan::StudyPlan;
 pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,
-    SceneFace, StudyPlan, Suite,
+    SceneFace, Suite,
 };

@@ -4,7 +4,7 @@
 use approx::assert_abs_diff_eq;
 use mpm_verify::{
     exact::Truth,
-    suite::{StudyPlan, Suite, embedded},
+    suite::{ConvergencePlan, Suite, embedded},
 };
 use rstest::rstest;
 use std::f64::consts::PI;
@@ -13,9 +13,9 @@ use std::f64::consts::PI;
 fn displacement(name: &str, x: f64, t: f64) -> f64 {
     let source = embedded::source(name).expect("an embedded suite").expect("a sound text");
     let suite = Suite::load(&source).expect("a sound suite");
-    let StudyPlan::Convergence(plan) = suite.study else { panic!("{name} is a convergence study") };
+    let plan: &ConvergencePlan = suite.plan().expect("a convergence study");
     let mut u = [0.0];
-    plan.exact.expect("an exact solution").motion.displacement(&[x], t, &mut u);
+    plan.exact.as_ref().expect("an exact solution").motion.displacement(&[x], t, &mut u);
     u[0]
 }
 

@@ -11,9 +11,9 @@ use mpm_verify::{
         LocalDamping, NeoHookean, Particles, Placement, Prescribed, Pressure, Roller, SchemeName,
         SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
     },
-    study::describe::profiles,
+    study,
     subject::{Column, Holder, Profile, Subject},
-    suite::{BoundaryCondition, StudyPlan, Suite, embedded},
+    suite::{BoundaryCondition, ConvergencePlan, Suite, embedded},
 };
 use rstest::rstest;
 use std::sync::Arc;
@@ -216,14 +216,15 @@ fn load(suite: &str) -> Suite {
 fn lists(suite: &str, effect: EffectName) -> bool {
     let suite = load(suite);
     suite.case_names().iter().any(|case| {
-        profiles::of_case(&suite, case, None)
+        study::profile(&suite, case, None)
             .is_some_and(|profile| profile.effects.contains(&effect.name()))
     })
 }
 
 /// Whether a suite has such a wall.
 fn has_wall(suite: &str, name: &str) -> bool {
-    let StudyPlan::Convergence(plan) = load(suite).study else { return false };
+    let suite = load(suite);
+    let Some(plan) = suite.plan::<ConvergencePlan>() else { return false };
     plan.scene.faces.iter().any(|face| match face.hold {
         BoundaryCondition::Free | BoundaryCondition::Periodic | BoundaryCondition::AtRest => false,
         BoundaryCondition::Fixed => name == "fixed",
@@ -283,7 +284,9 @@ fn taken_by_two(friction: Option<f64>) -> Profile {
 #[test]
 fn the_readme_says_what_contact_adds_and_which_suites_verify_it() {
     let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
-    let has_contact = |suite: &str, _: &str| matches!(load(suite).study, StudyPlan::Convergence(plan) if plan.scene.contact.is_some());
+    let has_contact = |suite: &str, _: &str| {
+        load(suite).plan::<ConvergencePlan>().is_some_and(|plan| plan.scene.contact.is_some())
+    };
     are_in_the_readme(&[("contact", row)], has_contact);
 }
 

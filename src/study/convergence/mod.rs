@@ -8,3 +8,4 @@ pub(crate) mod reference;
 pub(crate) mod runner;
 pub(crate) mod small_step_reference;
 pub(crate) mod stable_step;
+pub(crate) mod statement;

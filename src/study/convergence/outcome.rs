@@ -1,8 +1,8 @@
 //! From levels that have run to the outcome of a case.
 
-use super::formal_order::formal_order;
+use super::{formal_order::formal_order, statement};
 use crate::{
-    study::describe::{profiles, statement},
+    study::describe::profiles,
     suite::{
         compile::truth::conservation_only,
         grammar::NormName,

@@ -1,4 +1,4 @@
-//! Running a suite: every level of every case, judged.
+//! Running a convergence study: every level of every case, judged.
 
 use super::{
     error_scale::yardstick,
@@ -7,207 +7,157 @@ use super::{
     reference::Reference,
     small_step_reference::FineSteps,
     stable_step::StableSteps,
+    statement,
 };
 use crate::{
     exact::{Problem, Truth},
     study::{
-        build::dispatch::subject, cache::results::ResultCache, describe::statement,
-        internal_force::case::internal_force, stability::run as stability,
+        build::dispatch::subject,
+        describe::{profiles, profiles::Dispensable, statement::Rows},
+        kind::{CaseRunner, Progress, RunContext, Study},
     },
+    subject::Profile,
     suite::{
         compile::truth::conservation_only::Unknown,
         grammar::CrossingLevels,
         model::{
-            Against, Case, ConvergencePlan, StudyPlan, Suite,
+            Against, Case, ConvergencePlan,
             refine_plan::{Extent, LevelPlan},
         },
     },
     verify,
     verify::{
-        Axis, CaseOutcome, CheckpointStore, Clock, Comparison, LevelOutcome, NoCheckpoints, Run,
-        SuiteOutcome,
+        Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, Run,
     },
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Told after each level (or internal-force case) that is done.
-pub type Progress<'a> = &'a (dyn Fn() + Sync);
-
-/// Runs cases of one suite. A reference that several cases share is computed once.
-pub struct Runner<'a> {
-    suite: &'a Suite,
-    extent: Extent,
-    kept: Option<&'a ResultCache>,
+/// Runs cases of a convergence study. A reference that several cases share is computed once.
+pub(crate) struct ConvergenceRunner<'a> {
+    plan: &'a ConvergencePlan,
+    context: RunContext<'a>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
     steps: StableSteps,
 }
 
-impl<'a> Runner<'a> {
-    /// A runner of the levels that the gate runs; nothing runs yet.
-    pub fn new(suite: &'a Suite) -> Self {
-        Self::over(suite, Extent::Usual)
+impl Study for ConvergencePlan {
+    fn statement(&self) -> Rows {
+        statement::rows(self)
     }
 
-    /// A runner of so many levels.
-    pub fn over(suite: &'a Suite, extent: Extent) -> Self {
-        let mut ends: Vec<f64> = match &suite.study {
-            StudyPlan::Convergence(plan) => plan.cases.iter().map(|case| case.until).collect(),
-            StudyPlan::InternalForce(_) | StudyPlan::Stability(_) => Vec::new(),
-        };
-        ends.sort_by(f64::total_cmp);
-        ends.dedup();
-        let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
-        Self { suite, extent, kept: None, references, steps: StableSteps::default() }
-    }
-
-    /// Keeps finished levels, and takes those that have been kept.
-    #[must_use]
-    pub fn keeping(self, kept: Option<&'a ResultCache>) -> Self {
-        Self { kept, ..self }
-    }
-
-    /// Units of progress of the whole suite.
-    pub fn units(&self) -> u64 {
-        match &self.suite.study {
-            StudyPlan::Convergence(plan) => {
-                (plan.cases.len() * plan.refine.levels(self.extent).len()) as u64
-            }
-            StudyPlan::InternalForce(plan) => plan.cases.len() as u64,
-            StudyPlan::Stability(plan) => (plan.cases.len() * plan.values.len()) as u64,
+    fn profile(&self, case: usize, without: Option<Dispensable>) -> Option<Profile> {
+        let case = &self.cases[case];
+        match without {
+            None => profiles::of(self, case),
+            Some(without) => profiles::of(&profiles::lacking(self, without), case),
         }
     }
 
-    /// Runs every case, in parallel; outcomes keep the order of the suite, so the number of
-    /// threads cannot be seen in them.
-    pub fn run(&self, progress: Progress<'_>) -> SuiteOutcome {
-        let count = self.suite.case_names().len();
-        self.outcome((0..count).into_par_iter().map(|i| self.case(i, progress)).collect())
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(ConvergenceRunner::new(self, context))
+    }
+}
+
+impl CaseRunner for ConvergenceRunner<'_> {
+    fn units(&self) -> u64 {
+        (self.plan.cases.len() * self.plan.refine.levels(self.context.extent).len()) as u64
     }
 
-    /// The outcome of the suite, made of those of all its cases.
-    pub fn outcome(&self, cases: Vec<CaseOutcome>) -> SuiteOutcome {
-        SuiteOutcome {
-            suite: self.suite.name.clone(),
-            title: self.suite.title.clone(),
-            source: self.suite.source.clone(),
-            about: self.suite.about.trim().to_owned(),
-            statement: statement::rows(self.suite),
-            cases,
-        }
+    fn warnings(&self) -> Vec<String> {
+        self.steps.warnings(self.plan, self.context.extent)
     }
 
-    /// Runs the case with the given index.
-    ///
-    /// # Panics
-    /// If there is no such case.
-    pub fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
-        match &self.suite.study {
-            StudyPlan::Convergence(plan) => self.convergence(plan, &plan.cases[index], progress),
-            StudyPlan::InternalForce(plan) => {
-                let outcome = internal_force(plan, &plan.cases[index]);
-                progress();
-                outcome
-            }
-            StudyPlan::Stability(plan) => {
-                let Suite { name, fingerprint, .. } = self.suite;
-                let (suite, how) = ((name.as_str(), *fingerprint), (self.extent, self.kept));
-                stability::case(suite, plan, &plan.cases[index], how, progress)
-            }
-        }
-    }
-
-    fn convergence(
-        &self,
-        plan: &ConvergencePlan,
-        case: &Case,
-        progress: Progress<'_>,
-    ) -> CaseOutcome {
-        let expectation = match (self.extent, &case.expectation_in_full) {
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let (plan, case) = (self.plan, &self.plan.cases[index]);
+        let expectation = match (self.context.extent, &case.expectation_in_full) {
             (Extent::Full, Some(full)) => full,
             _ => &case.expectation,
         };
+        self.run(case, expectation, progress)
+            .unwrap_or_else(|reason| refused(plan, case, expectation, reason))
+    }
+}
+
+impl<'a> ConvergenceRunner<'a> {
+    fn new(plan: &'a ConvergencePlan, context: RunContext<'a>) -> Self {
+        let mut ends: Vec<f64> = plan.cases.iter().map(|case| case.until).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
+        Self { plan, context, references, steps: StableSteps::default() }
+    }
+
+    /// Every level of a case, judged.
+    ///
+    /// # Errors
+    /// One line that says why the case cannot be run.
+    fn run(
+        &self,
+        case: &Case,
+        expectation: &Expectation,
+        progress: Progress<'_>,
+    ) -> Result<CaseOutcome, String> {
+        let plan = self.plan;
         let shorter = (case.against == Against::SameMethod)
-            .then(|| FineSteps::compute(plan, case, plan.same_method_dt.unwrap_or(f64::NAN)));
-        let truth: Result<&dyn Truth, String> = match &shorter {
-            Some(Ok(truth)) => Ok(truth),
-            Some(Err(reason)) => Err(reason.clone()),
-            None => self.truth(plan, case),
-        };
-        let truth = match truth {
-            Ok(truth) => truth,
-            Err(reason) => return refused(plan, case, expectation, reason),
+            .then(|| FineSteps::compute(plan, case, plan.same_method_dt.unwrap_or(f64::NAN)))
+            .transpose()?;
+        let truth: &dyn Truth = match &shorter {
+            Some(truth) => truth,
+            None => self.truth(case)?,
         };
         let levels: Result<Vec<LevelOutcome>, String> = plan
             .refine
-            .levels(self.extent)
+            .levels(self.context.extent)
             .par_iter()
             .map(|level| {
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let outcome = self.level(plan, case, truth, level)?;
+                    let outcome = self.level(case, truth, level)?;
                     Ok(LevelOutcome { safe_step: limit, ..outcome })
                 });
                 progress();
                 level
             })
             .collect();
-        let levels = match levels {
-            Ok(levels) => levels,
-            Err(reason) => return refused(plan, case, expectation, reason),
-        };
+        let levels = levels?;
         let judgement = judge_levels(plan, case, expectation, &levels);
-        let again = |level| self.level(plan, case, truth, level);
+        let again = |level| self.level(case, truth, level);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
         let yardstick = yardstick(plan, case, truth);
-        judged(plan, case, expectation, levels, judgement, floor, yardstick)
-    }
-
-    /// What is to be said before anything runs: steps that are longer than any that is known to be safe.
-    pub fn warnings(&self) -> Vec<String> {
-        let StudyPlan::Convergence(plan) = &self.suite.study else { return Vec::new() };
-        let name = |warning| format!("{}::{warning}", self.suite.name);
-        self.steps.warnings(plan, self.extent).into_iter().map(name).collect()
+        Ok(judged(plan, case, expectation, levels, judgement, floor, yardstick))
     }
 
     /// One level of a case against `truth`.
     fn level(
         &self,
-        plan: &ConvergencePlan,
         case: &Case,
         truth: &dyn Truth,
         level: LevelPlan,
     ) -> Result<LevelOutcome, String> {
+        let plan = self.plan;
         let clock = Clock::new(case.until, level.dt, plan.instants)
             .ok_or("the time step makes no sense")?;
-        let run =
-            |keeper: &mut dyn CheckpointStore| run_of(plan, case, truth, level, &clock, keeper);
-        let run = match self.kept {
-            None => run(&mut NoCheckpoints),
-            Some(kept) => {
-                let Suite { name, fingerprint, .. } = self.suite;
-                let what =
-                    format!("{name}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
-                let key = format!("{name} {fingerprint:016x} {} {level:?}", case.name);
-                kept.level(&key, &what, run)
-            }
-        };
-        Ok(level_of(plan, level, clock.dt(), run?))
+        let RunContext { suite, fingerprint, .. } = self.context;
+        let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
+        let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
+        let run = |store: &mut dyn CheckpointStore| run_of(plan, case, truth, level, &clock, store);
+        Ok(level_of(plan, level, clock.dt(), self.context.cached(&key, &name, run)?))
     }
 
-    fn truth(&self, plan: &'a ConvergencePlan, case: &Case) -> Result<&dyn Truth, String> {
+    fn truth(&self, case: &Case) -> Result<&dyn Truth, String> {
         if case.against == Against::Nothing {
             return Ok(&Unknown);
         }
         if case.against == Against::Exact {
-            if let Some(heat) = &plan.conduction {
+            if let Some(heat) = &self.plan.conduction {
                 return Ok(heat);
             }
-            let exact = plan.exact.as_ref().ok_or("the suite declares no exact solution")?;
+            let exact = self.plan.exact.as_ref().ok_or("the suite declares no exact solution")?;
             return Ok(exact);
         }
         let found = self.references.iter().find(|(until, _)| *until == case.until);
         let (until, reference) = found.ok_or("no reference for this case")?;
-        match reference.get_or_init(|| Reference::compute(plan, *until)) {
+        match reference.get_or_init(|| Reference::compute(self.plan, *until)) {
             Ok(reference) => Ok(reference),
             Err(reason) => Err(reason.clone()),
         }
@@ -246,8 +196,14 @@ fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> Leve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{study::cache::checkpoints::Interruption, suite::embedded};
+    use crate::{
+        study::cache::checkpoints::Interruption,
+        suite::{Suite, embedded},
+    };
     use rstest::rstest;
+
+    const CONTEXT: RunContext<'static> =
+        RunContext { suite: "", fingerprint: 0, extent: Extent::Usual, cache: None };
 
     fn load(name: &str) -> Suite {
         Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap()
@@ -269,11 +225,11 @@ mod tests {
     #[case("simple-shear")]
     fn an_interrupted_level_shows_what_a_whole_one_does(#[case] name: &str) {
         let suite = load(name);
-        let StudyPlan::Convergence(plan) = &suite.study else { panic!("{name} has levels") };
+        let plan: &ConvergencePlan = suite.plan().unwrap();
         let level = plan.refine.levels[0];
         for case in plan.cases.first().into_iter().chain(plan.cases.last()) {
-            let runner = Runner::new(&suite);
-            let truth = runner.truth(plan, case).unwrap();
+            let runner = ConvergenceRunner::new(plan, CONTEXT);
+            let truth = runner.truth(case).unwrap();
             let clock = Clock::new(case.until, level.dt, plan.instants).unwrap();
             let run = |keeper: &mut dyn CheckpointStore| {
                 format!("{:?}", run_of(plan, case, truth, level, &clock, keeper).unwrap())
@@ -286,10 +242,10 @@ mod tests {
     #[test]
     fn a_level_starts_anew_if_what_is_left_is_no_state_of_it() {
         let suite = load("vibrating-bar");
-        let StudyPlan::Convergence(plan) = &suite.study else { panic!("it has levels") };
+        let plan: &ConvergencePlan = suite.plan().unwrap();
         let case = &plan.cases[0];
-        let runner = Runner::new(&suite);
-        let truth = runner.truth(plan, case).unwrap();
+        let runner = ConvergenceRunner::new(plan, CONTEXT);
+        let truth = runner.truth(case).unwrap();
         let clock = Clock::new(case.until, plan.refine.levels[0].dt, plan.instants).unwrap();
         let run = |level: usize, keeper: &mut dyn CheckpointStore| {
             let level = plan.refine.levels[level];

@@ -10,16 +10,17 @@ use super::{
     measure::seconds,
 };
 use crate::{
-    study::convergence::runner::Runner,
+    study::runner::Runner,
     suite::{
         compile::check::size::too_large,
         model::{
-            StudyPlan, Suite,
+            ConvergencePlan, Suite,
             refine_plan::{Extent, LevelPlan},
         },
     },
     verify::{Axis, Bid, CaseOutcome, LevelOutcome, Load, Model, rankings},
 };
+use std::sync::Arc;
 
 /// The largest run that a model is fitted to takes this share of the budget at least, so that
 /// predictions do not reach far.
@@ -36,7 +37,7 @@ const REPEATS: usize = 3;
 /// # Errors
 /// One line that says why nothing can be chosen.
 pub fn bid(suite: &Suite, budget: f64) -> Result<Bid, String> {
-    let StudyPlan::Convergence(plan) = &suite.study else {
+    let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return Err("the suite refines nothing".to_owned());
     };
     if plan.refine.axis != Axis::Space {
@@ -113,7 +114,7 @@ impl Candidate<'_> {
         plan.refine.levels = vec![level];
         plan.refine.usual = 1;
         plan.cases = vec![self.case.clone()];
-        let study = StudyPlan::Convergence(Box::new(plan));
+        let study = Arc::new(plan);
         let one = Suite { study, ..suite.clone() };
         let outcome = Runner::over(&one, Extent::Usual).case(0, &|| ());
         let study = outcome.convergence().ok_or_else(|| outcome.reason.clone())?;

@@ -2,8 +2,8 @@
 
 use super::measure::seconds;
 use crate::{
-    study::convergence::runner::Runner,
-    suite::model::{Case, ConvergencePlan, StudyPlan, Suite, refine_plan::LevelPlan},
+    study::runner::Runner,
+    suite::model::{Case, ConvergencePlan, Suite, refine_plan::LevelPlan},
     verify::{CaseOutcome, LevelOutcome, Ranked, rankings},
 };
 
@@ -20,7 +20,7 @@ pub struct Goal<'a> {
 /// the method converges, whose error over the size of the solution is at most `target`; the cheapest
 /// method first. Methods that do not reach it are left out.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
-    let StudyPlan::Convergence(plan) = &suite.study else { return Vec::new() };
+    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let transfers =
         |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
     let ranked = rankings(&Runner::new(suite).run(&|| ()).cases, transfers);

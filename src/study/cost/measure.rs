@@ -7,11 +7,11 @@
 
 use super::machine::{LoadMonitor, Observed, alone};
 use crate::{
-    study::{build::dispatch::subject, convergence::runner::Runner},
+    study::{build::dispatch::subject, runner::Runner},
     suite::{
         compile::check::size::nodes,
         model::{
-            Case, ConvergencePlan, StudyPlan, Suite,
+            Case, ConvergencePlan, Suite,
             refine_plan::{Extent, LevelPlan},
         },
     },
@@ -79,7 +79,7 @@ pub fn price(
     let mut cases: Vec<CaseOutcome> = Vec::new();
     let mut jobs: Vec<Job<'_>> = Vec::new();
     for one in &suites {
-        let StudyPlan::Convergence(plan) = &one.study else { continue };
+        let Some(plan) = one.plan::<ConvergencePlan>() else { continue };
         for case in &plan.cases {
             let levels = plan.refine.levels(extent).iter().enumerate();
             jobs.extend(levels.map(|(k, level)| {

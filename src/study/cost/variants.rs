@@ -4,10 +4,10 @@ use crate::{
     mpm::{BasisName, combine, combine_bodies},
     named::named,
     suite::model::{
-        Case, ConvergencePlan, StudyPlan, Suite, grid_size::per_axis, method::Method,
-        refine_plan::LevelPlan,
+        Case, ConvergencePlan, Suite, grid_size::per_axis, method::Method, refine_plan::LevelPlan,
     },
 };
+use std::sync::Arc;
 
 named! {
     /// What may be varied besides what a suite refines.
@@ -24,7 +24,7 @@ named! {
 /// The suite with every combination of what is varied, its own settings left out. The names of cases say
 /// what they vary.
 pub fn variants(suite: &Suite, over: &[Over]) -> Vec<Suite> {
-    let StudyPlan::Convergence(plan) = &suite.study else { return Vec::new() };
+    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let varies = |one: Over| over.contains(&one);
     let steps: &[f64] = if varies(Over::Dt) { &[1.0, 0.5, 2.0] } else { &[1.0] };
     let particles: &[(u64, u64)] =
@@ -42,7 +42,7 @@ pub fn variants(suite: &Suite, over: &[Over]) -> Vec<Suite> {
                 .map(|case| Case { name: name(&case.name, *dt, *ppc, &varied), ..case.clone() })
                 .collect();
             if !varied.cases.is_empty() {
-                let study = StudyPlan::Convergence(Box::new(varied));
+                let study = Arc::new(varied);
                 all.push(Suite { study, ..suite.clone() });
             }
         }

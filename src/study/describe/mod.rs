@@ -4,5 +4,4 @@ pub(crate) mod amplitude;
 pub(crate) mod equation_text;
 pub(crate) mod heat;
 pub mod profiles;
-pub(crate) mod stability;
-pub mod statement;
+pub(crate) mod statement;

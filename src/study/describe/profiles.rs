@@ -4,7 +4,7 @@ use crate::{
     mpm::EffectName,
     study::build::dispatch,
     subject::Profile,
-    suite::model::{Case, ConvergencePlan, Scene, StudyPlan, Suite},
+    suite::model::{Case, ConvergencePlan, Scene},
 };
 
 /// What a scene may do without.
@@ -31,24 +31,13 @@ impl Dispensable {
     }
 }
 
-/// What a step of the case called `name` takes on the coarsest level, without one thing if that is
-/// wanted. None of a case that has no steps, or whose subject does not say.
-pub fn of_case(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
-    let StudyPlan::Convergence(plan) = &suite.study else { return None };
-    let case = plan.cases.iter().find(|case| case.name == name)?;
-    match without {
-        None => of(plan, case),
-        Some(without) => of(&lacking(plan, without), case),
-    }
-}
-
 /// What a step of `case` takes on the coarsest level.
 pub(crate) fn of(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }
 
 /// The plan with a scene that does not list `without`.
-fn lacking(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
+pub(crate) fn lacking(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
     let mut plan = plan.clone();
     let Dispensable::Effect(effect) = without else {
         plan.scene.contact = None;

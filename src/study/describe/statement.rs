@@ -1,22 +1,17 @@
 //! What a suite computes, in rows of name and value, for reports and `explain`.
 
-use super::{amplitude::amplitude, equation_text::equation, heat, stability};
+use super::heat;
 use crate::{
     exact::formula::Formula,
     mpm::{MaterialPlan, Parameter},
     suite::{
-        compile::{load::surface, truth::conservation_only, wording::shown},
-        model::{
-            Against, Case, ConvergencePlan, ForcePlan, Scene, StudyPlan, Suite,
-            boundary::BoundaryCondition,
-            refine_plan::{LevelPlan, RefinePlan},
-        },
+        compile::{load::surface, wording::shown},
+        model::{Scene, Suite, boundary::BoundaryCondition},
     },
-    verify::Axis,
 };
 
-/// Rows for the whole suite.
-pub fn rows(suite: &Suite) -> Vec<(String, String)> {
+/// Parameters and functions of a suite.
+pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, f64)| {
         let same = text.parse() == Ok(*value);
@@ -27,114 +22,17 @@ pub fn rows(suite: &Suite) -> Vec<(String, String)> {
     for (head, body) in &suite.functions {
         push(&mut rows, "function", &format!("{head} = {body}"));
     }
-    match &suite.study {
-        StudyPlan::Convergence(plan) => convergence(plan, &mut rows),
-        StudyPlan::InternalForce(plan) => internal_force(plan, &mut rows),
-        StudyPlan::Stability(plan) => {
-            if let Some(first) = stability::first(plan) {
-                scene(&first.scene, &mut rows);
-                rows.extend(stability::rows(plan, &first));
-            }
-        }
-    }
     rows
 }
 
-/// Rows for one case of a convergence study.
-pub fn settings(plan: &ConvergencePlan, case: &Case) -> Vec<(String, String)> {
-    let mut rows = case.method.settings();
-    let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
-    rows.retain(|(key, _)| has_walls || key != "walls");
-    let truth = match case.against {
-        Against::Exact => "the exact solution",
-        Against::Reference => "the reference",
-        Against::SameMethod => "the same method with shorter steps",
-        Against::Nothing => "nothing",
-    };
-    push(&mut rows, "until", &format!("t = {} s", case.until));
-    push(&mut rows, "against", truth);
-    rows
-}
+/// Rows of name and value.
+pub(crate) type Rows = Vec<(String, String)>;
 
-type Rows = Vec<(String, String)>;
-
-fn push(rows: &mut Rows, key: &str, value: &str) {
+/// Adds a row, unless its value is empty.
+pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
     if !value.is_empty() {
         rows.push((key.to_owned(), value.to_owned()));
     }
-}
-
-fn convergence(plan: &ConvergencePlan, rows: &mut Rows) {
-    scene(&plan.scene, rows);
-    rows.extend(heat::truth(plan));
-    if let Some(problem) = &plan.exact {
-        if problem.manufactured {
-            push(rows, "motion", &problem.motion.source());
-            push(rows, "body force", "manufactured, b = u_tt - Div P / rho0");
-            push(rows, "equation", equation(&plan.scene.material));
-        } else {
-            push(rows, "equation", equation(&plan.scene.material));
-        }
-        if problem.at_rest {
-            push(rows, "equilibrium", "under the loads at the end; errors are taken there only");
-        }
-        push(rows, "amplitude", &amplitude(problem));
-    }
-    if let Some(fine) = &plan.reference {
-        let (element, mass, law) = (fine.element.name(), fine.mass.name(), fine.equation.name());
-        let (cells, dt) = (fine.cells, fine.dt.source());
-        let text = format!("{element} {mass} FEM, {law}, {cells} elements, dt = {dt}");
-        push(rows, "reference", &text);
-    }
-    if let Some(dt) = plan.same_method_dt {
-        let text = format!("the same method, started half a step back, with dt = {} s", shown(dt));
-        push(rows, "reference", &text);
-    }
-    refinement(&plan.refine, plan.instants, rows);
-    if !conservation_only::is_truthless(plan) {
-        push(rows, "judged", &judged(plan));
-    }
-    push(rows, "crossing levels", plan.crossing_levels.name());
-}
-
-fn judged(plan: &ConvergencePlan) -> String {
-    let judged = format!("{} error of the {}", plan.norm.name(), plan.of.words());
-    plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
-}
-
-/// Time steps and particles; and cells, where it is not they that are refined.
-fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
-    let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
-        let mut texts: Vec<String> =
-            levels.iter().filter_map(of).map(|count| count.to_string()).collect();
-        texts.dedup();
-        texts.join(", ")
-    };
-    let cells = |levels: &[LevelPlan]| list(&|level| Some(level.cells), levels);
-    let ppc = |levels: &[LevelPlan]| list(&|level| level.ppc, levels);
-    if plan.axis != Axis::Space {
-        push(rows, "cells", &format!("{} on every level", cells(&plan.levels)));
-    }
-    let (usual, further) = plan.levels.split_at(plan.usual);
-    let usual_steps = plan.steps.len().min(plan.usual);
-    let (steps, further_steps) = plan.steps.split_at(usual_steps);
-    let dt = steps.join(", ");
-    let dt = plan.rule.map_or(format!("{dt} s"), |share| {
-        let share = shown(share);
-        format!("{share} of the longest safe step, case by case and level by level")
-    });
-    push(rows, "dt", &format!("{dt}, shortened to divide the time between instants"));
-    push(rows, "instants", &format!("{instants}"));
-    if plan.has_particles() {
-        push(rows, "particles", &format!("{} per cell, equally spaced", ppc(usual)));
-    }
-    let full = match plan.axis {
-        _ if further.is_empty() => String::new(),
-        Axis::Space => format!("{} cells", cells(further)),
-        Axis::Time => format!("dt = {} s", further_steps.join(", ")),
-        Axis::Particles => format!("{} particles per cell", ppc(further)),
-    };
-    push(rows, "in full also", &full);
 }
 
 fn corner(c: &[f64]) -> String {
@@ -173,7 +71,8 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-fn scene(scene: &Scene, rows: &mut Rows) {
+/// Rows of a scene.
+pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let one = scene.bodies.is_empty();
     if one {
         push(rows, "body", &body(scene));
@@ -244,11 +143,4 @@ fn material(plan: &MaterialPlan) -> String {
 
 fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
-}
-
-fn internal_force(plan: &ForcePlan, rows: &mut Rows) {
-    push(rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));
-    push(rows, "particle volume", &format!("{} m", plan.volume));
-    push(rows, "stress", &format!("{} Pa, uniform", plan.stress));
-    push(rows, "prediction", &format!("{} N", plan.prediction.source()));
 }

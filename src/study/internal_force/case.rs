@@ -1,16 +1,55 @@
-//! One case of an internal-force study: rows and what was expected of them.
+//! The internal-force study: the force at every position, judged.
 
 use crate::{
+    study::{
+        describe::statement::{Rows, push},
+        kind::{CaseRunner, Progress, RunContext, Study},
+    },
     suite::{
         compile::internal_force,
         model::{ForceCase, ForceExpectation, ForcePlan},
     },
     verify,
-    verify::{CaseOutcome, ForceRow, Study},
+    verify::{CaseOutcome, ForceRow},
 };
 
+impl Study for ForcePlan {
+    fn statement(&self) -> Rows {
+        rows(self)
+    }
+
+    fn runner<'a>(&'a self, _: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(ForceRunner(self))
+    }
+}
+
+/// Runs cases of an internal-force study.
+struct ForceRunner<'a>(&'a ForcePlan);
+
+impl CaseRunner for ForceRunner<'_> {
+    fn units(&self) -> u64 {
+        self.0.cases.len() as u64
+    }
+
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let outcome = internal_force(self.0, &self.0.cases[index]);
+        progress();
+        outcome
+    }
+}
+
+/// Rows of the study.
+fn rows(plan: &ForcePlan) -> Rows {
+    let mut rows = Rows::new();
+    push(&mut rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));
+    push(&mut rows, "particle volume", &format!("{} m", plan.volume));
+    push(&mut rows, "stress", &format!("{} Pa, uniform", plan.stress));
+    push(&mut rows, "prediction", &format!("{} N", plan.prediction.source()));
+    rows
+}
+
 /// The force for every position, judged.
-pub(crate) fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
+fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     let rows = internal_force::rows(plan, case);
     let (met, verdict, reason) = judged_force(&rows, case.expected);
     let expected = case.expected.summary();
@@ -25,7 +64,7 @@ pub(crate) fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome 
         verdict: verdict.to_owned(),
         reason,
         unmet,
-        study: Study::InternalForce(rows),
+        study: verify::Study::InternalForce(rows),
     }
 }
 

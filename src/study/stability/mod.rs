@@ -1,3 +1,4 @@
 //! The stability study: every row of every case, run and judged.
 
 pub(crate) mod run;
+pub(crate) mod statement;

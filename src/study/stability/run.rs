@@ -1,5 +1,6 @@
 //! Running a stability study: every row of every case.
 
+use super::statement;
 use crate::{
     exact::Random,
     study::{
@@ -8,22 +9,23 @@ use crate::{
             initial_state::Initial,
             setup::Body,
         },
-        cache::results::ResultCache,
         convergence::stable_step::ROUNDS,
+        describe::statement::Rows,
+        kind::{CaseRunner, Progress, RunContext, Study},
     },
     subject::{Perturbable, Subject},
     suite::{
         compile::stability::recipe::{Setting, Values},
         model::{
-            method::Method,
             refine_plan::Extent,
             stability::{StabilityCase, StabilityPlan},
         },
     },
+    verify,
     verify::{
-        CaseOutcome, CheckpointStore, Critical, NoCheckpoints, Prediction, Scales, Stability,
-        StabilityLimit, StabilityRow, StabilityStudy, Study, Trial, amplification, resume_trial,
-        spectral_radius, stability_limit,
+        CaseOutcome, CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit,
+        StabilityRow, StabilityStudy, Trial, amplification, resume_trial, spectral_radius,
+        stability_limit,
     },
 };
 use rayon::prelude::*;
@@ -48,27 +50,42 @@ const DEFECT: f64 = 1e-5;
 /// Seed of the perturbations at the start.
 const SEED: u64 = 8;
 
-/// Runs a case of `suite`, whose name and text that stands for. Of what is `kept` runs are taken, and
-/// added to it.
-pub(crate) fn case(
-    (suite, text): (&str, u64),
-    plan: &StabilityPlan,
-    case: &StabilityCase,
-    (extent, kept): (Extent, Option<&ResultCache>),
-    progress: &(dyn Fn() + Sync),
-) -> CaseOutcome {
-    let name = format!("{suite}::{}", case.name);
-    let key = format!("{suite} {text:016x} {} {extent:?}", case.name);
-    let job = Job { plan, method: case.method, extent, kept, name, key };
-    let rows: Vec<StabilityRow> = plan
-        .values
-        .par_iter()
-        .map(|value| {
+impl Study for StabilityPlan {
+    fn statement(&self) -> Rows {
+        statement::rows(self)
+    }
+
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(StabilityRunner { plan: self, context })
+    }
+}
+
+/// Runs cases of a stability study.
+struct StabilityRunner<'a> {
+    plan: &'a StabilityPlan,
+    context: RunContext<'a>,
+}
+
+impl CaseRunner for StabilityRunner<'_> {
+    fn units(&self) -> u64 {
+        (self.plan.cases.len() * self.plan.values.len()) as u64
+    }
+
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
+        let job = Job { plan, case, context };
+        let row = |value: &f64| {
             let row = job.row(*value);
             progress();
             row
-        })
-        .collect();
+        };
+        outcome(&job, plan.values.par_iter().map(row).collect())
+    }
+}
+
+/// The outcome of a case, from its rows.
+fn outcome(job: &Job<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
+    let Job { plan, case, .. } = job;
     // Where no face is held, nothing is to be said of walls.
     let mut settings = case.method.settings();
     let walls = job.setting(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
@@ -98,20 +115,15 @@ pub(crate) fn case(
         verdict: study.verdict(),
         reason: study.reason(),
         unmet,
-        study: Study::Stability(Box::new(study)),
+        study: verify::Study::Stability(Box::new(study)),
     }
 }
 
-/// One method in a study.
+/// One case of a study.
 struct Job<'a> {
     plan: &'a StabilityPlan,
-    method: Method,
-    extent: Extent,
-    kept: Option<&'a ResultCache>,
-    /// What messages call it.
-    name: String,
-    /// All that its runs depend on, besides their parameters.
-    key: String,
+    case: &'a StabilityCase,
+    context: RunContext<'a>,
 }
 
 impl Job<'_> {
@@ -132,14 +144,14 @@ impl Job<'_> {
     fn setting(&self, values: &Values<'_>) -> Result<Setting, String> {
         let mut setting =
             self.plan.recipe.setting(values).map_err(|diagnostic| diagnostic.one_line())?;
-        if self.extent == Extent::Full {
+        if self.context.extent == Extent::Full {
             setting.steps = setting.full_steps;
         }
         if let Some(share) = setting.rule {
             let limit = bodies(&setting).iter().try_fold(f64::INFINITY, |least, body| {
                 Ok::<f64, String>(least.min(safe_step_of(
                     body,
-                    self.method,
+                    self.case.method,
                     setting.level,
                     ROUNDS,
                 )?))
@@ -150,7 +162,7 @@ impl Job<'_> {
     }
 
     fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
-        let mut subject = perturbable(&bodies(setting), self.method, setting.level)?;
+        let mut subject = perturbable(&bodies(setting), self.case.method, setting.level)?;
         if setting.frozen {
             subject.freeze();
         }
@@ -160,11 +172,13 @@ impl Job<'_> {
     /// The run with these values of the parameters.
     fn run(&self, values: &Values<'_>) -> Result<Trial, String> {
         let run = |keeper: &mut dyn CheckpointStore| self.run_keeping(values, keeper);
-        let Some(kept) = self.kept else { return run(&mut NoCheckpoints) };
+        let RunContext { suite, fingerprint, extent, .. } = self.context;
+        let case = &self.case.name;
         let said: Vec<String> =
             values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-        let what = format!("{}, {}", self.name, said.join(", "));
-        kept.level(&format!("{} {values:?}", self.key), &what, run)
+        let name = format!("{suite}::{case}, {}", said.join(", "));
+        let key = format!("{suite} {fingerprint:016x} {case} {extent:?} {values:?}");
+        self.context.cached(&key, &name, run)
     }
 
     fn run_keeping(
@@ -221,7 +235,7 @@ impl Job<'_> {
         let limit = stability_limit(range, SCAN, SHARP, stable)?;
         let shares: Vec<(f64, f64)> = match limit {
             StabilityLimit::At(limit) => {
-                let least = usize::from(self.extent != Extent::Full);
+                let least = usize::from(self.context.extent != Extent::Full);
                 SHARES[least..].iter().map(|s| (*s, s * limit)).collect()
             }
             StabilityLimit::Above(end) | StabilityLimit::Below(end) => vec![(1.0, end)],
@@ -262,7 +276,8 @@ mod tests {
     use super::*;
     use crate::{
         study::cache::checkpoints::Interruption,
-        suite::{StudyPlan, Suite, embedded},
+        suite::{Suite, embedded},
+        verify::NoCheckpoints,
     };
     use rstest::rstest;
 
@@ -272,10 +287,10 @@ mod tests {
     #[case("varying-step")]
     fn an_interrupted_run_shows_what_a_whole_one_does(#[case] name: &str) {
         let suite = Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap();
-        let StudyPlan::Stability(plan) = &suite.study else { panic!("{name} is of stability") };
-        let (kept, name, key) = (None, String::new(), String::new());
-        let job =
-            Job { plan, method: plan.cases[0].method, extent: Extent::Usual, kept, name, key };
+        let plan: &StabilityPlan = suite.plan().unwrap();
+        let context =
+            RunContext { suite: name, fingerprint: 0, extent: Extent::Usual, cache: None };
+        let job = Job { plan, case: &plan.cases[0], context };
         for value in plan.values.first().into_iter().chain(plan.values.last()) {
             let mut values = vec![(plan.swept.as_str(), *value)];
             values.extend(plan.sought.iter().map(|(name, from, _)| (name.as_str(), *from)));

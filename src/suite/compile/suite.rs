@@ -17,9 +17,13 @@ use crate::suite::{
         ConvergenceSpec, Head, InternalForceSpec, ObserveSpec, ReferenceSpec, StabilitySpec,
         StudyName,
     },
-    model::{ConvergencePlan, ReferencePlan, Scene, StudyPlan, Suite, fingerprint::fingerprint},
+    model::{
+        ConvergencePlan, ReferencePlan, Scene, Suite, fingerprint::fingerprint,
+        study_plan::StudyPlan,
+    },
     yaml::{Diagnostic, Ordered, Source, read},
 };
+use std::sync::Arc;
 
 /// Instants at which the error is taken unless a suite says otherwise.
 const INSTANTS: u64 = 50;
@@ -96,7 +100,7 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     plan.cases = cases::cases(&evaluator, &words, &plan, &until)?;
     evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
-    Ok(assemble(head, parameters, &words.functions, StudyPlan::Convergence(Box::new(plan))))
+    Ok(assemble(head, parameters, &words.functions, plan))
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
@@ -106,7 +110,7 @@ fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
     let plan = internal_force::plan(&evaluator, &words)?;
     evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
-    Ok(assemble(head, parameters, &words.functions, StudyPlan::InternalForce(Box::new(plan))))
+    Ok(assemble(head, parameters, &words.functions, plan))
 }
 
 fn stability(source: &Source) -> Result<Suite, Diagnostic> {
@@ -116,16 +120,16 @@ fn stability(source: &Source) -> Result<Suite, Diagnostic> {
     let plan = stability::plan(&evaluator, source, &words)?;
     evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
-    Ok(assemble(head, parameters, &words.functions, StudyPlan::Stability(Box::new(plan))))
+    Ok(assemble(head, parameters, &words.functions, plan))
 }
 
 fn assemble(
     [name, title, source, about]: [String; 4],
     parameters: Vec<Parameter>,
     functions: &Ordered<String>,
-    study: StudyPlan,
+    plan: impl StudyPlan,
 ) -> Suite {
-    let functions = functions.as_slice().to_vec();
+    let (functions, study) = (functions.as_slice().to_vec(), Arc::new(plan));
     Suite { name, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 

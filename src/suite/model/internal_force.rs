@@ -1,5 +1,6 @@
 //! An internal-force study whose every word has been checked.
 
+use super::study_plan::StudyPlan;
 use crate::{exact::formula::Formula, mpm::BasisName};
 
 /// An internal-force study.
@@ -41,6 +42,17 @@ pub enum ForceExpectation {
     AgreesWithin(f64),
     /// It changes between neighbouring positions by at most this share.
     StepsBelow(f64),
+}
+
+impl StudyPlan for ForcePlan {
+    fn case_names(&self) -> Vec<&str> {
+        self.cases.iter().map(|case| case.name.as_str()).collect()
+    }
+
+    fn expectation(&self, case: usize) -> (String, &str) {
+        let ForceCase { expected, because, .. } = &self.cases[case];
+        (expected.summary(), because)
+    }
 }
 
 impl ForceExpectation {

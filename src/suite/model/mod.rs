@@ -10,12 +10,13 @@ pub(crate) mod method;
 pub(crate) mod nature;
 pub(crate) mod refine_plan;
 pub(crate) mod stability;
+pub(crate) mod study_plan;
 
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 
 use self::{
     boundary::BoundaryCondition, heat::SceneHeat, method::Method, refine_plan::RefinePlan,
-    stability::StabilityPlan,
+    study_plan::StudyPlan,
 };
 use super::grammar::{CrossingLevels, EquationName, NormName};
 use crate::{
@@ -24,6 +25,7 @@ use crate::{
     mpm::{MaterialPlan, Placement, Quadrilateral},
     verify::{Expectation, Quantity},
 };
+use std::{any::Any, sync::Arc};
 
 /// A suite, ready to run.
 #[derive(Debug, Clone)]
@@ -40,21 +42,10 @@ pub struct Suite {
     pub parameters: Vec<(String, String, f64)>,
     /// User functions: head and body.
     pub functions: Vec<(String, String)>,
-    /// What is studied.
-    pub study: StudyPlan,
+    /// Plan of its study.
+    pub study: Arc<dyn StudyPlan>,
     /// Of the text of the file.
     pub(crate) fingerprint: u64,
-}
-
-/// A study, by kind.
-#[derive(Debug, Clone)]
-pub enum StudyPlan {
-    /// Errors over a refinement plan.
-    Convergence(Box<ConvergencePlan>),
-    /// Internal force on a node while a particle moves through it.
-    InternalForce(Box<ForcePlan>),
-    /// Whether runs stay bounded, and up to where.
-    Stability(Box<StabilityPlan>),
 }
 
 /// Everything about a convergence study but the methods.
@@ -203,11 +194,24 @@ pub struct ReferencePlan {
 impl Suite {
     /// Names of the cases, in order.
     pub fn case_names(&self) -> Vec<&str> {
-        match &self.study {
-            StudyPlan::Convergence(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
-            StudyPlan::InternalForce(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
-            StudyPlan::Stability(plan) => plan.cases.iter().map(|c| c.name.as_str()).collect(),
-        }
+        self.study.case_names()
+    }
+
+    /// The plan, if the study is of this kind.
+    pub fn plan<P: StudyPlan>(&self) -> Option<&P> {
+        let plan: &dyn Any = self.study.as_ref();
+        plan.downcast_ref()
+    }
+}
+
+impl StudyPlan for ConvergencePlan {
+    fn case_names(&self) -> Vec<&str> {
+        self.cases.iter().map(|case| case.name.as_str()).collect()
+    }
+
+    fn expectation(&self, case: usize) -> (String, &str) {
+        let expectation = &self.cases[case].expectation;
+        (expectation.summary(), &expectation.because)
     }
 }
 

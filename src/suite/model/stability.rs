@@ -1,6 +1,6 @@
 //! A stability study whose every word has been checked.
 
-use super::method::Method;
+use super::{method::Method, study_plan::StudyPlan};
 use crate::{
     suite::{grammar::StabilitySpec, yaml::Source},
     verify::{RunFigure, StabilityExpectation},
@@ -54,4 +54,15 @@ pub struct StabilityCase {
     pub summary: String,
     /// The reason for expecting it.
     pub because: String,
+}
+
+impl StudyPlan for StabilityPlan {
+    fn case_names(&self) -> Vec<&str> {
+        self.cases.iter().map(|case| case.name.as_str()).collect()
+    }
+
+    fn expectation(&self, case: usize) -> (String, &str) {
+        let StabilityCase { summary, because, .. } = &self.cases[case];
+        (summary.clone(), because)
+    }
 }

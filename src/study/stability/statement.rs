@@ -1,20 +1,26 @@
 //! A stability study in rows of name and value.
 
-use crate::suite::{
-    compile::{stability::recipe::Setting, wording::shown},
-    model::stability::StabilityPlan,
+use crate::{
+    study::describe::statement::{Rows, push, scene},
+    suite::{
+        compile::{stability::recipe::Setting, wording::shown},
+        model::stability::StabilityPlan,
+    },
 };
 
-/// The set-up of the first row, of which a report tells.
-pub(crate) fn first(plan: &StabilityPlan) -> Option<Setting> {
-    let value = plan.values.first()?;
-    plan.recipe.setting(&[(&plan.swept, *value)]).ok()
+/// Rows of the study, with the set-up of its first row.
+pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
+    let mut rows = Rows::new();
+    let first = |value: &f64| plan.recipe.setting(&[(&plan.swept, *value)]).ok();
+    if let Some(first) = plan.values.first().and_then(first) {
+        scene(&first.scene, &mut rows);
+        of_setting(plan, &first, &mut rows);
+    }
+    rows
 }
 
-/// Rows for the whole study, besides those of its scene.
-pub(crate) fn rows(plan: &StabilityPlan, setting: &Setting) -> Vec<(String, String)> {
-    let mut rows: Vec<(String, String)> = Vec::new();
-    let mut push = |key: &str, value: String| rows.push((key.to_owned(), value));
+fn of_setting(plan: &StabilityPlan, setting: &Setting, rows: &mut Rows) {
+    let mut push = |key: &str, value: String| push(rows, key, &value);
     let values: Vec<String> = plan.values.iter().map(|value| shown(*value)).collect();
     push("swept", format!("{} = {}", plan.swept, values.join(", ")));
     if let Some((name, from, to)) = &plan.sought {
@@ -63,5 +69,4 @@ pub(crate) fn rows(plan: &StabilityPlan, setting: &Setting) -> Vec<(String, Stri
             setting.scales.stable_below, setting.scales.unstable_above
         ),
     );
-    rows
 }

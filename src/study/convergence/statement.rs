@@ -1,0 +1,114 @@
+//! A convergence study in rows of name and value.
+
+use crate::{
+    study::describe::{
+        amplitude::amplitude,
+        equation_text::equation,
+        heat,
+        statement::{Rows, push, scene},
+    },
+    suite::{
+        compile::{truth::conservation_only, wording::shown},
+        model::{
+            Against, Case, ConvergencePlan,
+            refine_plan::{LevelPlan, RefinePlan},
+        },
+    },
+    verify::Axis,
+};
+
+/// Rows of the whole study.
+pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
+    let mut rows = Rows::new();
+    scene(&plan.scene, &mut rows);
+    rows.extend(heat::truth(plan));
+    if let Some(problem) = &plan.exact {
+        if problem.manufactured {
+            push(&mut rows, "motion", &problem.motion.source());
+            push(&mut rows, "body force", "manufactured, b = u_tt - Div P / rho0");
+            push(&mut rows, "equation", equation(&plan.scene.material));
+        } else {
+            push(&mut rows, "equation", equation(&plan.scene.material));
+        }
+        if problem.at_rest {
+            push(
+                &mut rows,
+                "equilibrium",
+                "under the loads at the end; errors are taken there only",
+            );
+        }
+        push(&mut rows, "amplitude", &amplitude(problem));
+    }
+    if let Some(fine) = &plan.reference {
+        let (element, mass, law) = (fine.element.name(), fine.mass.name(), fine.equation.name());
+        let (cells, dt) = (fine.cells, fine.dt.source());
+        let text = format!("{element} {mass} FEM, {law}, {cells} elements, dt = {dt}");
+        push(&mut rows, "reference", &text);
+    }
+    if let Some(dt) = plan.same_method_dt {
+        let text = format!("the same method, started half a step back, with dt = {} s", shown(dt));
+        push(&mut rows, "reference", &text);
+    }
+    refinement(&plan.refine, plan.instants, &mut rows);
+    if !conservation_only::is_truthless(plan) {
+        push(&mut rows, "judged", &judged(plan));
+    }
+    push(&mut rows, "crossing levels", plan.crossing_levels.name());
+    rows
+}
+
+fn judged(plan: &ConvergencePlan) -> String {
+    let judged = format!("{} error of the {}", plan.norm.name(), plan.of.words());
+    plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
+}
+
+/// Time steps and particles; and cells, where it is not they that are refined.
+fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
+    let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
+        let mut texts: Vec<String> =
+            levels.iter().filter_map(of).map(|count| count.to_string()).collect();
+        texts.dedup();
+        texts.join(", ")
+    };
+    let cells = |levels: &[LevelPlan]| list(&|level| Some(level.cells), levels);
+    let ppc = |levels: &[LevelPlan]| list(&|level| level.ppc, levels);
+    if plan.axis != Axis::Space {
+        push(rows, "cells", &format!("{} on every level", cells(&plan.levels)));
+    }
+    let (usual, further) = plan.levels.split_at(plan.usual);
+    let usual_steps = plan.steps.len().min(plan.usual);
+    let (steps, further_steps) = plan.steps.split_at(usual_steps);
+    let dt = steps.join(", ");
+    let dt = plan.rule.map_or(format!("{dt} s"), |share| {
+        let share = shown(share);
+        format!("{share} of the longest safe step, case by case and level by level")
+    });
+    push(rows, "dt", &format!("{dt}, shortened to divide the time between instants"));
+    push(rows, "instants", &format!("{instants}"));
+    if plan.has_particles() {
+        push(rows, "particles", &format!("{} per cell, equally spaced", ppc(usual)));
+    }
+    let full = match plan.axis {
+        _ if further.is_empty() => String::new(),
+        Axis::Space => format!("{} cells", cells(further)),
+        Axis::Time => format!("dt = {} s", further_steps.join(", ")),
+        Axis::Particles => format!("{} particles per cell", ppc(further)),
+    };
+    push(rows, "in full also", &full);
+}
+
+/// Rows of one case.
+pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
+    let mut rows = case.method.settings();
+    let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
+    rows.retain(|(key, _)| has_walls || key != "walls");
+    let truth = match case.against {
+        Against::Exact => "the exact solution",
+        Against::Reference => "the reference",
+        Against::SameMethod => "the same method with shorter steps",
+        Against::Nothing => "nothing",
+    };
+    push(&mut rows, "until", &format!("t = {} s", case.until));
+    push(&mut rows, "against", truth);
+    rows
+}

@@ -1,0 +1,113 @@
+//! Kinds of study: the interface of each, and the list of all.
+
+use super::{
+    cache::results::ResultCache,
+    describe::{
+        profiles::Dispensable,
+        statement::{Rows, head},
+    },
+};
+use crate::{
+    subject::Profile,
+    suite::model::{
+        ConvergencePlan, ForcePlan, Suite, refine_plan::Extent, stability::StabilityPlan,
+        study_plan::StudyPlan,
+    },
+    verify::{CaseOutcome, CheckpointStore, NoCheckpoints},
+};
+use serde::{Serialize, de::DeserializeOwned};
+use std::any::Any;
+
+/// Callback after each unit of work that is done: a level, a row or a case.
+pub type Progress<'a> = &'a (dyn Fn() + Sync);
+
+/// A plan whose cases can be stated and run.
+pub(crate) trait Study: StudyPlan {
+    /// Rows of name and value that state the study.
+    fn statement(&self) -> Rows;
+
+    /// Profile of a step of the case with this index on the coarsest level, without one effect if
+    /// that is wanted; none of a study without levels, and of a subject that gives none.
+    fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
+        None
+    }
+
+    /// Runner of the cases; nothing runs yet.
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
+}
+
+/// Runs the cases of one study.
+pub(crate) trait CaseRunner: Send + Sync {
+    /// Units of progress of all cases.
+    fn units(&self) -> u64;
+
+    /// Warnings before anything runs, without the name of the suite.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Runs the case with this index.
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
+}
+
+/// All that runs of a suite depend on besides its plan.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RunContext<'a> {
+    /// Name of the suite.
+    pub(crate) suite: &'a str,
+    /// Hash of its text.
+    pub(crate) fingerprint: u64,
+    /// Levels that run.
+    pub(crate) extent: Extent,
+    /// Results of earlier runs.
+    pub(crate) cache: Option<&'a ResultCache>,
+}
+
+impl RunContext<'_> {
+    /// The cached result of `key`, which messages call `name`, or that of `run`, which is cached.
+    pub(crate) fn cached<T: Serialize + DeserializeOwned>(
+        &self,
+        key: &str,
+        name: &str,
+        run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
+    ) -> Result<T, String> {
+        match self.cache {
+            Some(cache) => cache.level(key, name, run),
+            None => run(&mut NoCheckpoints),
+        }
+    }
+}
+
+/// The plan as a study, if it is of one kind.
+type Kind = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
+
+/// Every kind of study.
+const KINDS: [Kind; 3] = [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>];
+
+fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study> {
+    let plan: &dyn Any = plan;
+    plan.downcast_ref::<P>().map(|plan| plan as &dyn Study)
+}
+
+/// The study of a suite.
+///
+/// # Panics
+/// If the kind of the plan is not in [`KINDS`].
+pub(crate) fn study(suite: &Suite) -> &dyn Study {
+    let found = KINDS.iter().find_map(|kind| kind(suite.study.as_ref()));
+    found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
+}
+
+/// Rows of name and value that state what a suite computes, for reports.
+pub fn statement(suite: &Suite) -> Vec<(String, String)> {
+    let mut rows = head(suite);
+    rows.extend(study(suite).statement());
+    rows
+}
+
+/// Profile of a step of the case called `name` on the coarsest level, without one effect if that is
+/// wanted; none of a case without levels, and of a subject that gives none.
+pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
+    let case = suite.case_names().into_iter().position(|case| case == name)?;
+    study(suite).profile(case, without)
+}

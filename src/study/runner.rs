@@ -1,0 +1,80 @@
+//! Running a suite, of whatever kind of study.
+
+use super::{
+    cache::results::ResultCache,
+    kind::{CaseRunner, Progress, RunContext, statement, study},
+};
+use crate::{
+    suite::model::{Suite, refine_plan::Extent},
+    verify::{CaseOutcome, SuiteOutcome},
+};
+use rayon::prelude::*;
+
+/// Runs cases of one suite.
+pub struct Runner<'a> {
+    suite: &'a Suite,
+    extent: Extent,
+    cases: Box<dyn CaseRunner + 'a>,
+}
+
+impl<'a> Runner<'a> {
+    /// A runner of the levels that the gate runs; nothing runs yet.
+    pub fn new(suite: &'a Suite) -> Self {
+        Self::over(suite, Extent::Usual)
+    }
+
+    /// A runner of so many levels.
+    pub fn over(suite: &'a Suite, extent: Extent) -> Self {
+        Self::with(suite, extent, None)
+    }
+
+    /// Stores finished levels in a cache, and takes them from it.
+    #[must_use]
+    pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
+        Self::with(self.suite, self.extent, cache)
+    }
+
+    fn with(suite: &'a Suite, extent: Extent, cache: Option<&'a ResultCache>) -> Self {
+        let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
+        let context = RunContext { suite: name, fingerprint, extent, cache };
+        Self { suite, extent, cases: study(suite).runner(context) }
+    }
+
+    /// Units of progress of the whole suite.
+    pub fn units(&self) -> u64 {
+        self.cases.units()
+    }
+
+    /// Warnings before anything runs: of steps longer than the longest that is predicted to be safe.
+    pub fn warnings(&self) -> Vec<String> {
+        let named = |warning| format!("{}::{warning}", self.suite.name);
+        self.cases.warnings().into_iter().map(named).collect()
+    }
+
+    /// Runs every case, in parallel; outcomes are in the order of the suite and do not depend on
+    /// the number of threads.
+    pub fn run(&self, progress: Progress<'_>) -> SuiteOutcome {
+        let count = self.suite.case_names().len();
+        self.outcome((0..count).into_par_iter().map(|i| self.case(i, progress)).collect())
+    }
+
+    /// The outcome of the suite, from the outcomes of its cases.
+    pub fn outcome(&self, cases: Vec<CaseOutcome>) -> SuiteOutcome {
+        SuiteOutcome {
+            suite: self.suite.name.clone(),
+            title: self.suite.title.clone(),
+            source: self.suite.source.clone(),
+            about: self.suite.about.trim().to_owned(),
+            statement: statement(self.suite),
+            cases,
+        }
+    }
+
+    /// Runs the case with the given index.
+    ///
+    /// # Panics
+    /// If there is no such case.
+    pub fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        self.cases.case(index, progress)
+    }
+}
