@@ -2,8 +2,8 @@
 //! suites use.
 
 use mpm_verify::mpm::{
-    Also, BasisName, Block, Grid, Kernel, Particles, Transfer, TransferName, Vector, Wanted, g2p,
-    kernel, transfer,
+    BasisName, Block, Grid, Kernel, Particles, Stage, Transfer, TransferName, Vector, g2p, kernel,
+    transfer,
 };
 
 /// Particles in a cell, along each axis.
@@ -35,7 +35,7 @@ struct Scene<const D: usize> {
     transfer: Box<dyn Transfer<D>>,
     grid: Grid<D>,
     particles: Particles<D>,
-    carried: Vec<Vector<D>>,
+    advected: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Scene<D> {
@@ -52,19 +52,19 @@ impl<const D: usize> Scene<D> {
         particles.track_domains();
         let mut transfer = transfer::<D>(name);
         transfer.start(&*kernel, &grid, &particles);
-        let carried = vec![Vector::zeros(); particles.len()];
-        Self { kernel, transfer, grid, particles, carried }
+        let advected = vec![Vector::zeros(); particles.len()];
+        Self { kernel, transfer, grid, particles, advected }
     }
 
     fn run(&mut self, pass: &str, times: u32) {
-        let Self { kernel, transfer, grid, particles, carried } = self;
+        let Self { kernel, transfer, grid, particles, advected } = self;
         for _ in 0..times {
             if pass == "p2g" {
-                let all = Wanted { mass: true, momentum: true, force: true };
-                transfer.p2g(&**kernel, particles, grid, all);
+                let all = [Stage::Mass, Stage::Momentum, Stage::Force];
+                transfer.p2g(&**kernel, particles, grid, &all);
             } else {
-                let also = Also { gradient: true, carried: Some(&mut *carried) };
-                g2p(&mut **transfer, &**kernel, (grid, &[]), 1e-9, particles, also);
+                let all = [Stage::ParticleVelocity, Stage::Stress, Stage::Position];
+                g2p(&mut **transfer, &**kernel, (grid, 1e-9), particles, &all, advected);
             }
         }
     }

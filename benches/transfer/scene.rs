@@ -2,8 +2,8 @@
 
 use crate::random::Random;
 use mpm_verify::mpm::{
-    Also, BasisName, Block, Grid, Kernel, Particles, Transfer, TransferName, Vector, Wanted, g2p,
-    kernel, transfer,
+    BasisName, Block, Grid, Kernel, Particles, Stage, Transfer, TransferName, Vector, g2p, kernel,
+    transfer,
 };
 
 pub(crate) const H: f64 = 1.0;
@@ -69,8 +69,8 @@ pub(crate) fn scene<const D: usize>(
 pub(crate) struct Method<const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<D>>,
     pub(crate) transfer: Box<dyn Transfer<D>>,
-    /// Where the grid carries each particle (m).
-    carried: Vec<Vector<D>>,
+    /// Position of each particle after the step (m).
+    advected: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Method<D> {
@@ -84,19 +84,20 @@ impl<const D: usize> Method<D> {
         let (grid, particles) = scene::<D>(&*kernel, count, order);
         let mut transfer = transfer::<D>(name);
         transfer.start(&*kernel, &grid, &particles);
-        (Self { kernel, transfer, carried: Vec::new() }, grid, particles)
+        (Self { kernel, transfer, advected: Vec::new() }, grid, particles)
     }
 
     pub(crate) fn p2g(&mut self, particles: &Particles<D>, grid: &mut Grid<D>) {
         let kernel = &*self.kernel;
-        let all = Wanted { mass: true, momentum: true, force: true };
-        self.transfer.p2g(kernel, particles, grid, all);
+        let all = [Stage::Mass, Stage::Momentum, Stage::Force];
+        self.transfer.p2g(kernel, particles, grid, &all);
     }
 
     pub(crate) fn g2p(&mut self, grid: &Grid<D>, dt: f64, particles: &mut Particles<D>) {
-        self.carried.resize(particles.len(), Vector::zeros());
-        let also = Also { gradient: true, carried: Some(&mut self.carried) };
-        g2p(&mut *self.transfer, &*self.kernel, (grid, &[]), dt, particles, also);
-        std::mem::swap(&mut particles.x, &mut self.carried);
+        self.advected.resize(particles.len(), Vector::zeros());
+        let all = [Stage::ParticleVelocity, Stage::Stress, Stage::Position];
+        let (transfer, advected) = (&mut *self.transfer, &mut *self.advected);
+        g2p(transfer, &*self.kernel, (grid, dt), particles, &all, advected);
+        std::mem::swap(&mut particles.x, &mut self.advected);
     }
 }

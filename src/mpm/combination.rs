@@ -4,7 +4,7 @@ use super::{
     basis::{BasisName, Domain, with_basis},
     frame::FrameName,
     mass::MassName,
-    transfer::{Kind, TransferChoice},
+    transfer::{TransferChoice, TransferKind},
 };
 use crate::subject::Start;
 
@@ -21,13 +21,13 @@ pub fn combine(
     let transfer = transfer.into();
     let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
     let kind = transfer.kind();
-    if kind == Kind::Fit && basis == BasisName::Linear {
+    if kind == TransferKind::Fit && basis == BasisName::Linear {
         return Err(format!(
             "the transfer `{t}` needs the inertia tensor of the weights, which the basis `{b}` does \
              not have on its nodes"
         ));
     }
-    if mass == MassName::Consistent && kind == Kind::Series {
+    if mass == MassName::Consistent && kind == TransferKind::Series {
         return Err(format!(
             "the transfer `{t}` stands in for a consistent mass matrix by powers of the lumped one, \
              and the mass matrix is `{m}`"
@@ -35,24 +35,24 @@ pub fn combine(
     }
     // A linear field reaches node i as m_i v(x_i): the lumped matrix times nodal velocities, which
     // a consistent one would amplify.
-    if mass == MassName::Consistent && matches!(kind, Kind::Field | Kind::Fit) {
+    if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
         return Err(format!(
             "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
              matrix is `{m}`"
         ));
     }
-    if kind == Kind::Cells && domain(basis) != Domain::Point {
+    if kind == TransferKind::Cells && domain(basis) != Domain::Point {
         return Err(format!(
             "the transfer `{t}` integrates over cells, and the basis `{b}` over the domains of \
              particles"
         ));
     }
-    if kind == Kind::Cells && frame == FrameName::Total {
+    if kind == TransferKind::Cells && frame == FrameName::Total {
         return Err(format!(
             "the transfer `{t}` fits Cauchy stresses, and the frame `{f}` has none"
         ));
     }
-    if kind == Kind::Cells && mass == MassName::Consistent {
+    if kind == TransferKind::Cells && mass == MassName::Consistent {
         return Err(format!(
             "the transfer `{t}` integrates mass over cells, and the mass matrix `{m}` sums it over \
              particles"
@@ -80,10 +80,10 @@ pub fn combine_bodies(
 ) -> Result<(), String> {
     let (t, m, f, s) = (transfer.name(), mass.name(), frame.name(), start.name());
     match (transfer.kind(), mass, frame, start) {
-        (Kind::Series, ..) => Err(format!(
+        (TransferKind::Series, ..) => Err(format!(
             "the transfer `{t}` improves the field of one body, and several meet at nodes"
         )),
-        (Kind::Cells, ..) => Err(format!(
+        (TransferKind::Cells, ..) => Err(format!(
             "the transfer `{t}` fits the field of one body in cells, and several meet there"
         )),
         (_, MassName::Consistent, ..) => Err(format!(

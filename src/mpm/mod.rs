@@ -1,7 +1,8 @@
 //! The reference Material Point Method: the "original MPM" of Sulsky, Chen & Schreyer (1994) as
 //! Wobbes & Tielen (2015) use it, for any number of dimensions.
 //!
-//! One step is a list of named stages ([`SchemeName::stages`]); each stage is a pass over particles or nodes.
+//! A scheme is a list of named stages ([`SchemeName::stages`]), which the schedule fuses to passes
+//! over particles or nodes once, when the solver is set up; a step is a loop over these passes.
 //! Only the basis meets particles and nodes inside a loop, so only dimension and basis are type
 //! parameters, hidden behind the object-safe [`Kernel`], whose passes [`Transfer`], [`MassMatrix`]
 //! and [`Effect`] are made of; these and [`Material`] meet the solver between stages and are trait
@@ -30,6 +31,7 @@ mod material;
 mod multibody;
 mod packed_grid;
 mod particles;
+mod schedule;
 mod scheme;
 mod setup;
 mod simd;
@@ -39,7 +41,6 @@ mod step;
 mod stress;
 mod threads;
 mod transfer;
-mod visits;
 
 pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
@@ -72,6 +73,6 @@ pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
-    Also, Apic, Blend, Flip, Fmpm, Kind, Mls, Pic, Recipe, Tls, Tpic, Transfer, TransferChoice,
-    TransferName, Wanted, Xpic, g2p, transfer,
+    Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
+    TransferName, Xpic, g2p, transfer,
 };

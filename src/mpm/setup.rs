@@ -1,13 +1,21 @@
-//! What a solver is made of.
+//! Parts of a solver.
 
 use super::{
-    boundary::Boundary, effect::Effect, frame::FrameName, grid::Grid, kernel::contract::Kernel,
-    mass::MassMatrix, material::Material, particles::Particles, scheme::SchemeName, stage::Stage,
+    boundary::Boundary,
+    effect::Effect,
+    frame::FrameName,
+    grid::Grid,
+    kernel::{contract::Kernel, request::G2pRequest},
+    mass::MassMatrix,
+    material::Material,
+    particles::Particles,
+    scheme::SchemeName,
+    stage::Stage,
     transfer::Transfer,
 };
 use crate::subject::{Column, Profile, Start};
 
-/// Everything that a solver is made of.
+/// Parts of a solver of one body.
 pub struct Setup<const D: usize> {
     /// The background grid.
     pub grid: Grid<D>,
@@ -23,9 +31,9 @@ pub struct Setup<const D: usize> {
     pub frame: FrameName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
-    /// What the scene lists, and nothing else.
+    /// Effects that the scene lists.
     pub effects: Vec<Box<dyn Effect<D>>>,
-    /// What holds on faces of the grid; where faces meet, the last one wins.
+    /// Boundary conditions on faces of the grid; where faces meet, the last one wins.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
     /// Order of the stages.
     pub scheme: SchemeName,
@@ -40,10 +48,11 @@ impl<const D: usize> Setup<D> {
             || self.boundary.iter().any(|condition| condition.reads_velocity())
     }
 
-    /// The stages of a step; `coupled`: what couples bodies reads velocities too.
-    pub(super) fn stages(&self, coupled: bool) -> &'static [Stage] {
-        let reads_velocity = self.reads_velocity() || coupled;
-        self.scheme.stages(self.transfer.reads_grid_velocity() || reads_velocity)
+    /// The stages of a step; `is_read`: something else reads nodal velocities before they advance.
+    pub(super) fn stages(&mut self, is_read: bool) -> &'static [Stage] {
+        let G2pRequest { mix, moment, gradient, .. } = self.transfer.g2p_request(0.0);
+        let is_taken = mix.is_some() || moment.is_some() || gradient.is_some();
+        self.scheme.stages(is_taken || is_read || self.reads_velocity())
     }
 
     /// The effects, and all that is kept for particles and nodes, with the columns `of_solver` of the

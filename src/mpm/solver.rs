@@ -1,4 +1,4 @@
-//! The solver: every stage of a step, one by one. [`step`](super::step) has their order.
+//! The solver: the passes of a step, one by one. [`schedule`](super::schedule) has their order.
 
 use super::{
     algebra::Vector,
@@ -8,30 +8,29 @@ use super::{
     frame::FrameName,
     grid::Grid,
     particles::Particles,
+    schedule::{Coupled, Pass, Schedule},
     setup::Setup,
-    stage::{Gathered, Stage, Visited, maps, takes},
+    stage::Stage,
     state::initial,
-    transfer::{Transfer, Wanted},
+    transfer::{Transfer, g2p},
 };
 use crate::subject::{Column, Failure, Profile};
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
     pub(super) setup: Setup<D>,
+    pub(super) schedule: Schedule,
     pub(super) time: f64,
-    /// Time that the velocities stand for (s): once steps are made, half a step behind.
-    pub(super) stands: f64,
+    /// Time of the velocities (s): once steps are made, half a step behind.
+    pub(super) velocity_time: f64,
     /// The last advance of velocities.
     pub(super) advance: Advance,
     pub(super) started: bool,
-    /// Whether nothing moves.
-    pub(super) frozen: bool,
     pub(super) transfers: u64,
     pub(super) min_j: f64,
-    pub(super) whereabouts: CellTracker<D>,
-    /// Where the grid carries each particle (m), from the visit that asks for it until positions move.
-    pub(super) carried: Vec<Vector<D>>,
-    pub(super) visited: Visited,
+    pub(super) cell_tracker: CellTracker<D>,
+    /// Position of each particle after the step (m), from G2P until positions change.
+    pub(super) advected: Vec<Vector<D>>,
 }
 
 impl<const D: usize> Solver<D> {
@@ -54,24 +53,20 @@ impl<const D: usize> Solver<D> {
         if setup.frame == FrameName::Total {
             setup.particles.stay_in_reference();
         }
-        let whereabouts = CellTracker::new(&setup.grid, &setup.particles)?;
+        let cell_tracker = CellTracker::new(&setup.grid, &setup.particles)?;
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
-        let (time, stands, started, frozen, transfers) = (0.0, 0.0, false, false, 0);
-        let advance = Advance { from: 0.0, to: 0.0, dt: 0.0 };
-        let (carried, visited) = (vec![Vector::zeros(); setup.particles.len()], Visited::default());
         Ok(Self {
-            setup,
-            time,
-            stands,
-            advance,
-            started,
-            frozen,
-            transfers,
+            schedule: Schedule::new(&mut setup, Coupled::default(), false),
+            time: 0.0,
+            velocity_time: 0.0,
+            advance: Advance { from: 0.0, to: 0.0, dt: 0.0 },
+            started: false,
+            transfers: 0,
             min_j,
-            whereabouts,
-            carried,
-            visited,
+            cell_tracker,
+            advected: vec![Vector::zeros(); setup.particles.len()],
+            setup,
         })
     }
 
@@ -80,51 +75,52 @@ impl<const D: usize> Solver<D> {
         &self.setup.particles
     }
 
-    /// The transfer, with what particles carry for it.
+    /// The transfer, with its state of the particles.
     pub fn transfer(&self) -> &dyn Transfer<D> {
         self.setup.transfer.as_ref()
     }
 
-    /// The grid as the last stage left it.
+    /// The grid after the last pass.
     pub fn grid(&self) -> &Grid<D> {
         &self.setup.grid
     }
 
-    /// The effects, and all that is kept for particles and nodes: what a step works with.
+    /// The effects, and all columns for particles and nodes.
     pub fn profile(&self) -> Profile {
-        let carried = Column::of_particles("carried", &self.carried);
-        self.setup.profile([self.whereabouts.columns(), carried])
+        let advected = Column::of_particles("carried", &self.advected);
+        self.setup.profile([self.cell_tracker.columns(), advected])
     }
 
-    /// Runs one stage of a step of length `dt` (s).
+    /// Runs one pass of a step of length `dt` (s).
     ///
     /// # Errors
     /// See [`Subject::step`](crate::subject::Subject::step).
-    pub fn run(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
-        self.run_first(&[stage], dt)
+    pub(super) fn run(&mut self, pass: Pass, dt: f64) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        match pass {
+            Pass::P2g(stages) => {
+                let passes = transfer.p2g(kernel.as_ref(), particles, grid, stages);
+                self.count(passes);
+            }
+            Pass::G2p(stages) => {
+                let (transfer, advected) = (transfer.as_mut(), &mut *self.advected);
+                let passes =
+                    g2p(transfer, kernel.as_ref(), (grid, dt), particles, stages, advected);
+                self.count(passes);
+            }
+            Pass::Update(stage) => self.update(stage, dt)?,
+            Pass::IntegrateState => self.integrate_state(dt)?,
+            Pass::Couple(_) => {}
+        }
+        Ok(())
     }
 
-    /// Runs the first of `stages`. What those after it want of the same particles and nodes is done
-    /// in the same visit, if nothing in between changes either.
-    pub(super) fn run_first(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
-        let Some((&stage, rest)) = stages.split_first() else { return Ok(()) };
+    /// The rest of a stage after its pass of P2G or G2P.
+    fn update(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
         match stage {
-            Stage::Mass => {
-                self.visited.p2g = maps(stages);
-                self.map(self.visited.p2g);
-                self.mass()?;
-                if self.started {
-                    self.advance_effects(dt)?;
-                }
-            }
-            Stage::Momentum => {
-                let is_mapped = std::mem::take(&mut self.visited.p2g.momentum);
-                self.momentum(is_mapped);
-            }
-            Stage::Force => {
-                let is_mapped = std::mem::take(&mut self.visited.p2g.force);
-                self.force(is_mapped);
-            }
+            Stage::Mass => self.mass()?,
+            Stage::Momentum => self.momentum(),
+            Stage::Force => self.force(),
             Stage::Acceleration => self.accelerate(dt),
             Stage::GridVelocity => {
                 let Grid { velocity, acceleration, .. } = &mut self.setup.grid;
@@ -132,26 +128,9 @@ impl<const D: usize> Solver<D> {
                     *v += *a * dt;
                 }
             }
-            Stage::ParticleVelocity => {
-                self.visited.g2p = takes(rest);
-                self.take(dt, true, self.visited.g2p);
-                self.drive(dt);
-            }
-            Stage::Stress => {
-                if !std::mem::take(&mut self.visited.g2p.gradient) {
-                    let wanted = takes(stages);
-                    self.take(dt, false, wanted);
-                    self.visited.g2p = Gathered { gradient: false, ..wanted };
-                }
-                self.stress(dt)?;
-            }
-            Stage::Position if self.frozen => {}
-            Stage::Position => {
-                if !std::mem::take(&mut self.visited.g2p.carried) {
-                    self.take(dt, false, takes(stages));
-                }
-                self.position(dt)?;
-            }
+            Stage::ParticleVelocity => self.drive(dt),
+            Stage::Stress => self.stress(dt)?,
+            Stage::Position => self.position(dt)?,
         }
         Ok(())
     }
@@ -163,28 +142,21 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// From momenta to velocities; `is_mapped` tells that the momenta are there.
-    fn momentum(&mut self, is_mapped: bool) {
+    /// From momenta to velocities.
+    fn momentum(&mut self) {
         let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let mut field = std::mem::take(&mut grid.velocity);
-        let mut passes = 0;
-        if !is_mapped {
-            passes += transfer.p2g_momentum(kernel.as_ref(), particles, grid, &mut field);
-        }
         mass.solve(grid, &mut field);
         for condition in boundary.iter() {
-            condition.hold_velocity(&mut field, self.stands);
+            condition.hold_velocity(&mut field, self.velocity_time);
         }
-        passes += transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
+        let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
         grid.velocity = field;
         self.count(passes);
     }
 
-    /// External forces on top of the internal ones; `is_mapped` tells that these are there.
-    fn force(&mut self, is_mapped: bool) {
-        if !is_mapped {
-            self.map(Wanted { force: true, ..Wanted::default() });
-        }
+    /// Adds external forces to the internal ones.
+    fn force(&mut self) {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects.iter_mut() {
             self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
@@ -199,25 +171,25 @@ impl<const D: usize> Solver<D> {
         let mut field = std::mem::take(&mut grid.acceleration);
         field.copy_from_slice(&grid.force);
         mass.solve(grid, &mut field);
-        let advance = Advance { from: self.stands, to: self.time + 0.5 * dt, dt };
+        let advance = Advance { from: self.velocity_time, to: self.time + 0.5 * dt, dt };
         for condition in boundary.iter_mut() {
             condition.hold_advance(&mut grid.velocity, &mut field, &advance);
         }
-        (self.stands, self.advance) = (advance.to, advance);
+        (self.velocity_time, self.advance) = (advance.to, advance);
         let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
         grid.acceleration = field;
         self.count(passes);
     }
 
-    /// Lets effects have their say on velocities that have advanced by `dt` (s).
+    /// Applies the effects' velocity hooks after an advance of `dt` (s).
     pub(super) fn drive(&mut self, dt: f64) {
         for effect in &self.setup.effects {
-            effect.drive_velocity(self.stands, dt, &mut self.setup.particles);
+            effect.drive_velocity(self.velocity_time, dt, &mut self.setup.particles);
         }
     }
 
-    /// Lets effects advance what they keep.
-    fn advance_effects(&mut self, dt: f64) -> Result<(), Failure> {
+    /// Integrates the effects' own state over `dt` (s).
+    fn integrate_state(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects {
             let now = (self.time, dt);
@@ -228,14 +200,14 @@ impl<const D: usize> Solver<D> {
 
     fn position(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
-        std::mem::swap(particles.positions_mut(), &mut self.carried);
+        std::mem::swap(particles.positions_mut(), &mut self.advected);
         for effect in effects {
             effect.drive_position(dt, particles);
         }
         if kernel.domain() == Domain::Follows && *frame == FrameName::Updated {
             particles.track_domains();
         }
-        self.whereabouts.track(grid, particles)?;
+        self.cell_tracker.track(grid, particles)?;
         particles.moving_finite()?;
         self.count(1);
         Ok(())

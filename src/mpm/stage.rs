@@ -1,8 +1,6 @@
-//! The named stages of which every time step is made.
+//! Named stages of a time step.
 
-use super::transfer::Wanted;
-
-/// One pass over particles or nodes. The formulas are those of Wobbes & Tielen (2015), steps 1-5.
+/// One stage of a step. The formulas are those of Wobbes & Tielen (2015), steps 1-5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stage {
     /// P2G: `m_i = sum_p m_p N_i`.
@@ -21,52 +19,4 @@ pub enum Stage {
     Stress,
     /// G2P: `x_p += dt sum_i v_i N_i`.
     Position,
-}
-
-/// What stages want of the velocities of nodes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Gathered {
-    /// Gradients.
-    pub(super) gradient: bool,
-    /// Where the grid carries each particle.
-    pub(super) carried: bool,
-}
-
-/// What visits to the nodes have done for stages to come.
-#[derive(Debug, Default)]
-pub(super) struct Visited {
-    pub(super) p2g: Wanted,
-    pub(super) g2p: Gathered,
-}
-
-/// What the maps to the nodes at the head of `stages` want: no stage between them changes particles.
-pub(super) fn maps(stages: &[Stage]) -> Wanted {
-    let maps = |stage: &&Stage| matches!(stage, Stage::Mass | Stage::Momentum | Stage::Force);
-    let has = |wanted| stages.iter().take_while(maps).any(|stage| *stage == wanted);
-    Wanted { mass: has(Stage::Mass), momentum: has(Stage::Momentum), force: has(Stage::Force) }
-}
-
-/// What is taken from the velocities of nodes at the head of `stages`, before these change.
-pub(super) fn takes(stages: &[Stage]) -> Gathered {
-    let takes = |stage: &&Stage| matches!(stage, Stage::Stress | Stage::Position);
-    let has = |wanted| stages.iter().take_while(takes).any(|stage| *stage == wanted);
-    Gathered { gradient: has(Stage::Stress), carried: has(Stage::Position) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Stage::*, *};
-    use crate::mpm::scheme::SchemeName;
-
-    /// A stage that has been visited ahead is still there to be run.
-    #[test]
-    fn schemes_visit_the_nodes_as_seldom_as_they_can() {
-        let usl = SchemeName::Usl.stages(true);
-        assert_eq!(maps(usl), Wanted { mass: true, momentum: true, force: true });
-        assert_eq!(takes(&usl[6..]), Gathered { gradient: true, carried: true });
-        let usf = SchemeName::Usf.stages(true);
-        assert_eq!(maps(usf), Wanted { mass: true, momentum: true, force: false });
-        assert_eq!(takes(&[Stress, Force, Position]), Gathered { gradient: true, carried: false });
-        assert_eq!(takes(&[Momentum, Stress, Position]), Gathered::default(), "new velocities");
-    }
 }

@@ -53,9 +53,9 @@ pub trait Subject {
 /// A subject whose step can be looked at as a map from state to state, on a configuration that does
 /// not move: what a theory of small perturbations speaks of.
 pub trait Perturbable: Subject {
-    /// From now on steps move nothing: what the discretisation sees of the configuration (positions,
-    /// and the sizes of what moves with them) stays as it is; all else goes on as before.
-    fn freeze(&mut self);
+    /// Keeps the configuration (positions and domains) as it is in all steps from now on; all else
+    /// goes on as before.
+    fn fix_configuration(&mut self);
 
     /// Writes all that a step reads and changes, but for the configuration, into `state`: always as
     /// many numbers in the same order.

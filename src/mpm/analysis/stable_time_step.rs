@@ -16,10 +16,12 @@ use crate::{
     mpm::{
         algebra::{Matrix, Vector},
         effect::EffectName,
+        schedule::passes_of,
         scheme::SchemeName,
+        setup::Setup,
         solver::Solver,
         stage::Stage,
-        transfer::Kind,
+        transfer::{TransferKind, kick},
     },
     subject::Failure,
 };
@@ -43,12 +45,12 @@ const SHIFT: f64 = 0.45;
 const SETTLED: f64 = 1e-3;
 
 /// The state that the iteration starts from each time.
-struct Start<const D: usize> {
+struct InitialState<const D: usize> {
     v: Vec<Vector<D>>,
     sigma: Vec<Matrix<D>>,
     def_grad: Vec<Matrix<D>>,
     vol: Vec<f64>,
-    stands: f64,
+    velocity_time: f64,
 }
 
 impl<const D: usize> Solver<D> {
@@ -62,7 +64,7 @@ impl<const D: usize> Solver<D> {
     pub fn safe_step(mut self, longest: f64, rounds: u32) -> Result<f64, Failure> {
         self.setup.effects.retain(|effect| makes_stress(effect.name()));
         self.setup.boundary.retain(|condition| !condition.reads_velocity());
-        self.run(Stage::Mass, longest)?;
+        self.run_all(&passes_of(&[Stage::Mass]), longest)?;
         let start = self.state_of_start();
         let nodes = self.setup.grid.velocity.len();
         let mut mode: Vec<Vector<D>> = (0..nodes)
@@ -88,7 +90,7 @@ impl<const D: usize> Solver<D> {
     /// nodal masses, in which the matrix is symmetric.
     fn square_of_frequency(
         &mut self,
-        start: &Start<D>,
+        start: &InitialState<D>,
         mode: &mut [Vector<D>],
         (dt, speed): (f64, f64),
         rounds: u32,
@@ -124,22 +126,21 @@ impl<const D: usize> Solver<D> {
     /// accelerations (m/s2), or what comes back of these from the particles.
     fn response(
         &mut self,
-        start: &Start<D>,
+        start: &InitialState<D>,
         velocity: &[Vector<D>],
         dt: f64,
     ) -> Result<Vec<Vector<D>>, Failure> {
         self.setup.grid.velocity.copy_from_slice(velocity);
-        self.run(Stage::Stress, dt)?;
-        self.run(Stage::Force, dt)?;
-        self.run(Stage::Acceleration, dt)?;
+        let stages = &[Stage::Stress, Stage::Force, Stage::Acceleration];
+        self.run_all(&passes_of(stages), dt)?;
         self.restore(start);
         if !self.strains_by_mapped_velocity() {
             return Ok(self.setup.grid.acceleration.clone());
         }
         self.setup.particles.v.fill(Vector::zeros());
-        let crate::mpm::setup::Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
-        transfer.kick(kernel.as_ref(), grid, 1.0, particles);
-        self.run(Stage::Momentum, dt)?;
+        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        kick(transfer.as_mut(), kernel.as_ref(), grid, 1.0, particles);
+        self.run_all(&passes_of(&[Stage::Momentum]), dt)?;
         self.restore(start);
         Ok(self.setup.grid.velocity.clone())
     }
@@ -147,7 +148,7 @@ impl<const D: usize> Solver<D> {
     /// Whether velocities go through particles before they strain them. What an affine field or a series
     /// brings back is taken for all of it.
     fn strains_by_mapped_velocity(&self) -> bool {
-        self.setup.scheme != SchemeName::Usl && self.setup.transfer.kind() == Kind::Velocity
+        self.setup.scheme != SchemeName::Usl && self.setup.transfer.kind() == TransferKind::Velocity
     }
 
     /// Twice the kinetic energy of nodes with these velocities.
@@ -155,24 +156,24 @@ impl<const D: usize> Solver<D> {
         self.setup.grid.mass.iter().zip(field).map(|(m, v)| m * v.norm_squared()).sum()
     }
 
-    fn state_of_start(&self) -> Start<D> {
+    fn state_of_start(&self) -> InitialState<D> {
         let particles = &self.setup.particles;
-        Start {
+        InitialState {
             v: particles.v.clone(),
             sigma: particles.sigma.clone(),
             def_grad: particles.def_grad.clone(),
             vol: particles.vol.clone(),
-            stands: self.stands,
+            velocity_time: self.velocity_time,
         }
     }
 
-    fn restore(&mut self, start: &Start<D>) {
+    fn restore(&mut self, start: &InitialState<D>) {
         let particles = &mut self.setup.particles;
         particles.v.copy_from_slice(&start.v);
         particles.sigma.copy_from_slice(&start.sigma);
         particles.def_grad.copy_from_slice(&start.def_grad);
         particles.vol.copy_from_slice(&start.vol);
-        self.stands = start.stands;
+        self.velocity_time = start.velocity_time;
     }
 }
 

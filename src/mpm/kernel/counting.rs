@@ -4,7 +4,7 @@
 use super::{
     contract::Kernel,
     moments::Moments,
-    request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
+    request::{G2pRequest, P2gRequest, ParticleField},
 };
 use crate::mpm::{
     algebra::{Matrix, Vector},
@@ -77,31 +77,12 @@ impl<const D: usize> Counted<D> {
 
 impl<const D: usize> Kernel<D> for Counted<D> {
     fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
-        let force = |kind| maps.force == Some(kind);
-        let by_moment =
-            |shown: ParticleField<'_, D>| matches!(shown.affine, Some(Affine::Moment(_)));
-        for (name, wanted) in [
-            ("p2g mass", maps.mass),
-            ("p2g momentum", maps.momentum.is_some()),
-            ("p2g internal force", force(Divergence::Gradient)),
-            ("p2g affine force", force(Divergence::Fit)),
-            ("moments", maps.mass && maps.momentum.is_some_and(by_moment)),
-        ] {
-            self.tally.add(name, if wanted { particles.len() } else { 0 });
-        }
+        maps.parts().for_each(|name| self.tally.add(name, particles.len()));
         self.kernel.p2g(particles, maps, grid);
     }
 
     fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>) {
-        for (name, wanted) in [
-            ("g2p", takes.change.is_some()),
-            ("g2p", takes.mix.is_some()),
-            ("g2p moment", takes.moment.is_some()),
-            ("g2p gradient", takes.gradient.is_some()),
-            ("g2p position", takes.advected.is_some()),
-        ] {
-            self.tally.add(name, if wanted { particles.len() } else { 0 });
-        }
+        takes.parts().for_each(|name| self.tally.add(name, particles.len()));
         self.kernel.g2p_all(grid, particles, takes);
     }
 

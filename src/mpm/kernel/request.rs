@@ -17,6 +17,23 @@ pub enum Affine<'a, const D: usize> {
     Moment(&'a [Matrix<D>]),
 }
 
+impl<'a, const D: usize> Affine<'a, D> {
+    /// C_p or B_p of each particle.
+    pub fn state(self) -> &'a [Matrix<D>] {
+        let (Self::Slope(state) | Self::Moment(state)) = self;
+        state
+    }
+
+    /// Natural size of the state for velocities of the size `speed` (m/s) and cells of the size
+    /// `h` (m).
+    pub fn size(self, speed: f64, h: f64) -> f64 {
+        match self {
+            Self::Slope(_) => speed / h,
+            Self::Moment(_) => speed * h,
+        }
+    }
+}
+
 /// Velocity field around each particle, `v_p + C_p (x - mean_p)`.
 #[derive(Debug, Clone, Copy)]
 pub struct ParticleField<'a, const D: usize> {
@@ -47,6 +64,26 @@ pub struct P2gRequest<'a, const D: usize> {
     pub force: Option<Divergence>,
 }
 
+impl<const D: usize> P2gRequest<'_, D> {
+    /// Names of the parts, as reports list them. The moments of the weights count as a part, once
+    /// for each position of the particles.
+    pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
+        let affine = self.momentum.and_then(|field| field.affine);
+        let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));
+        named_parts([
+            ("p2g mass", self.mass),
+            ("p2g momentum", self.momentum.is_some()),
+            ("p2g internal force", self.force == Some(Divergence::Gradient)),
+            ("p2g affine force", self.force == Some(Divergence::Fit)),
+            ("moments", has_moments),
+        ])
+    }
+}
+
+fn named_parts(parts: [(&'static str, bool); 5]) -> impl Iterator<Item = &'static str> {
+    parts.into_iter().filter_map(|(name, is_requested)| is_requested.then_some(name))
+}
+
 /// Parts of one pass of G2P, from nodal velocities except where stated.
 #[derive(Debug, Default)]
 pub struct G2pRequest<'a, const D: usize> {
@@ -62,4 +99,17 @@ pub struct G2pRequest<'a, const D: usize> {
     pub gradient: Option<&'a mut [Matrix<D>]>,
     /// Position after `dt` (s), `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
     pub advected: Option<(f64, &'a mut [Vector<D>])>,
+}
+
+impl<const D: usize> G2pRequest<'_, D> {
+    /// Names of the parts, as reports list them.
+    pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
+        named_parts([
+            ("g2p", self.change.is_some()),
+            ("g2p", self.mix.is_some()),
+            ("g2p moment", self.moment.is_some()),
+            ("g2p gradient", self.gradient.is_some()),
+            ("g2p position", self.advected.is_some()),
+        ])
+    }
 }

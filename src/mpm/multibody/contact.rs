@@ -15,11 +15,11 @@
 //! Impulses go into accelerations, `a_i = (v*_i - v_i)/dt`, so that particles are given all of them.
 //! Velocities that strain the bodies before or after are corrected likewise, for the strain alone.
 
-use super::{coupling::Coupling, interface::Meeting};
+use super::{coupling::Coupling, interface::InterfaceNodes};
 use crate::{
     mpm::{
-        algebra::Vector, boundary::contact_state::ContactState, grid::Grid, scheme::SchemeName,
-        setup::Setup, solver::Solver,
+        algebra::Vector, boundary::contact_state::ContactState, grid::Grid,
+        schedule::CouplingPoint, scheme::SchemeName, setup::Setup, solver::Solver,
     },
     subject::{Checkpoint, Column},
 };
@@ -27,12 +27,12 @@ use crate::{
 /// Contact between all bodies of a scene.
 pub(in crate::mpm) struct Contact<const D: usize> {
     friction: f64,
-    meeting: Meeting,
+    interface: InterfaceNodes,
     /// For each body: `sum_p m_p grad N_i` (kg/m), up to date where bodies meet.
     outwards: Vec<Vec<Vector<D>>>,
     /// Every two bodies.
     pairs: Vec<[usize; 2]>,
-    /// For each node and every two bodies: how the last push left them.
+    /// For each node and every two bodies: the contact state after the last push.
     touches: Vec<ContactState>,
     /// For each body: velocities as they were mapped (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
@@ -50,17 +50,26 @@ impl<const D: usize> Contact<D> {
             friction,
             touches: vec![ContactState::Separated; nodes * pairs.len()],
             pairs,
-            meeting: Meeting::of(bodies),
+            interface: InterfaceNodes::of(bodies),
             outwards: bodies.iter().map(column).collect(),
             mapped: bodies.iter().filter(strained_first).map(column).collect(),
+        }
+    }
+
+    /// Finds the mass gradients of the bodies.
+    fn find_normals(&mut self, bodies: &mut [Solver<D>]) {
+        for (body, outwards) in bodies.iter_mut().zip(&mut self.outwards) {
+            let Setup { kernel, particles, grid, .. } = &body.setup;
+            kernel.p2g_mass_gradient(particles, grid, outwards);
+            body.count(1);
         }
     }
 
     /// Pushes apart what would approach at each node after `dt` (s), by accelerations.
     fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
         self.touches.fill(ContactState::Separated);
-        for k in 0..self.meeting.nodes().len() {
-            let i = self.meeting.nodes()[k];
+        for k in 0..self.interface.nodes().len() {
+            let i = self.interface.nodes()[k];
             for pair in 0..self.pairs.len() {
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
                 let [a, b] = self.pairs[pair].map(|k| &bodies[k].setup.grid);
@@ -76,7 +85,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// What contact does to a velocity relative to the other body: how they touch, and the change.
+    /// Contact law: contact state and change of a velocity relative to the other body.
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
@@ -93,7 +102,7 @@ impl<const D: usize> Contact<D> {
     /// Gives velocities that strain the bodies what the last push left of them: along the normal they are
     /// one where bodies touch, and along the surface too where they stick.
     fn hold(&self, bodies: &mut [Solver<D>]) {
-        for &i in self.meeting.nodes() {
+        for &i in self.interface.nodes() {
             for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
                 let touch = self.touches[i * self.pairs.len() + pair];
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
@@ -113,7 +122,7 @@ impl<const D: usize> Contact<D> {
     }
 
     /// How a pair of bodies meets at node i, if both are there.
-    fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<Meet<D>> {
+    fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<ContactPair<D>> {
         let [(m, out_of_one), (k, out_of_other)] =
             self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));
         if !(m > 0.0 && k > 0.0) {
@@ -122,12 +131,12 @@ impl<const D: usize> Contact<D> {
         let normal = out_of_one / m - out_of_other / k;
         let size = normal.norm();
         let sound = size > 0.0 && size.is_finite();
-        sound.then(|| Meet { normal: normal / size, mass: m * k / (m + k) })
+        sound.then(|| ContactPair { normal: normal / size, mass: m * k / (m + k) })
     }
 }
 
 /// Two bodies at a node.
-struct Meet<const D: usize> {
+struct ContactPair<const D: usize> {
     /// From the first into the other.
     normal: Vector<D>,
     /// Reduced mass (kg): what an impulse is that changes the relative velocity.
@@ -145,7 +154,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
             Column { entries, ..Column::of_nodes::<Vector<D>>(name, &[]) }
         };
         vec![
-            Column::of_nodes("meeting", self.meeting.nodes()),
+            Column::of_nodes("meeting", self.interface.nodes()),
             Column::of_nodes("touch", &self.touches),
             all("normal", &self.outwards),
             all("mapped velocity", &self.mapped),
@@ -161,46 +170,38 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         true
     }
 
-    fn meet(&mut self, bodies: &mut [Solver<D>]) {
-        self.meeting.find(bodies);
-        if self.meeting.nodes().is_empty() {
-            return;
-        }
-        for (body, outwards) in bodies.iter_mut().zip(&mut self.outwards) {
-            let Setup { kernel, particles, grid, .. } = &body.setup;
-            kernel.p2g_mass_gradient(particles, grid, outwards);
-            body.count(1);
-        }
-    }
-
     fn nodes(&self) -> &[usize] {
-        self.meeting.nodes()
+        self.interface.nodes()
     }
 
-    fn velocity(&mut self, _: &mut [Solver<D>]) {}
-
-    fn straining_velocity(&mut self, bodies: &mut [Solver<D>]) {
-        for (body, mapped) in bodies.iter().zip(&mut self.mapped) {
-            mapped.copy_from_slice(&body.setup.grid.velocity);
+    fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], dt: f64) {
+        if at == CouplingPoint::Mass {
+            self.interface.find(bodies);
         }
-        if self.meeting.nodes().is_empty() {
+        if at == CouplingPoint::StrainVelocity {
+            for (body, mapped) in bodies.iter().zip(&mut self.mapped) {
+                mapped.copy_from_slice(&body.setup.grid.velocity);
+            }
+        }
+        if at == CouplingPoint::Strained {
+            for (body, mapped) in bodies.iter_mut().zip(&self.mapped) {
+                body.setup.grid.velocity.copy_from_slice(mapped);
+            }
+        }
+        if self.interface.nodes().is_empty() {
             return;
         }
-        self.hold(bodies);
-        bodies.iter_mut().for_each(Solver::hold_velocity);
-    }
-
-    fn strained(&mut self, bodies: &mut [Solver<D>]) {
-        for (body, mapped) in bodies.iter_mut().zip(&self.mapped) {
-            body.setup.grid.velocity.copy_from_slice(mapped);
+        match at {
+            CouplingPoint::Mass => self.find_normals(bodies),
+            CouplingPoint::StrainVelocity => {
+                self.hold(bodies);
+                bodies.iter_mut().for_each(Solver::hold_velocity);
+            }
+            CouplingPoint::Acceleration => {
+                self.push(bodies, dt);
+                bodies.iter_mut().for_each(Solver::hold_acceleration);
+            }
+            CouplingPoint::Velocity | CouplingPoint::Strained => {}
         }
-    }
-
-    fn acceleration(&mut self, bodies: &mut [Solver<D>], dt: f64) {
-        if self.meeting.nodes().is_empty() {
-            return;
-        }
-        self.push(bodies, dt);
-        bodies.iter_mut().for_each(Solver::hold_acceleration);
     }
 }

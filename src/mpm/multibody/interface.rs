@@ -1,13 +1,13 @@
-//! Where bodies meet: the nodes to which more than one gives mass.
+//! Nodes at which bodies meet: those to which more than one gives mass.
 
 use crate::mpm::solver::Solver;
 
-/// The nodes at which bodies meet, in their order.
+/// Nodes at which bodies meet, in their order.
 #[derive(Debug)]
-pub(in crate::mpm) struct Meeting(Vec<usize>);
+pub(in crate::mpm) struct InterfaceNodes(Vec<usize>);
 
-impl Meeting {
-    /// Room for all nodes of the grid that `bodies` share.
+impl InterfaceNodes {
+    /// Capacity for all nodes of the grid that `bodies` share.
     pub(in crate::mpm) fn of<const D: usize>(bodies: &[Solver<D>]) -> Self {
         Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
     }

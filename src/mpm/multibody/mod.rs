@@ -1,7 +1,7 @@
 //! Several bodies on one grid.
 //!
 //! Each body is a [`Solver`] with its own particles, material, effects and fields on a grid of its own
-//! over the same geometry. They take every stage together; at nodes to which more than one body gives
+//! over the same geometry. Each pass is run by all of them; at nodes to which more than one body gives
 //! mass they are then coupled:
 //!
 //! - [`shared_velocity`]: they have one velocity and one acceleration there, as in the original MPM, which does not
@@ -18,18 +18,23 @@ mod profile;
 mod shared_velocity;
 mod state;
 
-use super::{setup::Setup, solver::Solver, stage::Stage};
+use super::{
+    schedule::{Coupled, Pass, Schedule},
+    setup::Setup,
+    solver::Solver,
+};
 use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals};
 use contact::Contact;
 use coupling::Coupling;
 use failure::among;
-use shared_velocity::Shared;
+use shared_velocity::SharedVelocity;
 
 /// Bodies that meet on a grid; particles are those of all bodies, one after the other.
 pub struct Bodies<const D: usize> {
     solvers: Vec<Solver<D>>,
     /// None of a single body.
     coupling: Option<Box<dyn Coupling<D>>>,
+    schedule: Schedule,
 }
 
 impl<const D: usize> Bodies<D> {
@@ -51,9 +56,11 @@ impl<const D: usize> Bodies<D> {
         let coupling: Option<Box<dyn Coupling<D>>> = match friction {
             _ if solvers.len() < 2 => None,
             Some(friction) => Some(Box::new(Contact::of(&solvers, friction))),
-            None => Some(Box::new(Shared::of(&solvers))),
+            None => Some(Box::new(SharedVelocity::of(&solvers))),
         };
-        Ok(Self { solvers, coupling })
+        let mut bodies = Self { solvers, coupling, schedule: Schedule::default() };
+        bodies.compile(false);
+        Ok(bodies)
     }
 
     /// The solver of each body.
@@ -72,28 +79,25 @@ impl<const D: usize> Bodies<D> {
         profile::of(self.solvers.iter().map(Solver::profile), coupling)
     }
 
-    /// One stage after another, by all bodies together.
-    fn take(&mut self, stages: &[Stage], dt: f64) -> Result<(), Failure> {
-        for (k, &stage) in stages.iter().enumerate() {
+    /// Compiles the schedule, that of the first body with the coupling of all.
+    fn compile(&mut self, fixed_configuration: bool) {
+        let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
+        let coupled = Coupled { bodies: self.coupling.is_some(), reads_velocity };
+        if let Some(one) = self.solvers.first_mut() {
+            self.schedule = Schedule::new(&mut one.setup, coupled, fixed_configuration);
+        }
+    }
+
+    /// Runs `passes` one after another, each by all bodies.
+    fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
+        for &pass in passes {
             let mut first = 0;
             for solver in &mut self.solvers {
-                solver.run_first(&stages[k..], dt).map_err(|failure| among(failure, first))?;
+                solver.run(pass, dt).map_err(|failure| among(failure, first))?;
                 first += solver.particles().len();
             }
-            let Some(coupling) = &mut self.coupling else { continue };
-            let rest = &stages[k + 1..];
-            match stage {
-                Stage::Mass => coupling.meet(&mut self.solvers),
-                Stage::Momentum if rest.first() == Some(&Stage::Stress) => {
-                    coupling.straining_velocity(&mut self.solvers);
-                }
-                Stage::Momentum => coupling.velocity(&mut self.solvers),
-                Stage::Acceleration => coupling.acceleration(&mut self.solvers, dt),
-                // Strains were updated first.
-                Stage::Stress if rest.contains(&Stage::Force) => {
-                    coupling.strained(&mut self.solvers);
-                }
-                _ => {}
+            if let (Pass::Couple(at), Some(coupling)) = (pass, &mut self.coupling) {
+                coupling.couple(at, &mut self.solvers, dt);
             }
         }
         Ok(())
@@ -106,16 +110,13 @@ fn particles<const D: usize>(solvers: &[Solver<D>]) -> usize {
 
 impl<const D: usize> Subject for Bodies<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        let Some(one) = self.solvers.first() else { return Ok(()) };
-        let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
-        let (opening, started) = (one.opening(), one.started);
-        let stages = one.setup.stages(reads_velocity);
-        if !started {
+        let Schedule { opening, passes } = self.schedule.clone();
+        if self.solvers.iter().any(|solver| !solver.started) {
             self.solvers.iter_mut().for_each(|solver| solver.open(dt));
-            self.take(opening, dt)?;
+            self.run_all(&opening, dt)?;
             self.solvers.iter_mut().for_each(|solver| solver.opened(dt));
         }
-        self.take(stages, dt)?;
+        self.run_all(&passes, dt)?;
         self.solvers.iter_mut().for_each(|solver| solver.time += dt);
         Ok(())
     }
@@ -146,7 +147,7 @@ impl<const D: usize> Subject for Bodies<D> {
         }
     }
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { solvers, coupling } = self;
+        let Self { solvers, coupling, schedule: _ } = self;
         checkpoint.visit(&mut solvers[..]);
         if let Some(coupling) = coupling {
             coupling.checkpoint(checkpoint);

@@ -3,18 +3,18 @@
 //!
 //! Momentum is that of all bodies together, and no body can slide along another or leave it.
 
-use super::{coupling::Coupling, interface::Meeting};
+use super::{coupling::Coupling, interface::InterfaceNodes};
 use crate::{
-    mpm::{algebra::Vector, grid::Grid, solver::Solver},
+    mpm::{algebra::Vector, grid::Grid, schedule::CouplingPoint, solver::Solver},
     subject::Column,
 };
 
-/// One field for all bodies.
-pub(in crate::mpm) struct Shared(Meeting);
+/// One velocity field for all bodies.
+pub(in crate::mpm) struct SharedVelocity(InterfaceNodes);
 
-impl Shared {
+impl SharedVelocity {
     pub(in crate::mpm) fn of<const D: usize>(bodies: &[Solver<D>]) -> Self {
-        Self(Meeting::of(bodies))
+        Self(InterfaceNodes::of(bodies))
     }
 
     fn share<const D: usize>(
@@ -36,7 +36,7 @@ impl Shared {
     }
 }
 
-impl<const D: usize> Coupling<D> for Shared {
+impl<const D: usize> Coupling<D> for SharedVelocity {
     fn name(&self) -> Option<&'static str> {
         None
     }
@@ -49,25 +49,18 @@ impl<const D: usize> Coupling<D> for Shared {
         false
     }
 
-    fn meet(&mut self, bodies: &mut [Solver<D>]) {
-        self.0.find(bodies);
-    }
-
     fn nodes(&self) -> &[usize] {
         self.0.nodes()
     }
 
-    fn velocity(&mut self, bodies: &mut [Solver<D>]) {
-        self.share(bodies, |grid| &mut grid.velocity);
-    }
-
-    fn straining_velocity(&mut self, bodies: &mut [Solver<D>]) {
-        self.share(bodies, |grid| &mut grid.velocity);
-    }
-
-    fn strained(&mut self, _: &mut [Solver<D>]) {}
-
-    fn acceleration(&mut self, bodies: &mut [Solver<D>], _: f64) {
-        self.share(bodies, |grid| &mut grid.acceleration);
+    fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], _: f64) {
+        match at {
+            CouplingPoint::Mass => self.0.find(bodies),
+            CouplingPoint::Velocity | CouplingPoint::StrainVelocity => {
+                self.share(bodies, |grid| &mut grid.velocity);
+            }
+            CouplingPoint::Strained => {}
+            CouplingPoint::Acceleration => self.share(bodies, |grid| &mut grid.acceleration),
+        }
     }
 }

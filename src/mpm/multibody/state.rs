@@ -4,8 +4,9 @@ use super::Bodies;
 use crate::subject::Perturbable;
 
 impl<const D: usize> Perturbable for Bodies<D> {
-    fn freeze(&mut self) {
-        self.solvers.iter_mut().for_each(Perturbable::freeze);
+    fn fix_configuration(&mut self) {
+        self.solvers.iter_mut().for_each(Perturbable::fix_configuration);
+        self.compile(true);
     }
 
     fn state(&self, state: &mut Vec<f64>) {

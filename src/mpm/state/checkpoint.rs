@@ -1,9 +1,9 @@
-//! What a solver remembers between two steps, all else being made anew in each of them.
+//! State of a solver between two steps.
 //!
-//! Every field is named, so that the compiler asks after a new one. The grid keeps nothing from step to
-//! step, and what stages leave for each other (what has been visited, where particles are carried) is
-//! used up when a step ends.
+//! Every field is named, so that the compiler asks after a new one. The grid and the advected
+//! positions are computed anew in each step.
 
+use super::perturbation::affine_state_mut;
 use crate::{
     mpm::{algebra::Vector, boundary::Advance, particles::Particles, setup::Setup, solver::Solver},
     subject::{Checkpoint, Memory},
@@ -74,7 +74,7 @@ impl<const D: usize> Memory for Setup<D> {
             start: _,
         } = self;
         checkpoint.visit(particles);
-        transfer.checkpoint(checkpoint);
+        checkpoint.visit(affine_state_mut(transfer.as_mut()));
         material.checkpoint(checkpoint);
         for effect in effects {
             effect.checkpoint(checkpoint);
@@ -89,25 +89,23 @@ impl<const D: usize> Memory for Solver<D> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {
             setup,
+            schedule: _,
             time,
-            stands,
+            velocity_time,
             advance,
             started,
-            // Who sets up freezes.
-            frozen: _,
             transfers,
             min_j,
-            whereabouts,
-            carried: _,
-            visited: _,
+            cell_tracker,
+            advected: _,
         } = self;
         checkpoint.visit(setup);
-        for number in [time, stands, min_j] {
+        for number in [time, velocity_time, min_j] {
             checkpoint.visit(number);
         }
         checkpoint.visit(advance);
         checkpoint.visit(started);
         checkpoint.visit(transfers);
-        checkpoint.visit(whereabouts);
+        checkpoint.visit(cell_tracker);
     }
 }

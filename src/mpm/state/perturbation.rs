@@ -1,11 +1,18 @@
-//! The state of a solver, without its configuration, as a row of numbers.
+//! State of a solver, without its configuration, as a row of numbers.
 //!
-//! A step reads and changes velocities, stresses, volumes, F where it is kept, and what the transfer
-//! carries. The grid keeps nothing from step to step. What only a material remembers (plastic flow) is
-//! not among them, and positions and domains are the configuration.
+//! A step reads and changes velocities, stresses, volumes, F where it is a column, and the affine
+//! state of the transfer. The grid keeps nothing from step to step. State of a material alone
+//! (plastic flow) is left out, and positions and domains are the configuration.
 
 use crate::{
-    mpm::{algebra::Matrix, particles::Particles, solver::Solver},
+    mpm::{
+        algebra::Matrix,
+        kernel::request::{Affine, G2pRequest},
+        particles::Particles,
+        schedule::{Coupled, Schedule},
+        solver::Solver,
+        transfer::Transfer,
+    },
     subject::Perturbable,
 };
 
@@ -14,9 +21,20 @@ fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &M
     [&particles.sigma, &particles.def_grad].into_iter().flatten()
 }
 
+/// Affine velocity field of the particles, if the transfer has one.
+fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
+    solver.setup.transfer.p2g_request(&solver.setup.particles).momentum?.affine
+}
+
+/// State of the affine velocity field; empty if the transfer has none.
+pub(super) fn affine_state_mut<const D: usize>(transfer: &mut dyn Transfer<D>) -> &mut [Matrix<D>] {
+    let G2pRequest { moment, gradient, .. } = transfer.g2p_request(0.0);
+    moment.or(gradient).unwrap_or_default()
+}
+
 impl<const D: usize> Perturbable for Solver<D> {
-    fn freeze(&mut self) {
-        self.frozen = true;
+    fn fix_configuration(&mut self) {
+        self.schedule = Schedule::new(&mut self.setup, Coupled::default(), true);
     }
 
     fn state(&self, state: &mut Vec<f64>) {
@@ -25,19 +43,19 @@ impl<const D: usize> Perturbable for Solver<D> {
         state.extend(particles.v.iter().flatten());
         state.extend(matrices(particles).flatten());
         state.extend(&particles.vol);
-        state.extend(self.setup.transfer.carried().iter().flatten());
+        state.extend(affine(self).into_iter().flat_map(Affine::state).flatten());
     }
 
     fn set_state(&mut self, state: &[f64]) {
         let Particles { v, sigma, def_grad, vol, .. } = &mut self.setup.particles;
-        let carried = self.setup.transfer.carried_mut();
+        let affine_state = affine_state_mut(self.setup.transfer.as_mut());
         let numbers = v
             .iter_mut()
             .flatten()
             .chain(sigma.iter_mut().flatten())
             .chain(def_grad.iter_mut().flatten())
             .chain(vol.iter_mut())
-            .chain(carried.iter_mut().flatten());
+            .chain(affine_state.iter_mut().flatten());
         for (number, value) in numbers.zip(state) {
             *number = *value;
         }
@@ -45,7 +63,6 @@ impl<const D: usize> Perturbable for Solver<D> {
 
     fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>) {
         let particles = &self.setup.particles;
-        let carried = self.setup.transfer.carried_size(speed, self.setup.grid.h);
         sizes.clear();
         let mut same = |size: f64, count: usize| sizes.extend(std::iter::repeat_n(size, count));
         same(speed, D * particles.len());
@@ -54,6 +71,8 @@ impl<const D: usize> Perturbable for Solver<D> {
         for vol in &particles.vol0 {
             same(*vol, 1);
         }
-        same(carried, D * D * self.setup.transfer.carried().len());
+        if let Some(affine) = affine(self) {
+            same(affine.size(speed, self.setup.grid.h), D * D * affine.state().len());
+        }
     }
 }

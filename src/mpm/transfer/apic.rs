@@ -1,24 +1,20 @@
 //! APIC: the particle carries an affine velocity field.
 //!
-//! `v_p = sum_i v_i N_i`, `B_p = sum_i v_i (x) (x_i - x_p) N_i`, and it shows the nodes
+//! `v_p = sum_i v_i N_i`, `B_p = sum_i v_i (x) (x_i - x_p) N_i`, and nodes take
 //! `v_p + B_p D_p^-1 (x_i - x_p)` (Jiang, Schroeder, Selle, Teran & Stomakhin 2015, eqs 8-10;
-//! Jiang, Schroeder & Teran 2017 prove that angular momentum is exact). B is carried, and D is
-//! that of the new position: on the linear basis, whose D changes within a cell, carrying
-//! C = B D^-1 would lose angular momentum.
+//! Jiang, Schroeder & Teran 2017 prove that angular momentum is exact). The state is B, and D is
+//! that of the new position: on the linear basis, whose D changes within a cell, the
+//! state C = B D^-1 would lose angular momentum.
 
-use super::{
-    contract::{Kind, Transfer, add_acceleration, mix_velocity},
-    wanted::Recipe,
-};
+use super::contract::{Transfer, TransferKind};
 use crate::{
     mpm::{
         algebra::Matrix,
-        boundary::Boundary,
         grid::Grid,
         kernel::{
             contract::Kernel,
             moments::Moments,
-            request::{Affine, ParticleField},
+            request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
         },
         particles::Particles,
     },
@@ -33,8 +29,8 @@ pub struct Apic<const D: usize> {
 }
 
 impl<const D: usize> Transfer<D> for Apic<D> {
-    fn kind(&self) -> Kind {
-        Kind::Field
+    fn kind(&self) -> TransferKind {
+        TransferKind::Field
     }
 
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
@@ -49,63 +45,15 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         vec![Column::of_particles("B", &self.b)]
     }
 
-    fn reads_grid_velocity(&self) -> bool {
-        true
+    fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
+        let affine = Some(Affine::Moment(&self.b));
+        let momentum = Some(ParticleField { v: &particles.v, affine });
+        P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
     }
 
-    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> ParticleField<'a, D> {
-        ParticleField { v: &particles.v, affine: Some(Affine::Moment(&self.b)) }
-    }
-
-    fn needs_moments(&self) -> bool {
-        true
-    }
-
-    fn recipe(&self) -> Option<Recipe> {
-        Some(Recipe { change: false, mix: Some((0.0, 1.0)) })
-    }
-
-    fn moment_column(&mut self) -> Option<&mut [Matrix<D>]> {
-        Some(&mut self.b)
-    }
-
-    fn g2p_velocity(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        grid: &Grid<D>,
-        _: &[Box<dyn Boundary<D>>],
-        _: f64,
-        particles: &mut Particles<D>,
-    ) -> u64 {
-        mix_velocity(kernel, grid, (0.0, 1.0), particles);
-        kernel.g2p_moment(grid, &grid.velocity, particles, &mut self.b);
-        2
-    }
-
-    fn kick(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        grid: &Grid<D>,
-        dt: f64,
-        particles: &mut Particles<D>,
-    ) -> u64 {
-        add_acceleration(kernel, grid, dt, particles);
-        // The column of the material is free until its stage comes.
-        let mut change = std::mem::take(&mut particles.grad_v);
-        kernel.g2p_moment(grid, &grid.acceleration, particles, &mut change);
-        for (b, change) in self.b.iter_mut().zip(&change) {
-            *b += change * dt;
-        }
-        particles.grad_v = change;
-        2
-    }
-
-    fn carried(&self) -> &[Matrix<D>] {
-        &self.b
-    }
-
-    fn carried_mut(&mut self) -> &mut [Matrix<D>] {
-        &mut self.b
+    fn g2p_request(&mut self, _: f64) -> G2pRequest<'_, D> {
+        let (mix, moment) = (Some((0.0, 1.0)), Some(&mut *self.b));
+        G2pRequest { mix, moment, ..G2pRequest::default() }
     }
 
     fn moment(&self, p: usize) -> Option<Matrix<D>> {

@@ -1,6 +1,6 @@
 //! A transfer as a suite chooses it: by its name, or a series with any number of terms.
 
-use super::{Fmpm, Kind, Transfer, TransferName, Xpic, transfer};
+use super::{Fmpm, Transfer, TransferKind, TransferName, Xpic, transfer};
 
 /// A transfer, ready to be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,11 +29,11 @@ impl TransferChoice {
         }
     }
 
-    /// What the transfer is made of.
-    pub fn kind(self) -> Kind {
+    /// Kind of the transfer.
+    pub fn kind(self) -> TransferKind {
         match self {
             Self::Named(name) => name.kind(),
-            Self::Xpic(_) | Self::Fmpm(_) => Kind::Series,
+            Self::Xpic(_) | Self::Fmpm(_) => TransferKind::Series,
         }
     }
 

@@ -5,16 +5,16 @@
 //! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved so; particles then
 //! take the grid's velocity. FMPM(1) is PIC.
 
-use super::{
-    contract::{Kind, Transfer, mix_velocity},
-    wanted::Recipe,
-};
+use super::contract::{Transfer, TransferKind};
 use crate::{
     mpm::{
         algebra::Vector,
         boundary::Boundary,
         grid::Grid,
-        kernel::{contract::Kernel, request::ParticleField},
+        kernel::{
+            contract::Kernel,
+            request::{G2pRequest, ParticleField},
+        },
         particles::Particles,
     },
     subject::Column,
@@ -37,8 +37,8 @@ impl<const D: usize> Fmpm<D> {
 }
 
 impl<const D: usize> Transfer<D> for Fmpm<D> {
-    fn kind(&self) -> Kind {
-        Kind::Series
+    fn kind(&self) -> TransferKind {
+        TransferKind::Series
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
@@ -55,10 +55,6 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         ]
     }
 
-    fn reads_grid_velocity(&self) -> bool {
-        true
-    }
-
     fn refine(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -70,8 +66,8 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         self.rest.copy_from_slice(field);
         for _ in 1..self.order {
             kernel.g2p(grid, &self.rest, particles, (0.0, 1.0), &mut self.seen);
-            let shown = ParticleField { v: &self.seen, affine: None };
-            kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
+            let field_of_particles = ParticleField { v: &self.seen, affine: None };
+            kernel.p2g_momentum(particles, field_of_particles, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
             for (rest, mapped) in self.rest.iter_mut().zip(&self.nodal) {
                 *rest -= mapped;
@@ -86,19 +82,7 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         2 * u64::from(self.order - 1)
     }
 
-    fn recipe(&self) -> Option<Recipe> {
-        Some(Recipe { change: false, mix: Some((0.0, 1.0)) })
-    }
-
-    fn g2p_velocity(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        grid: &Grid<D>,
-        _: &[Box<dyn Boundary<D>>],
-        _: f64,
-        particles: &mut Particles<D>,
-    ) -> u64 {
-        mix_velocity(kernel, grid, (0.0, 1.0), particles);
-        1
+    fn g2p_request(&mut self, _: f64) -> G2pRequest<'_, D> {
+        G2pRequest { mix: Some((0.0, 1.0)), ..G2pRequest::default() }
     }
 }

@@ -8,28 +8,25 @@ mod contract;
 mod flip;
 mod fmpm;
 mod mls;
+mod passes;
 mod pic;
 mod tls;
 mod tpic;
-mod visit;
-mod wanted;
 mod xpic;
 
 pub use apic::Apic;
 pub use blend::Blend;
 pub use choice::TransferChoice;
-pub use contract::{Kind, Transfer};
+pub use contract::{Transfer, TransferKind};
 pub use flip::Flip;
 pub use fmpm::Fmpm;
 pub use mls::Mls;
+pub use passes::g2p;
+pub(in crate::mpm) use passes::kick;
 pub use pic::Pic;
 pub use tls::Tls;
 pub use tpic::Tpic;
-pub use wanted::{Recipe, Wanted};
 pub use xpic::Xpic;
-
-pub(in crate::mpm) use visit::rest;
-pub use visit::{Also, g2p};
 
 use super::family::objects;
 
@@ -53,8 +50,8 @@ objects! {
 }
 
 impl TransferName {
-    /// What the transfer is made of.
-    pub fn kind(self) -> Kind {
+    /// Kind of the transfer.
+    pub fn kind(self) -> TransferKind {
         // The same in every dimension.
         transfer::<1>(self).kind()
     }

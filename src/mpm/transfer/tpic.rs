@@ -1,24 +1,24 @@
 //! TPIC: PIC with the first terms of a Taylor series.
 //!
-//! `v_p = sum_i v_i N_i`, `C_p = sum_i v_i (x) grad N_i`, and the particle shows the nodes
+//! `v_p = sum_i v_i N_i`, `C_p = sum_i v_i (x) grad N_i`, and nodes take
 //! `v_p + C_p (x_i - x_p)` (Nakamura, Matsumura & Mizutani 2023, CMAME 411). No inertia tensor is
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
 use super::{
-    contract::{Kind, Transfer, add_acceleration, map, mix_velocity},
-    wanted::Wanted,
+    contract::{Transfer, TransferKind},
+    passes::p2g,
 };
 use crate::{
     mpm::{
         algebra::Matrix,
-        boundary::Boundary,
         grid::Grid,
         kernel::{
             contract::Kernel,
             moments::Moments,
-            request::{Affine, ParticleField},
+            request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
         },
         particles::Particles,
+        stage::Stage,
     },
     subject::Column,
 };
@@ -32,8 +32,8 @@ pub struct Tpic<const D: usize> {
 }
 
 impl<const D: usize> Transfer<D> for Tpic<D> {
-    fn kind(&self) -> Kind {
-        Kind::Field
+    fn kind(&self) -> TransferKind {
+        TransferKind::Field
     }
 
     fn start(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
@@ -47,12 +47,10 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         own.into_iter().chain(self.moments.columns()).collect()
     }
 
-    fn reads_grid_velocity(&self) -> bool {
-        true
-    }
-
-    fn shown<'a>(&'a self, particles: &'a Particles<D>) -> ParticleField<'a, D> {
-        ParticleField { v: &particles.v, affine: Some(Affine::Slope(&self.c)) }
+    fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
+        let affine = Some(Affine::Slope(&self.c));
+        let momentum = Some(ParticleField { v: &particles.v, affine });
+        P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
     }
 
     fn p2g(
@@ -60,57 +58,19 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &mut Grid<D>,
-        wanted: Wanted,
+        stages: &[Stage],
     ) -> u64 {
-        if wanted.mass {
+        let has_moved = stages.contains(&Stage::Mass);
+        if has_moved {
             kernel.moments(grid, particles, &mut self.moments);
         }
-        u64::from(wanted.mass) + map(self, kernel, particles, grid, wanted)
+        let request = self.p2g_request(particles);
+        u64::from(has_moved) + p2g(request, kernel, particles, grid, stages)
     }
 
-    fn g2p_velocity(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        grid: &Grid<D>,
-        _: &[Box<dyn Boundary<D>>],
-        _: f64,
-        particles: &mut Particles<D>,
-    ) -> u64 {
-        mix_velocity(kernel, grid, (0.0, 1.0), particles);
-        kernel.g2p_gradient(grid, &grid.velocity, particles, &mut self.c);
-        2
-    }
-
-    /// The gradient of the accelerations is what velocity gradients change by.
-    fn kick(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        grid: &Grid<D>,
-        dt: f64,
-        particles: &mut Particles<D>,
-    ) -> u64 {
-        add_acceleration(kernel, grid, dt, particles);
-        // The column of the material is free until its stage comes.
-        let mut change = std::mem::take(&mut particles.grad_v);
-        kernel.g2p_gradient(grid, &grid.acceleration, particles, &mut change);
-        for (c, change) in self.c.iter_mut().zip(&change) {
-            *c += change * dt;
-        }
-        particles.grad_v = change;
-        2
-    }
-
-    fn carried(&self) -> &[Matrix<D>] {
-        &self.c
-    }
-
-    fn carried_mut(&mut self) -> &mut [Matrix<D>] {
-        &mut self.c
-    }
-
-    /// C is a gradient.
-    fn carried_size(&self, speed: f64, h: f64) -> f64 {
-        speed / h
+    fn g2p_request(&mut self, _: f64) -> G2pRequest<'_, D> {
+        let (mix, gradient) = (Some((0.0, 1.0)), Some(&mut *self.c));
+        G2pRequest { mix, gradient, ..G2pRequest::default() }
     }
 
     fn moment(&self, p: usize) -> Option<Matrix<D>> {

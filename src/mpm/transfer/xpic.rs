@@ -6,13 +6,15 @@
 //! l is multiplied by 1 - (1 - l)^m. The filter knows no walls, which may be driven; walls act
 //! through the accelerations.
 
-use super::contract::{Kind, Transfer, add_acceleration};
+use super::contract::{Transfer, TransferKind};
 use crate::{
     mpm::{
         algebra::Vector,
-        boundary::Boundary,
         grid::Grid,
-        kernel::{contract::Kernel, request::ParticleField},
+        kernel::{
+            contract::Kernel,
+            request::{G2pRequest, ParticleField},
+        },
         particles::Particles,
     },
     subject::Column,
@@ -34,8 +36,8 @@ impl<const D: usize> Xpic<D> {
 }
 
 impl<const D: usize> Transfer<D> for Xpic<D> {
-    fn kind(&self) -> Kind {
-        Kind::Series
+    fn kind(&self) -> TransferKind {
+        TransferKind::Series
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
@@ -47,29 +49,26 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
         vec![Column::of_particles("rest", &self.rest), Column::of_nodes("work", &self.nodal)]
     }
 
-    fn reads_grid_velocity(&self) -> bool {
-        false
-    }
-
-    fn g2p_velocity(
+    fn filter(
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        _: &[Box<dyn Boundary<D>>],
-        dt: f64,
         particles: &mut Particles<D>,
     ) -> u64 {
         self.rest.copy_from_slice(&particles.v);
         for _ in 0..self.order {
-            let shown = ParticleField { v: &self.rest, affine: None };
-            kernel.p2g_momentum(particles, shown, grid, &mut self.nodal);
+            let field = ParticleField { v: &self.rest, affine: None };
+            kernel.p2g_momentum(particles, field, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
             kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.rest);
         }
         for (v, rest) in particles.v.iter_mut().zip(&self.rest) {
             *v -= rest;
         }
-        add_acceleration(kernel, grid, dt, particles);
-        2 * u64::from(self.order) + 1
+        2 * u64::from(self.order)
+    }
+
+    fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D> {
+        G2pRequest { change: Some(dt), ..G2pRequest::default() }
     }
 }

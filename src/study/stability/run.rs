@@ -164,7 +164,7 @@ impl Job<'_> {
     fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
         let mut subject = perturbable(&bodies(setting), self.case.method, setting.level)?;
         if setting.frozen {
-            subject.freeze();
+            subject.fix_configuration();
         }
         Ok(subject)
     }

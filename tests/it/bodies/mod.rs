@@ -5,8 +5,8 @@ mod viscosity;
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
-        BasisName, Block, Bodies, Kind, LinearElastic, Matrix, Particles, SchemeName, Setup,
-        Solver, TransferName, Vector,
+        BasisName, Block, Bodies, LinearElastic, Matrix, Particles, SchemeName, Setup, Solver,
+        TransferKind, TransferName, Vector,
     },
     subject::{Samples, Start, Subject, Totals},
 };
@@ -24,7 +24,9 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
 
 /// Those that bodies can have that meet.
 fn meeting(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
-    some(dimension).filter(|(_, transfer)| !matches!(transfer.kind(), Kind::Series | Kind::Cells))
+    some(dimension).filter(|(_, transfer)| {
+        !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)
+    })
 }
 
 /// The free body, made of what lies between two heights along the first axis.

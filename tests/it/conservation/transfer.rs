@@ -2,7 +2,7 @@
 
 use crate::common::{H, in_dimension, pairs};
 use approx::assert_abs_diff_eq;
-use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Vector, kernel, transfer};
+use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Stage, Vector, g2p, kernel, transfer};
 use proptest::{array::uniform3, collection::vec, prelude::*};
 
 const CELLS: usize = 4;
@@ -51,14 +51,12 @@ fn p2g_keeps<const D: usize>(rows: &[Row]) {
         let kernel = kernel.as_ref();
         let mut grid = grid(kernel);
         transfer.start(kernel, &grid, &particles);
-        transfer.p2g_mass(kernel, &particles, &mut grid);
-        let mut momentum = grid.velocity.clone();
-        transfer.p2g_momentum(kernel, &particles, &grid, &mut momentum);
+        transfer.p2g(kernel, &particles, &mut grid, &[Stage::Mass, Stage::Momentum]);
         let (before, after): (f64, f64) = (particles.mass.iter().sum(), grid.mass.iter().sum());
         assert_abs_diff_eq!(after, before, epsilon = 1e-14 * before);
 
         let each = || particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m);
-        let change = momentum.iter().sum::<Vector<D>>() - each().sum::<Vector<D>>();
+        let change = grid.velocity.iter().sum::<Vector<D>>() - each().sum::<Vector<D>>();
         let size: f64 = each().map(|momentum| momentum.norm()).sum();
         assert_abs_diff_eq!(change.norm(), 0.0, epsilon = 1e-14 * size);
     }
@@ -71,7 +69,7 @@ fn forces_cancel<const D: usize>(rows: &[Row]) {
         let kernel = kernel.as_ref();
         let mut grid = grid(kernel);
         transfer.start(kernel, &grid, &particles);
-        transfer.p2g_internal_force(kernel, &particles, &mut grid);
+        transfer.p2g(kernel, &particles, &mut grid, &[Stage::Force]);
         let size: f64 =
             particles.sigma.iter().zip(&particles.vol).map(|(s, vol)| s.norm() * vol / H).sum();
         let total = grid.force.iter().sum::<Vector<D>>();
@@ -89,16 +87,15 @@ fn translation_is_exact<const D: usize>(rows: &[Row]) {
         let mut grid = grid(kernel);
         let mut after = before.clone();
         transfer.start(kernel, &grid, &after);
-        transfer.p2g_mass(kernel, &after, &mut grid);
+        transfer.p2g(kernel, &after, &mut grid, &[Stage::Mass]);
         grid.velocity.fill(velocity);
         grid.acceleration.fill(velocity);
-        transfer.g2p_velocity(kernel, &grid, &[], 0.5, &mut after);
-        transfer.g2p_gradient(kernel, &grid, &mut after);
-        let mut carried = before.v.clone();
-        kernel.g2p(&grid, &grid.velocity, &before, (0.0, 1.0), &mut carried);
+        let mut advected = before.x.clone();
+        let stages = [Stage::ParticleVelocity, Stage::Stress, Stage::Position];
+        g2p(&mut *transfer, kernel, (&grid, 0.5), &mut after, &stages, &mut advected);
         for p in 0..before.len() {
             let dv = after.v[p] - before.v[p] - velocity * 0.5;
-            let dx = (carried[p] - velocity) * 0.5;
+            let dx = advected[p] - before.x[p] - velocity * 0.5;
             assert_abs_diff_eq!(dv.norm(), 0.0, epsilon = 1e-14 * 20.0);
             assert_abs_diff_eq!(dx.norm(), 0.0, epsilon = 1e-14 * 20.0);
             assert_abs_diff_eq!(after.grad_v[p].norm(), 0.0, epsilon = 1e-14 * 20.0 / H);

@@ -13,17 +13,17 @@ use self::{
     fit::Fit,
     quadrature_points::{Spot, Spots},
 };
-use super::{
-    contract::{Kind, Transfer, add_acceleration},
-    wanted::Wanted,
-};
+use super::contract::{Transfer, TransferKind};
 use crate::{
     mpm::{
         algebra::Vector,
-        boundary::Boundary,
         grid::Grid,
-        kernel::{contract::Kernel, request::ParticleField},
+        kernel::{
+            contract::Kernel,
+            request::{G2pRequest, ParticleField},
+        },
         particles::Particles,
+        stage::Stage,
     },
     subject::Column,
 };
@@ -71,8 +71,8 @@ impl<const D: usize> Tls<D> {
 }
 
 impl<const D: usize> Transfer<D> for Tls<D> {
-    fn kind(&self) -> Kind {
-        Kind::Cells
+    fn kind(&self) -> TransferKind {
+        TransferKind::Cells
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
@@ -92,94 +92,61 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         self.spots.columns().into_iter().chain(points).collect()
     }
 
-    fn reads_grid_velocity(&self) -> bool {
-        false
-    }
-
-    /// Each map integrates other fields.
+    /// Each stage integrates other fields, by two passes.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
         particles: &Particles<D>,
         grid: &mut Grid<D>,
-        wanted: Wanted,
+        stages: &[Stage],
     ) -> u64 {
-        let mut passes = 0;
-        if wanted.mass {
-            passes += self.p2g_mass(kernel, particles, grid);
+        if stages.contains(&Stage::Mass) {
+            self.place(grid, particles);
         }
-        if wanted.momentum {
-            let mut momentum = std::mem::take(&mut grid.velocity);
-            passes += self.p2g_momentum(kernel, particles, grid, &mut momentum);
-            grid.velocity = momentum;
-        }
-        if wanted.force {
-            passes += self.p2g_internal_force(kernel, particles, grid);
-        }
-        passes
-    }
-
-    fn p2g_mass(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        self.place(grid, particles);
-        if let Some(points) = &self.points {
+        let Some(points) = &mut self.points else { return 0 };
+        if stages.contains(&Stage::Mass) {
             kernel.p2g_mass(points, grid);
         }
-        2
+        if stages.contains(&Stage::Momentum) {
+            p2g_momentum(&self.spots, points, kernel, particles, grid);
+        }
+        if stages.contains(&Stage::Force) {
+            let own = |p: usize| particles.sigma[p];
+            fill(&self.spots, &mut points.sigma, own, |_, spot, fit| fit.free(spot, own));
+            kernel.p2g_internal_force(points, grid);
+        }
+        2 * stages.len() as u64
     }
 
-    fn p2g_momentum(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &Grid<D>,
-        momentum: &mut [Vector<D>],
-    ) -> u64 {
-        let Some(points) = &mut self.points else { return 0 };
-        let Particles { v, mass, .. } = points;
-        let own = |p: usize| particles.v[p] * particles.mass[p];
-        fill(
-            &self.spots,
-            v,
-            |p| particles.v[p],
-            |k, spot, fit| {
-                let sum = fit.members.iter().map(|&p| own(p)).sum::<Vector<D>>();
-                let density = fit.conserved(spot, sum, grid, |p| own(p) / particles.vol[p]);
-                density * (spot.volume / mass[k])
-            },
-        );
-        kernel.p2g_momentum(points, ParticleField { v: &points.v, affine: None }, grid, momentum);
-        2
+    fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D> {
+        G2pRequest { change: Some(dt), ..G2pRequest::default() }
     }
+}
 
-    fn p2g_internal_force(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        particles: &Particles<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        let Some(points) = &mut self.points else { return 0 };
-        let own = |p: usize| particles.sigma[p];
-        fill(&self.spots, &mut points.sigma, own, |_, spot, fit| fit.free(spot, own));
-        kernel.p2g_internal_force(points, grid);
-        2
-    }
-
-    fn g2p_velocity(
-        &mut self,
-        kernel: &dyn Kernel<D>,
-        grid: &Grid<D>,
-        _: &[Box<dyn Boundary<D>>],
-        dt: f64,
-        particles: &mut Particles<D>,
-    ) -> u64 {
-        add_acceleration(kernel, grid, dt, particles);
-        1
-    }
+/// P2G of the momentum (kg m/s) that is integrated over the `points`, into `grid.velocity`.
+fn p2g_momentum<const D: usize>(
+    spots: &Spots<D>,
+    points: &mut Particles<D>,
+    kernel: &dyn Kernel<D>,
+    particles: &Particles<D>,
+    grid: &mut Grid<D>,
+) {
+    let Particles { v, mass, .. } = points;
+    let own = |p: usize| particles.v[p] * particles.mass[p];
+    fill(
+        spots,
+        v,
+        |p| particles.v[p],
+        |k, spot, fit| {
+            let sum = fit.members.iter().map(|&p| own(p)).sum::<Vector<D>>();
+            let density = fit.conserved(spot, sum, grid, |p| own(p) / particles.vol[p]);
+            density * (spot.volume / mass[k])
+        },
+    );
+    let mut momentum = std::mem::take(&mut grid.velocity);
+    let field = ParticleField { v: &points.v, affine: None };
+    kernel.p2g_momentum(points, field, grid, &mut momentum);
+    grid.velocity = momentum;
 }
 
 #[cfg(test)]
@@ -208,7 +175,7 @@ mod tests {
         assert!(grid.force[4].norm() > 1.0, "the sum over particles does: {}", grid.force[4]);
         let mut tls = Tls::default();
         tls.start(&*kernel, &grid, &particles);
-        tls.p2g_internal_force(&*kernel, &particles, &mut grid);
+        tls.p2g(&*kernel, &particles, &mut grid, &[Stage::Force]);
         for force in &grid.force {
             assert_abs_diff_eq!(force.norm(), 0.0, epsilon = 1e-13);
         }
@@ -245,10 +212,9 @@ mod tests {
         let kernel = kernel::<1>(BasisName::Linear);
         let mut tls = Tls::default();
         tls.start(&*kernel, &grid, &particles);
-        tls.p2g_mass(&*kernel, &particles, &mut grid);
-        let mut momentum = grid.velocity.clone();
-        tls.p2g_momentum(&*kernel, &particles, &grid, &mut momentum);
-        let velocity = momentum.iter().zip(&grid.mass).map(|(momentum, mass)| momentum[0] / mass);
+        tls.p2g(&*kernel, &particles, &mut grid, &[Stage::Mass, Stage::Momentum]);
+        let momenta = grid.velocity.iter().zip(&grid.mass);
+        let velocity = momenta.map(|(momentum, mass)| momentum[0] / mass);
         (grid.mass.clone(), velocity.collect())
     }
 

@@ -5,7 +5,7 @@ use crate::{
         Motion, Round,
         heat::{Conduction, Temperature, ThermalCondition, ThermalFace},
     },
-    mpm::{FrameName, Kind},
+    mpm::{FrameName, TransferKind},
     suite::{
         compile::{
             coordinates::coordinates_and_time, evaluator::Evaluator, path::Path,
@@ -200,7 +200,8 @@ pub(crate) fn methods(
                                    grid does not see";
                     return Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message));
                 }
-                if transfer.as_slice().iter().any(|transfer| transfer.kind() == Kind::Cells) {
+                if transfer.as_slice().iter().any(|transfer| transfer.kind() == TransferKind::Cells)
+                {
                     let message = "heat is summed over particles, and a transfer that integrates \
                                    over cells has other nodal masses";
                     return Err(evaluator.diagnostic(&path.then("mpm").then("transfer"), message));

@@ -1,0 +1,112 @@
+//! Passes of P2G and G2P for the requests of a transfer.
+
+use super::contract::Transfer;
+use crate::mpm::{
+    algebra::{Matrix, Vector},
+    grid::Grid,
+    kernel::{
+        contract::Kernel,
+        request::{Divergence, G2pRequest, P2gRequest},
+    },
+    particles::Particles,
+    stage::Stage,
+};
+
+/// One pass of P2G: the parts of `request` that `stages` need.
+pub(super) fn p2g<const D: usize>(
+    request: P2gRequest<'_, D>,
+    kernel: &dyn Kernel<D>,
+    particles: &Particles<D>,
+    grid: &mut Grid<D>,
+    stages: &[Stage],
+) -> u64 {
+    let request = P2gRequest {
+        mass: stages.contains(&Stage::Mass),
+        momentum: request.momentum.filter(|_| stages.contains(&Stage::Momentum)),
+        force: request.force.filter(|_| stages.contains(&Stage::Force)),
+    };
+    kernel.p2g(particles, &request, grid);
+    request.parts().count() as u64
+}
+
+/// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and
+/// positions after the step into `advected` (m). One pass, and another one for gradients where the
+/// velocities take the same part of the first. Returns the passes without that of positions, which
+/// counts once these have moved.
+pub fn g2p<const D: usize>(
+    transfer: &mut dyn Transfer<D>,
+    kernel: &dyn Kernel<D>,
+    (grid, dt): (&Grid<D>, f64),
+    particles: &mut Particles<D>,
+    stages: &[Stage],
+    advected: &mut [Vector<D>],
+) -> u64 {
+    let is_fit = transfer.p2g_request(particles).force == Some(Divergence::Fit);
+    let (mut request, mut second) = (G2pRequest::default(), G2pRequest::default());
+    let mut passes = 0;
+    if stages.contains(&Stage::ParticleVelocity) {
+        passes += transfer.filter(kernel, grid, particles);
+        request = transfer.g2p_request(dt);
+    }
+    let (mut v, mut grad_v) =
+        (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
+    request.value = stages.contains(&Stage::ParticleVelocity).then_some(&mut v);
+    let wants_gradient = stages.contains(&Stage::Stress);
+    if wants_gradient {
+        let is_taken = gradient_part(&mut request, is_fit).is_some();
+        let free = if is_taken { &mut second } else { &mut request };
+        *gradient_part(free, is_fit) = Some(&mut grad_v);
+    }
+    if stages.contains(&Stage::Position) {
+        request.advected = Some((dt, advected));
+    }
+    for request in [request, second] {
+        let parts = request.parts().count();
+        passes += parts as u64 - u64::from(request.advected.is_some());
+        if parts > 0 {
+            kernel.g2p_all(grid, particles, request);
+        }
+    }
+    if wants_gradient && is_fit {
+        kernel.divide_by_inertia(grid, particles, &mut grad_v);
+    }
+    (particles.v, particles.grad_v) = (v, grad_v);
+    passes
+}
+
+/// The part of `request` that gives velocity gradients: those of a fit are `B_p D_p^-1`.
+fn gradient_part<'r, 'a, const D: usize>(
+    request: &'r mut G2pRequest<'a, D>,
+    is_fit: bool,
+) -> &'r mut Option<&'a mut [Matrix<D>]> {
+    if is_fit { &mut request.moment } else { &mut request.gradient }
+}
+
+/// G2P: adds the grid's accelerations over `dt` (s) to velocities and affine states of particles,
+/// with no other change, as at the start of a run half a step back.
+pub(in crate::mpm) fn kick<const D: usize>(
+    transfer: &mut dyn Transfer<D>,
+    kernel: &dyn Kernel<D>,
+    grid: &Grid<D>,
+    dt: f64,
+    particles: &mut Particles<D>,
+) -> u64 {
+    let mut v = std::mem::take(&mut particles.v);
+    kernel.g2p(grid, &grid.acceleration, particles, (1.0, dt), &mut v);
+    particles.v = v;
+    // Free until the stage of stresses.
+    let mut change = std::mem::take(&mut particles.grad_v);
+    let G2pRequest { moment, gradient, .. } = transfer.g2p_request(dt);
+    if moment.is_some() {
+        kernel.g2p_moment(grid, &grid.acceleration, particles, &mut change);
+    } else if gradient.is_some() {
+        kernel.g2p_gradient(grid, &grid.acceleration, particles, &mut change);
+    }
+    let state = moment.or(gradient);
+    let passes = 1 + u64::from(state.is_some());
+    for (state, change) in state.into_iter().flatten().zip(&change) {
+        *state += change * dt;
+    }
+    particles.grad_v = change;
+    passes
+}
