@@ -10,11 +10,13 @@
 //!
 //! markdown   text -> headings, links, spans of code, fenced blocks
 //! documents  what they say that the repository does not have
+//! exercises  pages that add a member to a family, and how they are applied
 //! ```
 //!
 //! [`synthetic`] and [`planted`] hold the scanners themselves to small texts with planted breaches.
 
 mod documents;
+mod exercises;
 mod graph;
 mod import;
 mod markdown;
@@ -227,4 +229,51 @@ fn documents_speak_of_what_is_there() {
         "a document that says what is no longer there costs its reader more than none",
         stale.collect::<Vec<_>>(),
     );
+}
+
+/// The pages of exercises that are there, with the most files that each may touch.
+fn exercises() -> Vec<(markdown::Document, usize)> {
+    let documents = documents();
+    let page = |name: &str| format!("docs/exercises/{name}.md");
+    let pages = documents.into_iter().filter_map(|document| {
+        let (_, most) = exercises::PAGES.iter().find(|(name, _)| page(name) == document.file)?;
+        Some((document, *most))
+    });
+    pages.collect()
+}
+
+#[test]
+fn exercises_apply_to_the_present_sources() {
+    for (page, most) in exercises() {
+        let file = &page.file;
+        let changes = exercises::changes(&page).unwrap_or_else(|what| panic!("{what}"));
+        let applied = exercises::check(&changes, source::root());
+        assert!(applied.is_ok(), "{file}: {}", applied.unwrap_err());
+        let text = std::fs::read_to_string(source::root().join(file)).expect("a page");
+        let counted = exercises::counted(&changes);
+        assert!(text.contains(&counted), "{file} must say: {counted}");
+        let files = exercises::files(&changes);
+        assert!(files <= most, "{file} touches {files} files of src/, {most} are wanted");
+        let suites = exercises::suites(&changes);
+        assert_eq!(suites.len(), 1, "{file} adds one suite that uses the new member");
+    }
+}
+
+/// Writes a copy of the repository with all exercises applied into the folder that the variable
+/// `EXERCISES` names, and prints their suites: `ci/exercises` builds and runs it.
+#[test]
+#[ignore = "ci/exercises runs it"]
+fn exercises_are_written() {
+    let copy = std::env::var_os("EXERCISES").expect("EXERCISES names a folder");
+    let copy = std::path::Path::new(&copy);
+    for file in source::paths("") {
+        let to = copy.join(&file);
+        std::fs::create_dir_all(to.parent().expect("a folder")).expect("a folder is made");
+        std::fs::copy(source::root().join(&file), to).expect("a file is copied");
+    }
+    for (page, _) in exercises() {
+        let changes = exercises::changes(&page).unwrap_or_else(|what| panic!("{what}"));
+        exercises::apply(&changes, copy).unwrap_or_else(|what| panic!("{}: {what}", page.file));
+        exercises::suites(&changes).iter().for_each(|suite| println!("suite {suite}"));
+    }
 }

@@ -15,6 +15,8 @@ pub(crate) struct Document {
 pub(crate) struct Block {
     /// Where its fence opens.
     pub(crate) line: usize,
+    /// The last line of text before it that is not empty.
+    pub(crate) before: String,
     pub(crate) language: String,
     pub(crate) text: String,
 }
@@ -30,19 +32,26 @@ impl Document {
     pub(crate) fn new(file: &str, text: &str) -> Self {
         let mut document = Self { file: file.to_owned(), lines: Vec::new(), blocks: Vec::new() };
         let mut open: Option<Block> = None;
+        let mut before = String::new();
         for (line, text) in (1..).zip(text.lines()) {
             match (text.trim_start().strip_prefix("```"), open.take()) {
                 (Some(_), Some(block)) => document.blocks.push(block),
                 (Some(language), None) => {
                     let language = language.trim().to_owned();
-                    open = Some(Block { line, language, text: String::new() });
+                    let before = before.clone();
+                    open = Some(Block { line, before, language, text: String::new() });
                 }
                 (None, Some(mut block)) => {
                     block.text += text;
                     block.text += "\n";
                     open = Some(block);
                 }
-                (None, None) => document.lines.push((line, text.to_owned())),
+                (None, None) => {
+                    if !text.trim().is_empty() {
+                        text.trim().clone_into(&mut before);
+                    }
+                    document.lines.push((line, text.to_owned()));
+                }
             }
         }
         document

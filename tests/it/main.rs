@@ -8,6 +8,7 @@ mod closed_forms;
 mod common;
 mod conservation;
 mod determinism;
+mod documents;
 mod effects;
 mod motions;
 mod pitfalls;

@@ -1,0 +1,103 @@
+//! The documents, held to the program: it understands the command lines that they show, and loads
+//! the suites. (`tests/architecture` holds their paths, names and JSON to the repository.)
+
+#[path = "../architecture/markdown.rs"]
+#[allow(dead_code, reason = "links and headings are checked by tests/architecture")]
+mod markdown;
+
+use markdown::Document;
+use mpm_verify::suite::{Suite, yaml::Source};
+use std::{fs, path::Path, process::Command};
+
+/// Every document of the repository.
+fn documents() -> Vec<Document> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut documents = Vec::new();
+    for folder in ["", "docs", "docs/design", "docs/exercises", "benches", "tests/fuzz"] {
+        for entry in fs::read_dir(root.join(folder)).expect("a folder of documents") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|end| end == "md") {
+                let text = fs::read_to_string(&path).expect("a readable document");
+                let file = path.strip_prefix(root).unwrap_or(&path).display().to_string();
+                documents.push(Document::new(&file, &text));
+            }
+        }
+    }
+    documents
+}
+
+/// The arguments that a line gives to the program, as far as the shell would pass them on.
+fn arguments(line: &str) -> Option<Vec<&str>> {
+    let call = line.split(['#', '>', '|']).next().unwrap_or_default();
+    let mut words = call.split_whitespace().peekable();
+    match words.next()? {
+        "mpm-verify" => {}
+        "cargo" if words.peek() == Some(&"run") => {
+            words.find(|word| *word == "--")?;
+        }
+        _ => return None,
+    }
+    Some(words.collect())
+}
+
+/// The program parses a line's arguments in order, so that `--help` behind them is reached only if
+/// each of them is understood; then nothing is run.
+fn understood(arguments: &[&str]) -> Result<(), String> {
+    let program = Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
+        .args(arguments)
+        .arg("--help")
+        .output()
+        .expect("the program starts");
+    let help = String::from_utf8_lossy(&program.stdout).contains("Usage: mpm-verify");
+    let errors = String::from_utf8_lossy(&program.stderr).into_owned();
+    if program.status.success() && help { Ok(()) } else { Err(errors) }
+}
+
+#[test]
+fn the_program_understands_every_command_line() {
+    let mut count = 0;
+    for document in documents() {
+        let shell = document.blocks.iter().filter(|b| matches!(&*b.language, "console" | "sh"));
+        let lines = shell.flat_map(|block| block.text.lines().map(str::to_owned));
+        let spans = document.code_spans().into_iter().map(|span| span.text);
+        for line in lines.chain(spans) {
+            let Some(arguments) = arguments(&line) else { continue };
+            let understood = understood(&arguments);
+            assert!(understood.is_ok(), "{}: `{line}`\n{understood:?}", document.file);
+            count += 1;
+        }
+    }
+    assert!(count > 10, "documents show {count} command lines: are they still found?");
+}
+
+#[test]
+fn a_command_line_with_a_mistake_is_not_understood() {
+    for line in [
+        "mpm-verify rnu",
+        "mpm-verify run --formta json",
+        "cargo run --release -- run --format jsn   # as JSON",
+        "mpm-verify compare --tolerance x old.json new.json",
+    ] {
+        let arguments = arguments(line).expect("a call of the program");
+        assert!(understood(&arguments).is_err(), "`{line}` has a mistake");
+    }
+}
+
+/// Suites on the pages of exercises use what the crate does not have: `ci/exercises` runs them.
+#[test]
+fn suites_load_that_documents_show_whole() {
+    let mut count = 0;
+    for document in documents().iter().filter(|d| !d.file.starts_with("docs/exercises/")) {
+        let suites = document.blocks.iter().filter(|block| {
+            block.language == "yaml" && block.text.lines().any(|line| line.starts_with("suite:"))
+        });
+        for block in suites {
+            let place = format!("{}:{}", document.file, block.line);
+            let suite =
+                Source::from_text(&*place, &*block.text).and_then(|source| Suite::load(&source));
+            assert!(suite.is_ok(), "{place}\n{}", suite.err().expect("an error"));
+            count += 1;
+        }
+    }
+    assert!(count > 0, "the README shows a whole suite");
+}
