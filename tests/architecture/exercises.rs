@@ -1,8 +1,8 @@
 //! The exercises, `docs/exercises/FAMILY.md`: pages that add one member to a family.
 //!
 //! A page holds every change, so that it can be applied: a line `File: path` and below it a fenced
-//! block, either the whole text of a new file or a diff of a present one. A hunk begins with a line
-//! `@@`; its context and its removed lines stand in the file exactly once.
+//! block, either the whole text of a new file or a diff of a present one. A line `@@` parts hunks; the
+//! context and the removed lines of a hunk stand in the file exactly once.
 
 use crate::markdown::{Block, Document};
 use std::{
@@ -57,15 +57,13 @@ fn change(file: &str, block: &Block) -> Result<Change, String> {
 }
 
 fn hunks(text: &str) -> Result<Vec<Hunk>, String> {
-    let mut hunks: Vec<Hunk> = Vec::new();
+    let mut hunks = vec![Hunk::default()];
     for line in text.lines() {
         if line.starts_with("@@") {
             hunks.push(Hunk::default());
             continue;
         }
-        let Some(hunk) = hunks.last_mut() else {
-            return Err(format!("`{line}` stands before the first hunk"));
-        };
+        let hunk = hunks.last_mut().expect("at least one hunk");
         let (mark, rest) = line.split_at(line.len().min(1));
         let rest = format!("{rest}\n");
         match mark {
@@ -81,6 +79,7 @@ fn hunks(text: &str) -> Result<Vec<Hunk>, String> {
             _ => return Err(format!("`{line}` is no line of a diff")),
         }
     }
+    hunks.retain(|hunk| !hunk.old.is_empty());
     Ok(hunks)
 }
 
@@ -106,17 +105,19 @@ impl Change {
             (Edit::New(text), Some(present)) if *text == present => Ok(present),
             (Edit::New(_), Some(_)) => wrong("is to be new and is there already"),
             (Edit::Hunks(_), None) => wrong("is to be changed and is not there"),
-            (Edit::Hunks(hunks), Some(mut present)) => {
+            (Edit::Hunks(hunks), Some(present)) => {
+                let mut text = format!("\n{present}");
                 for hunk in hunks {
-                    let done = present.matches(&hunk.new).count();
-                    match present.matches(&hunk.old).count() {
-                        1 => present = present.replacen(&hunk.old, &hunk.new, 1),
+                    let [old, new] = [format!("\n{}", hunk.old), format!("\n{}", hunk.new)];
+                    let done = text.matches(&new).count();
+                    match text.matches(&old).count() {
+                        1 => text = text.replacen(&old, &new, 1),
                         0 if done == 1 => {}
-                        0 => return wrong(&format!("does not have these lines:\n{}", hunk.old)),
-                        n => return wrong(&format!("has these lines {n} times:\n{}", hunk.old)),
+                        0 => return wrong(&format!("does not have these lines:{old}")),
+                        n => return wrong(&format!("has these lines {n} times:{old}")),
                     }
                 }
-                Ok(present)
+                Ok(text.split_off(1))
             }
         }
     }
@@ -148,6 +149,20 @@ pub(crate) fn apply(changes: &[Change], root: &Path) -> Result<(), String> {
         let path = root.join(&change.file);
         let text = change.applied(fs::read_to_string(&path).ok())?;
         fs::write(&path, text).map_err(|error| format!("{}: {error}", change.file))?;
+    }
+    Ok(())
+}
+
+/// Whether what `tests/exercises` compiles is what the page adds: a file there has the name of the
+/// file that the page puts into `src/`.
+pub(crate) fn compiled(changes: &[Change], root: &Path) -> Result<(), String> {
+    for change in changes.iter().filter(|change| change.is_in_src()) {
+        let name = change.file.rsplit('/').next().unwrap_or_default();
+        let Edit::New(text) = &change.edit else { continue };
+        let compiled = fs::read_to_string(root.join("tests/exercises").join(name));
+        if compiled.is_ok_and(|compiled| compiled != *text) {
+            return Err(format!("line {}: tests/exercises/{name} differs", change.line));
+        }
     }
     Ok(())
 }

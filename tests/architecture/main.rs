@@ -247,9 +247,11 @@ fn exercises_apply_to_the_present_sources() {
     for (page, most) in exercises() {
         let file = &page.file;
         let changes = exercises::changes(&page).unwrap_or_else(|what| panic!("{what}"));
-        let applied = exercises::check(&changes, source::root());
+        let root = source::root();
+        let applied =
+            exercises::check(&changes, root).and_then(|()| exercises::compiled(&changes, root));
         assert!(applied.is_ok(), "{file}: {}", applied.unwrap_err());
-        let text = std::fs::read_to_string(source::root().join(file)).expect("a page");
+        let text = std::fs::read_to_string(root.join(file)).expect("a page");
         let counted = exercises::counted(&changes);
         assert!(text.contains(&counted), "{file} must say: {counted}");
         let files = exercises::files(&changes);
