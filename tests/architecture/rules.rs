@@ -22,7 +22,7 @@ pub(crate) const WALLS: &[Wall] = &[
     Wall { around: "subject", may: &["named"], why: "it is the contract between judge and solver" },
     Wall {
         around: "mpm",
-        may: &["subject", "named"],
+        may: &["subject", "named", "dimension"],
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
     Wall {

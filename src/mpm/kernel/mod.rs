@@ -34,17 +34,29 @@ use super::{
     packed_grid::Columns,
     particles::Particles,
 };
+use crate::dimension::with_dimension;
 use contract::Kernel;
 use moments::{InertiaTensor, Moments};
 use request::{G2pRequest, P2gRequest, ParticleField};
 use std::{
+    any::Any,
     marker::PhantomData,
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-/// Builds the kernel of the basis that a suite names.
+/// The kernel of the basis that a suite names.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
-    with_basis!(basis, B => Box::new(Loops::<B>::default()))
+    let kernel = kernel_in_dimension(D, basis).downcast::<Box<dyn Kernel<D>>>();
+    *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
+}
+
+/// A `Box<dyn Kernel<D>>`. Not generic, so that the loops are compiled in this crate, once, and not
+/// again in each crate that asks for one.
+fn kernel_in_dimension(dimension: usize, basis: BasisName) -> Box<dyn Any> {
+    fn boxed<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
+        with_basis!(basis, B => Box::new(Loops::<B>::default()))
+    }
+    with_dimension!(dimension, D => Box::new(boxed::<D>(basis)))
 }
 
 /// The kernel of basis `B`.
