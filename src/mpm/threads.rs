@@ -1,5 +1,5 @@
-//! Work that threads share by par_split, each half again, until it is not worth one's while. What is shared
-//! decides nothing: every number is computed by one thread, whichever, from the same ones.
+//! Work that threads share by halves, each half again, down to a least size. Which thread computes a
+//! number does not change it.
 
 /// Runs both, at once if there is a thread to spare. Where there is none, nothing goes to another
 /// thread, which would have to be woken.
@@ -8,8 +8,20 @@ pub(super) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
         one();
         other();
     } else {
-        rayon::join(one, other);
+        let (mut one, mut other) = (Some(one), Some(other));
+        join_any(&mut || call_once(&mut one), &mut || call_once(&mut other));
     }
+}
+
+fn call_once(work: &mut Option<impl FnOnce()>) {
+    if let Some(work) = work.take() {
+        work();
+    }
+}
+
+/// Not generic: `rayon::join` is compiled once, and not for each pair of closures.
+fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
+    rayon::join(one, other);
 }
 
 /// The first `count` entries of a column, if there is one, and the others.
@@ -31,7 +43,7 @@ pub(super) struct RowChunks {
 
 impl RowChunks {
     /// Calls `work` with each row of `field` and its number.
-    pub(super) fn each<T: Send>(self, field: &mut [T], work: &(impl Fn(usize, &mut [T]) + Sync)) {
+    pub(super) fn each<T: Send>(self, field: &mut [T], work: &(dyn Fn(usize, &mut [T]) + Sync)) {
         self.each_from(0, field, work);
     }
 
@@ -39,7 +51,7 @@ impl RowChunks {
         self,
         first: usize,
         field: &mut [T],
-        work: &(impl Fn(usize, &mut [T]) + Sync),
+        work: &(dyn Fn(usize, &mut [T]) + Sync),
     ) {
         let middle = field.len().div_ceil(self.length) / 2;
         if field.len() <= self.few || middle == 0 {

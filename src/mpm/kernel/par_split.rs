@@ -38,7 +38,7 @@ impl<const D: usize> G2pRequest<'_, D> {
 pub(in crate::mpm) fn par_split<const D: usize>(
     these: Range<usize>,
     takes: G2pRequest<'_, D>,
-    work: &(impl Fn(Range<usize>, G2pRequest<'_, D>) + Sync),
+    work: &(dyn Fn(Range<usize>, G2pRequest<'_, D>) + Sync),
 ) {
     if these.len() <= FEW {
         return work(these, takes);

@@ -36,24 +36,27 @@ impl<const D: usize> Target<'_, D> {
     }
 }
 
+/// Adds a block of particles to fields that hold its nodes.
+type Add<'a> = dyn Fn(&ParticleBlock, [FieldViewMut<'_>; 2]) + Sync + 'a;
+
 /// Clears the nodes of `target`, calls `add` for all blocks, each with fields that hold its nodes, and
 /// unpacks what they leave. Black block k stands between the white blocks k and k + 1, the last one after all.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize>(
     grid: &Grid<D>,
     [white, black]: [&[ParticleBlock]; 2],
     target: Target<'_, D>,
-    add: &(impl Fn(&ParticleBlock, [FieldViewMut<'_>; 2]) + Sync),
+    add: &Add<'_>,
 ) {
     let (between, last) = black.split_at(black.len().min(white.len().saturating_sub(1)));
     Schedule { grid, add }.tree(0..layers(grid).end, [white, between, last], target);
 }
 
-struct Schedule<'a, A, const D: usize> {
+struct Schedule<'a, const D: usize> {
     grid: &'a Grid<D>,
-    add: &'a A,
+    add: &'a Add<'a>,
 }
 
-impl<A: Fn(&ParticleBlock, [FieldViewMut<'_>; 2]) + Sync, const D: usize> Schedule<'_, A, D> {
+impl<const D: usize> Schedule<'_, D> {
     /// White blocks, those between them, and perhaps one after the last. The layers in `own` are seen by none but
     /// these.
     fn tree(
