@@ -5,9 +5,9 @@
 //! body. In a theory of small strains it is `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
 
 use super::{
-    equation::Equation,
     formula::{Number, Slope},
     heat::Warmth,
+    law::Equation,
     tensor::{Tensor, sum, tensor, unit},
 };
 
@@ -43,7 +43,7 @@ fn piola<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
     theta: T,
 ) -> Tensor<T, D> {
-    if let Some(modulus) = equation.swelling_modulus() {
+    if let Some(modulus) = equation.small_strain_modulus() {
         let pressure = T::from(modulus) * (theta - T::from(1.0));
         let strained = equation.piola(grad);
         return tensor(|i, j| strained[i][j] - pressure * unit(i, j));
@@ -81,7 +81,7 @@ pub(super) fn swollen_cauchy(
     grad: &Tensor<f64>,
     theta: f64,
 ) -> Tensor<f64> {
-    if equation.swelling_modulus().is_some() {
+    if equation.small_strain_modulus().is_some() {
         return swollen_piola(equation, dimension, grad, theta);
     }
     let inside = |i: usize, j: usize| i.max(j) < dimension;
@@ -139,6 +139,7 @@ fn embedded<const D: usize>(block: &Tensor<f64, D>) -> Tensor<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::{HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -146,9 +147,9 @@ mod tests {
 
     /// Nothing expands where theta = 1.
     #[rstest]
-    #[case(Equation::small_strain(50.0, 0.3))]
-    #[case(Equation::neo_hookean(50.0, 0.3))]
-    #[case(Equation::hencky(50.0, 0.3))]
+    #[case(SmallStrainLaw::new(50.0, 0.3).into())]
+    #[case(NeoHookeanLaw::new(50.0, 0.3).into())]
+    #[case(HenckyLaw::new(50.0, 0.3).into())]
     fn without_expansion_the_stress_is_the_law_s(#[case] equation: Equation) {
         let (found, plain) = (swollen_piola(&equation, 2, &GRAD, 1.0), equation.piola(&GRAD));
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -159,9 +160,9 @@ mod tests {
     /// A body that expands freely has no stress, and neither has it a force where theta varies:
     /// grad u = theta - 1.
     #[rstest]
-    #[case(Equation::small_strain(50.0, 0.3))]
-    #[case(Equation::neo_hookean(50.0, 0.3))]
-    #[case(Equation::hencky(50.0, 0.3))]
+    #[case(SmallStrainLaw::new(50.0, 0.3).into())]
+    #[case(NeoHookeanLaw::new(50.0, 0.3).into())]
+    #[case(HenckyLaw::new(50.0, 0.3).into())]
     fn a_free_body_has_no_stress(#[case] equation: Equation) {
         let grad = [[0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.2]];
         let found = swollen_piola(&equation, 3, &grad, 1.2);
@@ -170,9 +171,9 @@ mod tests {
         let mut second = [[[0.0; 3]; 3]; 3];
         second[0][0][0] = 0.7;
         let swelling = Swelling { theta: 1.2, grad: [0.7, 0.0, 0.0] };
-        let uniaxial = match equation.swelling_modulus() {
-            Some(_) => Equation::small_strain(50.0, 0.0),
-            None => Equation::hencky(50.0, 0.0),
+        let uniaxial: Equation = match equation.small_strain_modulus() {
+            Some(_) => SmallStrainLaw::new(50.0, 0.0).into(),
+            None => HenckyLaw::new(50.0, 0.0).into(),
         };
         let force = swollen_divergence(&uniaxial, 1, (&bar, &second), &swelling);
         assert!(force[0].abs() < 1e-12, "{force:?}");
@@ -181,7 +182,7 @@ mod tests {
     /// Of the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
     #[test]
     fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
-        let (equation, theta) = (Equation::neo_hookean(50.0, 0.0), 1.1);
+        let (equation, theta) = (Equation::from(NeoHookeanLaw::new(50.0, 0.0)), 1.1);
         let piola = swollen_piola(&equation, 2, &GRAD, theta);
         let sigma = swollen_cauchy(&equation, 2, &GRAD, theta);
         let f: Tensor<f64> = tensor(|i, j| GRAD[i][j] + unit::<f64>(i, j));

@@ -1,10 +1,10 @@
 //! The continuum problem that an exact solution is held to.
 
 use super::{
-    equation::Equation,
     expansion::{Expansion, Swelling, swollen_cauchy, swollen_divergence, swollen_piola},
     formula::Formula,
     heat::Conduction,
+    law::Equation,
     motion::{Derivatives, Motion, variables, write},
     random::Random,
     region::Region,

@@ -2,7 +2,7 @@
 //! manufactured.
 
 use super::{
-    Condition, Equation, Face, Forcing, Motion, Problem,
+    Condition, Face, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw,
     formula::{Expr, Formula, Scope},
     random::Random,
 };
@@ -29,7 +29,7 @@ fn held(dimension: usize) -> Problem {
         from: vec![0.0; dimension],
         to: vec![1.0; dimension],
         density: 2.0,
-        equation: Equation::neo_hookean(10.0, 0.3),
+        equation: NeoHookeanLaw::new(10.0, 0.3).into(),
         gravity: vec![bind("-9.81*t", &["t"])],
         regions: Vec::new(),
         round: None,
@@ -83,7 +83,7 @@ fn the_force_of_a_run_is_the_force(#[values(1, 2, 3)] dimension: usize) {
 fn bar(displacement: &str, right: Condition) -> Problem {
     let face = |name, high, condition| Face { name, axis: 0, high, condition };
     Problem {
-        equation: Equation::small_strain(2.0, 0.0),
+        equation: SmallStrainLaw::new(2.0, 0.0).into(),
         gravity: Vec::new(),
         manufactured: false,
         faces: vec![face("left", false, Condition::Fixed), face("right", true, right)],
@@ -99,7 +99,7 @@ fn sheared(top: Condition) -> Problem {
     let face = |name, axis, high, condition| Face { name, axis, high, condition };
     let driven = || Condition::Velocity(vec![bind("0.2*Y", &names), bind("0.3*Y", &names)]);
     Problem {
-        equation: Equation::neo_hookean(10.0, 0.0),
+        equation: NeoHookeanLaw::new(10.0, 0.0).into(),
         gravity: Vec::new(),
         faces: vec![face("bottom", 1, false, driven()), face("top", 1, true, top)],
         motion: Motion::new(vec![bind("0.2*Y*t", &names), bind("0.3*Y*t", &names)]),

@@ -34,6 +34,7 @@
 
 mod bar;
 mod element;
+mod law;
 mod mass;
 mod mesh;
 mod sampling;
@@ -44,4 +45,5 @@ mod tests;
 
 pub use bar::Bar;
 pub use element::Element;
+pub use law::BarLaw;
 pub use setup::{Field, History, Load, Mass, Sampling, Setup, SetupError, pointwise};

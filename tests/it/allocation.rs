@@ -4,7 +4,7 @@ use crate::common::{DT, H, free_body, in_dimension, methods};
 use allocation_counter::measure;
 use mpm_verify::{
     exact::{
-        Equation, Forcing, Motion, Problem,
+        Forcing, Motion, NeoHookeanLaw, Problem,
         formula::{Expr, Formula, Scope},
         heat::{Conduction, HeatForcing, Temperature},
     },
@@ -43,7 +43,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         from: vec![0.0; D],
         to: vec![1.0; D],
         density: 1.0,
-        equation: Equation::neo_hookean(1.0, 0.3),
+        equation: NeoHookeanLaw::new(1.0, 0.3).into(),
         gravity: Vec::new(),
         regions: Vec::new(),
         round: None,

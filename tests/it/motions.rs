@@ -4,7 +4,7 @@
 use approx::assert_relative_eq;
 use mpm_verify::{
     exact::{
-        Equation, Motion, Problem,
+        Motion, NeoHookeanLaw, Problem,
         formula::{Expr, Formula, Scope},
     },
     study::Runner,
@@ -38,7 +38,7 @@ fn problem(
         to: vec![1.0; d],
         round: None,
         density,
-        equation: Equation::neo_hookean(young, poisson),
+        equation: NeoHookeanLaw::new(young, poisson).into(),
         gravity: Vec::new(),
         regions: Vec::new(),
         body_force: Vec::new(),

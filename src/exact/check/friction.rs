@@ -90,7 +90,7 @@ pub(crate) fn coulomb(
 mod tests {
     use super::*;
     use crate::exact::{
-        Condition, Equation, Motion,
+        Condition, Motion, SmallStrainLaw,
         formula::{Expr, Formula, Scope},
     };
     use rstest::rstest;
@@ -107,7 +107,7 @@ mod tests {
             to: vec![1.0; 2],
             round: None,
             density: 1.0,
-            equation: Equation::small_strain(200.0, 0.0),
+            equation: SmallStrainLaw::new(200.0, 0.0).into(),
             gravity: vec![bind("3", &["t"]), bind("-4", &["t"])],
             body_force: Vec::new(),
             damping: None,

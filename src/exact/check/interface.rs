@@ -139,7 +139,7 @@ impl Pair<'_> {
 mod tests {
     use super::*;
     use crate::exact::{
-        Condition, Equation, Face, Motion,
+        Condition, Face, Motion, SmallStrainLaw,
         formula::{Expr, Formula, Scope},
     };
     use rstest::rstest;
@@ -158,7 +158,7 @@ mod tests {
                 to: vec![from + 1.0],
                 round: None,
                 density: 1.0,
-                equation: Equation::small_strain(1.0, 0.0),
+                equation: SmallStrainLaw::new(1.0, 0.0).into(),
                 gravity: Vec::new(),
                 body_force: Vec::new(),
                 damping: None,

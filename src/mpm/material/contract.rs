@@ -1,9 +1,59 @@
-//! What a material is to the rest of the solver.
+//! Interface of materials to the solver, and to those who state problems.
 
+#[cfg(test)]
+use crate::mpm::algebra::Matrix;
 use crate::{
     mpm::particles::Particles,
     subject::{Checkpoint, Column},
 };
+
+/// Properties of a law that decide what may be stated of its bodies.
+pub trait MaterialProperties {
+    /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave.
+    fn wave_modulus(&self) -> f64;
+
+    /// Whether stress is a function of F alone, so that a body may start deformed, and a body force
+    /// may be manufactured for a motion.
+    ///
+    /// # Errors
+    /// Why it is not.
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str>;
+
+    /// Whether the law is one of elasticity: what it does to a body that expands by heat is known.
+    fn is_elastic(&self) -> bool {
+        false
+    }
+
+    /// Whether bodies neither move nor deform.
+    fn is_at_rest(&self) -> bool {
+        false
+    }
+
+    /// Whether the stored energy is a function of the state in `dimension` dimensions.
+    ///
+    /// # Errors
+    /// Why it is not, as what follows the name of the law in a sentence.
+    fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
+        let _ = dimension;
+        Ok(())
+    }
+}
+
+/// Closed forms of a law, which the tests of the family hold its stress to. Laws that flow or heat
+/// in a step are asked as for one step that takes no end of time, from a state of rest.
+#[cfg(test)]
+pub(super) trait ClosedForms {
+    /// Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
+    fn simple_shear(&self, gamma: f64) -> [f64; 3];
+
+    /// Cauchy stress (Pa) along and across a uniaxial stretch, the other axes held; none if the
+    /// law has a history, which a test in its own file holds it to.
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
+
+    /// The energy (J/m3) that stress derives from, but for a constant, as long as nothing flows;
+    /// none for a law in rate form.
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
+}
 
 /// A constitutive law, with the state that only it reads. It meets the solver between stages: one
 /// virtual call per step.

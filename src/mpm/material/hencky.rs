@@ -6,7 +6,7 @@
 //! strain.
 
 use super::{
-    contract::Material,
+    contract::{Material, MaterialProperties},
     linear_elastic::LinearElastic,
     spectral::{assembled, half_log, spectral},
 };
@@ -37,6 +37,20 @@ impl Hencky {
     }
 }
 
+impl MaterialProperties for Hencky {
+    fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn is_elastic(&self) -> bool {
+        true
+    }
+}
+
 impl<const D: usize> Material<D> for Hencky {
     fn reads_deformation(&self) -> bool {
         true
@@ -58,5 +72,26 @@ impl<const D: usize> Material<D> for Hencky {
             particles.vol[p] = j * particles.vol0[p];
             particles.sigma[p] = self.cauchy(f, j);
         }
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for Hencky {
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        // The axes of simple shear stretch by exp(e) and exp(-e).
+        let e = libm::asinh(0.5 * gamma);
+        let normal = 2.0 * self.mu * e * libm::tanh(e);
+        [normal, 2.0 * self.mu * e / libm::cosh(e), -normal]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        let log = libm::log(stretch);
+        Some([(self.lambda + 2.0 * self.mu) * log / stretch, self.lambda * log / stretch])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let squares = (f.transpose() * f).symmetric_eigenvalues();
+        let (log, strain) = (libm::log(det(f)), squares.map(|square| 0.5 * libm::log(square)));
+        Some(0.5 * self.lambda * log * log + self.mu * strain.norm_squared())
     }
 }

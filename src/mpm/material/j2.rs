@@ -9,7 +9,7 @@
 //! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
 
 use super::{
-    contract::Material,
+    contract::{Material, MaterialProperties},
     linear_elastic::LinearElastic,
     spectral::{assembled, half_log, spectral},
 };
@@ -24,6 +24,7 @@ use crate::{
 /// Isotropic elasto-plasticity with linear hardening.
 #[derive(Debug, Clone, PartialEq)]
 pub struct J2 {
+    lambda: f64,
     bulk: f64,
     mu: f64,
     yield_stress: f64,
@@ -68,7 +69,7 @@ impl J2 {
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         let bulk = lambda + 2.0 / 3.0 * mu;
-        Self { bulk, mu, yield_stress, hardening, flowed: Vec::new() }
+        Self { lambda, bulk, mu, yield_stress, hardening, flowed: Vec::new() }
     }
 
     /// The Kirchhoff stress at F after return to the yield surface, and what has flowed then.
@@ -95,6 +96,16 @@ impl J2 {
 
     fn stress(&self, mean: f64, deviator: &Vector<3>, axes: &Matrix<3>) -> Matrix<3> {
         assembled(&deviator.map(|eps| 3.0 * self.bulk * mean + 2.0 * self.mu * eps), axes)
+    }
+}
+
+impl MaterialProperties for J2 {
+    fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Err("plastic flow depends on the whole history of the motion")
     }
 }
 
@@ -140,4 +151,79 @@ impl<const D: usize> Material<D> for J2 {
 /// F in three dimensions: nothing stretches along the axes that are left out.
 fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for J2 {
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        // The axes of simple shear stretch by exp(e) and exp(-e), the deviator ends on the yield
+        // surface.
+        let e = libm::asinh(0.5 * gamma);
+        let trial = 2.0 * 3.0_f64.sqrt() * self.mu * e;
+        let flow = (trial - self.yield_stress) / (3.0 * self.mu + self.hardening);
+        let shear = (self.yield_stress + self.hardening * flow) / 3.0_f64.sqrt();
+        [shear * libm::tanh(e), shear / libm::cosh(e), -shear * libm::tanh(e)]
+    }
+
+    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
+        None
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let squares = (f.transpose() * f).symmetric_eigenvalues();
+        let (log, strain) = (libm::log(det(f)), squares.map(|square| 0.5 * libm::log(square)));
+        Some(0.5 * self.lambda * log * log + self.mu * strain.norm_squared())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::{
+            MaterialPlan,
+            specimen::{SLOW, Specimen, diagonal},
+        },
+        LinearElastic,
+    };
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Uniaxial strain: elastic to `Y/(2 mu)`, then `d tau_1 = K d eps` and `tau_1 - tau_2 = Y` but
+    /// for hardening (benchmark V18, in Kirchhoff stress and logarithmic strain); unloading is
+    /// elastic again, until it yields the other way round.
+    #[rstest]
+    fn uniaxial_strain_has_its_closed_form(#[values(0.0, 40.0)] hardening: f64) {
+        pull::<1>(hardening);
+        pull::<2>(hardening);
+        pull::<3>(hardening);
+    }
+
+    fn pull<const D: usize>(hardening: f64) {
+        let (young, poisson, strength) = (100.0, 0.3, 3.0);
+        let plan = MaterialPlan::J2 { young, poisson, r#yield: strength, hardening };
+        let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+        let bulk = lambda + 2.0 / 3.0 * mu;
+        let mut solid = Specimen::<D>::new(plan);
+        let step = 0.004;
+        let mut check = |eps: f64, step: f64, gap: f64| {
+            let sigma = solid.deform(&diagonal(libm::exp(step)), SLOW) * libm::exp(eps);
+            assert_relative_eq!(sigma[(0, 0)], bulk * eps + 2.0 / 3.0 * gap, epsilon = 1e-11);
+            if D > 1 {
+                assert_relative_eq!(sigma[(0, 0)] - sigma[(D - 1, D - 1)], gap, epsilon = 1e-11);
+            }
+        };
+        let (mut eps, mut gap) = (0.0, 0.0);
+        for _ in 0..40 {
+            eps += step;
+            let flow = (2.0 * mu * eps - strength) / (3.0 * mu + hardening);
+            gap = (2.0 * mu * eps).min(strength + hardening * flow);
+            check(eps, step, gap);
+        }
+        assert!(gap >= strength && eps > 3.0 * strength / (2.0 * mu), "most of it was plastic");
+        check(eps - 0.02, -0.02, gap - 2.0 * mu * 0.02);
+        let flow = (gap - strength) / hardening.max(1.0);
+        let back = 0.2;
+        let more = (2.0 * mu * back - gap - strength - hardening * flow) / (3.0 * mu + hardening);
+        check(eps - back, 0.02 - back, -(strength + hardening * (flow + more)));
+    }
 }

@@ -9,7 +9,7 @@
 //! to first order in the step, but neither does it turn the stress that is there. Objective for
 //! small rotations only, in more than one dimension.
 
-use super::contract::Material;
+use super::contract::{Material, MaterialProperties};
 use crate::mpm::{
     algebra::{Matrix, det},
     particles::Particles,
@@ -53,6 +53,27 @@ fn logarithmic_work(eps: f64) -> f64 {
     terms.sum()
 }
 
+impl MaterialProperties for LinearElastic {
+    fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Err("a law in rate form has no stress of the deformation alone")
+    }
+
+    fn is_elastic(&self) -> bool {
+        true
+    }
+
+    fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
+        match dimension {
+            1 => Ok(()),
+            _ => Err("is integrated in rate form, and has an energy in 1-D only"),
+        }
+    }
+}
+
 impl<const D: usize> Material<D> for LinearElastic {
     fn reads_deformation(&self) -> bool {
         false
@@ -76,6 +97,21 @@ impl<const D: usize> Material<D> for LinearElastic {
             *vol *= det(&(Matrix::identity() + step));
             *sigma += self.increment(&((step + step.transpose()) * 0.5));
         }
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for LinearElastic {
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        [0.0, self.mu * gamma, 0.0]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        Some([(self.lambda + 2.0 * self.mu) * (stretch - 1.0), self.lambda * (stretch - 1.0)])
+    }
+
+    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
+        None
     }
 }
 

@@ -4,7 +4,10 @@
 //! 2015). Nothing is integrated in time but F. Fewer than three dimensions mean plane or uniaxial
 //! strain.
 
-use super::{contract::Material, linear_elastic::LinearElastic};
+use super::{
+    contract::{Material, MaterialProperties},
+    linear_elastic::LinearElastic,
+};
 use crate::mpm::{
     algebra::{Matrix, det},
     particles::Particles,
@@ -40,6 +43,20 @@ impl NeoHookean {
     }
 }
 
+impl MaterialProperties for NeoHookean {
+    fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn is_elastic(&self) -> bool {
+        true
+    }
+}
+
 impl<const D: usize> Material<D> for NeoHookean {
     fn reads_deformation(&self) -> bool {
         true
@@ -57,5 +74,47 @@ impl<const D: usize> Material<D> for NeoHookean {
             particles.vol[p] = j * particles.vol0[p];
             particles.sigma[p] = self.cauchy(f, j);
         }
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for NeoHookean {
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        [self.mu * gamma * gamma, self.mu * gamma, 0.0]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        let across = self.lambda * libm::log(stretch) / stretch;
+        Some([across + self.mu * (stretch - 1.0 / stretch), across])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let (log, squares) = (libm::log(det(f)), f.transpose() * f);
+        let shear = 0.5 * self.mu * (squares.trace() - 3.0) - self.mu * log;
+        Some(0.5 * self.lambda * log * log + shear)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{
+        MaterialPlan,
+        specimen::{SLOW, Specimen, scattered},
+    };
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// The quadratic form that all elastic laws share, at strains whose squares are far below
+    /// rounding.
+    #[test]
+    fn tiny_strains_store_an_energy_too() {
+        let NeoHookean { lambda, mu } = NeoHookean::new(100.0, 0.3);
+        let h = scattered::<3>(1e-9, 0.4);
+        let plan = MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 };
+        let mut specimen = Specimen::<3>::new(plan);
+        specimen.deform(&(Matrix::identity() + h), SLOW);
+        let eps = (h + h.transpose()) * 0.5;
+        let expected = 0.5 * lambda * eps.trace() * eps.trace() + mu * eps.norm_squared();
+        assert_relative_eq!(specimen.energy().unwrap(), expected, max_relative = 1e-6);
     }
 }

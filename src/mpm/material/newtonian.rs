@@ -9,7 +9,7 @@
 //! Of the deformation the fluid knows J alone, which it integrates, `J *= det(I + grad v dt)`: F
 //! grows without limit in a flow, and is not kept.
 
-use super::contract::Material;
+use super::contract::{Material, MaterialProperties};
 use crate::mpm::{
     algebra::{Matrix, det},
     particles::Particles,
@@ -31,6 +31,16 @@ impl Newtonian {
     fn pressure(&self, j: f64) -> f64 {
         let cube = 1.0 / (j * j * j);
         self.bulk / 7.0 * (cube * cube / j - 1.0)
+    }
+}
+
+impl MaterialProperties for Newtonian {
+    fn wave_modulus(&self) -> f64 {
+        self.bulk
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Err("viscous stress depends on the rate of deformation")
     }
 }
 
@@ -58,5 +68,43 @@ impl<const D: usize> Material<D> for Newtonian {
             let shear = (grad_v + grad_v.transpose()) * self.viscosity;
             particles.sigma[p] = Matrix::identity() * isotropic + shear;
         }
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for Newtonian {
+    fn simple_shear(&self, _: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        let pressure = self.bulk / 7.0 * (libm::pow(stretch, -7.0) - 1.0);
+        Some([-pressure; 2])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let j = det(f);
+        Some(self.bulk / 7.0 * (libm::pow(j, -6.0) / 6.0 + j))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{
+        MaterialPlan,
+        specimen::{FAST, Specimen},
+    };
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    #[test]
+    fn a_fluid_resists_shear_and_dilation_by_its_viscosity() {
+        let fluid = MaterialPlan::Newtonian { bulk: 50.0, viscosity: 0.7 };
+        let grad_v = Matrix::<2>::new(3.0, 2.0, 0.0, 0.0);
+        let sigma = Specimen::new(fluid).flow(&grad_v, FAST);
+        let expected = Matrix::<2>::new(4.0 / 3.0 * 3.0, 2.0, 2.0, -2.0 / 3.0 * 3.0) * 0.7;
+        assert_abs_diff_eq!(sigma, expected, epsilon = 1e-9);
+        let along = Specimen::new(fluid).flow(&Matrix::<1>::new(3.0), FAST)[0];
+        assert_abs_diff_eq!(along, 2.8, epsilon = 1e-9);
     }
 }

@@ -2,15 +2,17 @@
 
 /// Declares the family of materials. A line
 ///
-/// `"hencky" => Hencky { young: YOUNG, poisson: POISSON },`
+/// `"hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON },`
 ///
 /// names the material, its type and its parameters in the order in which `Hencky::new` takes them.
 /// Each word is the key that suites write; `#[serde(default)]` before it makes the key optional
 /// and zero. The density, which every material has and no law reads, is added to the words.
 macro_rules! materials {
-    ($($name:literal => $member:ident {
+    ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
     },)+) => {
+        $(pub use $file::$member;)+
+
         /// What suites write for a material: its name, its parameters and its density, each
         /// an `N`, which stands for a number.
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
@@ -80,6 +82,31 @@ macro_rules! materials {
                 }
             }
 
+            /// The properties of the law.
+            pub fn properties(&self) -> Box<dyn MaterialProperties> {
+                match *self {
+                    $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
+                }
+            }
+
+            /// The closed forms of the law.
+            #[cfg(test)]
+            fn closed_forms(&self) -> Box<dyn ClosedForms> {
+                match *self {
+                    $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
+                }
+            }
+
+            /// Value of the parameter with this key, if the material has it.
+            pub fn parameter(&self, wanted: &str) -> Option<f64> {
+                match *self {
+                    $(Self::$member { $($field),* } => {
+                        let all: &[(&str, f64)] = &[$((key(stringify!($field)), $field)),*];
+                        all.iter().find(|(key, _)| *key == wanted).map(|(_, value)| *value)
+                    })+
+                }
+            }
+
             /// Every parameter with its value, in the order of registration.
             pub fn parameters(&self) -> Vec<(Parameter, f64)> {
                 match self {
@@ -96,7 +123,7 @@ macro_rules! materials {
 
             /// One of every registered material: what enrols them in the law tests.
             #[cfg(test)]
-            fn every(value: impl Fn(&Parameter) -> f64) -> Vec<Self> {
+            pub(crate) fn every(value: impl Fn(&Parameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }
         }

@@ -1,6 +1,8 @@
 //! No law at all: a body that neither deforms nor moves, in which heat may flow.
 
-use super::contract::Material;
+use super::contract::{Material, MaterialProperties};
+#[cfg(test)]
+use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
 
 /// A rigid body at rest. Nothing is computed for its motion, so that nobody asks for its stress.
@@ -15,10 +17,39 @@ impl Rigid {
     }
 }
 
+impl MaterialProperties for Rigid {
+    fn wave_modulus(&self) -> f64 {
+        0.0
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Err("a body at rest has no force")
+    }
+
+    fn is_at_rest(&self) -> bool {
+        true
+    }
+}
+
 impl<const D: usize> Material<D> for Rigid {
     fn reads_deformation(&self) -> bool {
         false
     }
 
     fn update(&mut self, _: f64, _: &mut Particles<D>) {}
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for Rigid {
+    fn simple_shear(&self, _: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+
+    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
+        Some([0.0; 2])
+    }
+
+    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
+        Some(0.0)
+    }
 }

@@ -1,6 +1,6 @@
 //! One particle of each registered material, for the tests of the family.
 
-use super::{LinearElastic, Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
+use super::{Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
 use crate::{
     mpm::{
         algebra::{Matrix, Vector},
@@ -78,10 +78,9 @@ pub(super) fn stress<const D: usize>(plan: MaterialPlan, f: &Matrix<D>) -> Matri
     Specimen::new(plan).deform(f, SLOW)
 }
 
-/// Lame's parameters (Pa).
-pub(super) fn lame(young: f64, poisson: f64) -> (f64, f64) {
-    let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
-    (lambda, mu)
+/// Numbers up to `size`, without any pattern.
+pub(super) fn scattered<const D: usize>(size: f64, seed: f64) -> Matrix<D> {
+    Matrix::from_fn(|i, j| size * libm::sin(seed + 7.0 * i as f64 + 11.3 * j as f64))
 }
 
 /// F of a stretch along the first axis.

@@ -3,7 +3,6 @@
 use crate::{
     study::describe::{
         amplitude::amplitude,
-        equation_text::equation,
         heat,
         statement::{Rows, push, scene},
     },
@@ -26,10 +25,8 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         if problem.manufactured {
             push(&mut rows, "motion", &problem.motion.source());
             push(&mut rows, "body force", "manufactured, b = u_tt - Div P / rho0");
-            push(&mut rows, "equation", equation(&plan.scene.material));
-        } else {
-            push(&mut rows, "equation", equation(&plan.scene.material));
         }
+        push(&mut rows, "equation", problem.equation.text());
         if problem.at_rest {
             push(
                 &mut rows,

@@ -1,7 +1,6 @@
 //! The rows of name and value that state a problem.
 
 pub(crate) mod amplitude;
-pub(crate) mod equation_text;
 pub(crate) mod heat;
 pub mod profiles;
 pub(crate) mod statement;

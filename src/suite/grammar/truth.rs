@@ -1,7 +1,7 @@
 //! The words of a truth that is given by formulas.
 
-use crate::{named::named, suite::yaml::NumberText};
-use serde::Deserialize;
+use crate::{exact::Equation, fem::BarLaw, suite::yaml::NumberText};
+use serde::{Deserialize, Deserializer, de::Error as _};
 
 /// A solution, or the state in which the body comes to rest.
 #[derive(Debug, Clone, Deserialize)]
@@ -22,20 +22,43 @@ pub(crate) struct ManufacturedSpec {
     pub(crate) temperature: Option<NumberText>,
 }
 
-named! {
-    /// Equations of motion, by their law between stress and strain.
-    pub enum EquationName {
-        /// `P = E u_X`: the linear problem of the talk.
-        SmallStrain = "small_strain",
-        /// `P = E ln F`: what the rate form of the original MPM integrates to in 1-D.
-        LogStrain = "log_strain",
-        /// `P = lambda ln(J) F^-T + mu (F - F^-T)`.
-        NeoHookean = "neo_hookean",
-        /// `P = (lambda ln(J) I + mu ln(F F^T)) F^-T`.
-        Hencky = "hencky",
-        /// J2 plasticity in uniaxial strain, under loading that never reverses.
-        J2 = "j2",
-        /// `P = -p J F^-T`, `p = K/7 (J^-7 - 1)`: a fluid at rest.
-        Tait = "tait",
+/// An equation of motion by its constitutive law: one of the truth, or of the FEM bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct EquationName(&'static str);
+
+impl EquationName {
+    /// That of a law, if its name is known.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::all().find(|known| known.0 == name)
+    }
+
+    /// The name as suites and reports spell it.
+    pub fn name(self) -> &'static str {
+        self.0
+    }
+
+    /// Every law of the truth, and those that the FEM bar alone knows.
+    fn all() -> impl Iterator<Item = Self> {
+        let of_bar = BarLaw::ALL.iter().map(|law| law.name());
+        let of_bar_alone = of_bar.filter(|name| !Equation::NAMES.contains(name));
+        Equation::NAMES.iter().copied().chain(of_bar_alone).map(Self)
+    }
+}
+
+/// Small strains, which every material has to first order.
+impl Default for EquationName {
+    fn default() -> Self {
+        Self(BarLaw::SmallStrain.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for EquationName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::find(&name).ok_or_else(|| {
+            let known: Vec<String> = Self::all().map(|name| format!("`{}`", name.0)).collect();
+            let known = known.join(", ");
+            D::Error::custom(format!("unknown variant `{name}`, expected one of {known}"))
+        })
     }
 }

@@ -12,9 +12,14 @@ impl Scene {
         self.from.len()
     }
 
+    /// Whether the body neither moves nor deforms.
+    pub fn is_at_rest(&self) -> bool {
+        self.material.properties().is_at_rest()
+    }
+
     /// Speed (m/s) of the fastest wave in the body at rest.
     pub fn wave_speed(&self) -> f64 {
-        (self.material.wave_modulus() / self.density).sqrt()
+        (self.material.properties().wave_modulus() / self.density).sqrt()
     }
 
     /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.

@@ -7,7 +7,6 @@ pub(crate) mod heat;
 pub(crate) mod internal_force;
 pub(crate) mod lattice;
 pub(crate) mod method;
-pub(crate) mod nature;
 pub(crate) mod refine_plan;
 pub(crate) mod stability;
 pub(crate) mod study_plan;

@@ -2,9 +2,9 @@
 
 use crate::{
     exact::Expansion,
-    mpm::{MaterialPlan, ThermalExpansion},
+    mpm::ThermalExpansion,
     suite::{
-        compile::{evaluator::Evaluator, path::Path, truth::law},
+        compile::{evaluator::Evaluator, path::Path},
         grammar::ExpansionSpec,
         model::Scene,
         yaml::Diagnostic,
@@ -22,18 +22,13 @@ pub(crate) fn expansion(
         return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
     }
     let name = scene.material.name();
-    let elastic = matches!(
-        scene.material,
-        MaterialPlan::LinearElastic { .. }
-            | MaterialPlan::NeoHookean { .. }
-            | MaterialPlan::Hencky { .. }
-    );
-    if !elastic {
+    let law = scene.material.properties();
+    if !law.is_elastic() {
         let message = format!("the stress of a heated `{name}` body is not known");
         let diagnostic = evaluator.diagnostic_at_key(path, &message);
         return Err(diagnostic.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
     }
-    let split = law::manufactured(&scene.material).is_ok();
+    let split = law.depends_on_deformation_alone().is_ok();
     let poisson = scene.material.elasticity().map_or(0.0, |(_, poisson)| poisson);
     let d = scene.dimension();
     if split && d < 3 && poisson != 0.0 {
@@ -54,7 +49,7 @@ pub(crate) fn expansion(
 /// The effect of a scene that lists it.
 pub(crate) fn effect<const D: usize>(scene: &Scene) -> Option<ThermalExpansion<D>> {
     let Expansion { coefficient, reference } = scene.expansion?;
-    if law::manufactured(&scene.material).is_ok() {
+    if scene.material.properties().depends_on_deformation_alone().is_ok() {
         return Some(ThermalExpansion::of_deformation(coefficient, reference));
     }
     let elasticity = scene.material.elasticity()?;

@@ -1,7 +1,7 @@
 //! Artificial viscosity, from words to the solver.
 
 use crate::{
-    mpm::{ArtificialViscosity, LinearElastic, MaterialPlan},
+    mpm::ArtificialViscosity,
     suite::{
         compile::{
             check::subject_support::fem_lacks, evaluator::Evaluator, path::Path, wording::shown,
@@ -15,24 +15,13 @@ use crate::{
 /// The effect on one of the bodies of a scene, on a grid of cell size `h` (m), if it lists one.
 pub(crate) fn on(body: &Scene, h: f64) -> Option<ArtificialViscosity> {
     let [linear, quadratic] = body.viscosity?;
-    let speed = wave_speed(&body.material, body.density);
-    Some(ArtificialViscosity { linear, quadratic, length: h, speed, q: Vec::new() })
-}
-
-/// Speed (m/s) of a pressure wave in a body at rest.
-fn wave_speed(material: &MaterialPlan, density: f64) -> f64 {
-    let modulus = match *material {
-        MaterialPlan::LinearElastic { young, poisson }
-        | MaterialPlan::NeoHookean { young, poisson }
-        | MaterialPlan::Hencky { young, poisson }
-        | MaterialPlan::J2 { young, poisson, .. } => {
-            let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
-            lambda + 2.0 * mu
-        }
-        MaterialPlan::Newtonian { bulk, .. } => bulk,
-        MaterialPlan::Rigid {} => 0.0,
-    };
-    (modulus / density).sqrt()
+    Some(ArtificialViscosity {
+        linear,
+        quadratic,
+        length: h,
+        speed: body.wave_speed(),
+        q: Vec::new(),
+    })
 }
 
 /// Gives the scene an artificial viscosity.

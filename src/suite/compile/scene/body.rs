@@ -8,7 +8,7 @@ use crate::{
     exact::Round,
     mpm::Quadrilateral,
     suite::{
-        compile::{evaluator::Evaluator, path::Path, truth::law, wording::shown},
+        compile::{evaluator::Evaluator, path::Path, wording::shown},
         grammar::{AnnulusSpec, BodySpec, BoxSpec, LoadSpec, RoundSpec, SceneSpec},
         model::{Scene, SceneFace, boundary::BoundaryCondition},
         yaml::{Diagnostic, NumberText},
@@ -200,7 +200,7 @@ pub(crate) fn on_grid(
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
-    let deforms = law::manufactured(&scene.material).is_ok();
+    let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
     let given = |face: &&SceneFace| !(deforms && matches!(face.hold, BoundaryCondition::Periodic));
     for face in scene.faces.iter().filter(given) {
         let (body, grid, key) = if face.high {

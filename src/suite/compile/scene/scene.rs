@@ -13,7 +13,6 @@ use crate::{
             evaluator::Evaluator,
             load::{damping, expansion::expansion, heat::heat, surface, viscosity},
             path::Path,
-            truth::law,
             wording::shown,
         },
         grammar::{LoadSpec, SceneSpec, SetSpec},
@@ -166,7 +165,7 @@ fn initial_displacement(
 ) -> Result<Vec<Formula>, Diagnostic> {
     let path = path.then("initial_displacement");
     let Some(texts) = &words.initial_displacement else { return Ok(Vec::new()) };
-    if law::manufactured(material).is_err() {
+    if material.properties().depends_on_deformation_alone().is_err() {
         let message = format!("a `{}` body cannot start deformed", material.name());
         let diagnostic = evaluator.diagnostic_at_key(&path, &message);
         let help = "its stress is integrated from the start on; a `neo_hookean` one can";

@@ -12,7 +12,7 @@ use crate::{
             truth::law,
             wording::{shown, suggestion},
         },
-        grammar::{EquationName, MethodSpec, StabilitySpec},
+        grammar::{MethodSpec, StabilitySpec},
         model::{
             method::Method,
             stability::{Recipe, StabilityCase, StabilityPlan},
@@ -131,7 +131,7 @@ fn drafts(
     words: &StabilitySpec,
     material: &MaterialPlan,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
-    let own = law::own(material).unwrap_or(EquationName::SmallStrain);
+    let own = law::own(material).unwrap_or_default();
     let mut drafts: Vec<(String, Method)> = Vec::new();
     for (i, words) in words.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);

@@ -90,7 +90,7 @@ fn solution(
     };
     let equation = equation(evaluator, &path.then("equation"), name, (scene, at_rest))?;
     let motion = motion(evaluator, path, texts, scene.dimension())?;
-    let motion_in_heat = scene.is_finite().then(|| motion.clone());
+    let motion_in_heat = equation.is_finite().then(|| motion.clone());
     let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
     let heat = heat::problem(evaluator, path, words.temperature.as_ref(), scene, rest)?;
     Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
@@ -103,12 +103,13 @@ fn equation(
     name: EquationName,
     (scene, at_rest): (&Scene, bool),
 ) -> Result<Equation, Diagnostic> {
-    if law::named(&scene.material) == Some(name) {
-        let known = law::solvable(scene, at_rest);
-        return known
-            .map_err(|(message, help)| evaluator.diagnostic(path, message).with_help(help));
+    if let Some(equation) = law::equation(&scene.material).filter(|law| law.name() == name.name()) {
+        let admitted = equation.admits(scene.dimension(), at_rest);
+        return admitted
+            .map(|()| equation)
+            .map_err(|[message, help]| evaluator.diagnostic(path, message).with_help(help));
     }
-    let (message, help) = if name == EquationName::LogStrain {
+    let (message, help) = if !Equation::NAMES.contains(&name.name()) {
         (
             "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only"
                 .to_owned(),
@@ -187,7 +188,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         manufactured: false,
         faces: scene.faces.iter().map(|words| face(scene, words)).collect(),
         regions: scene.sets.clone(),
-        follows_motion: law::manufactured(&scene.material).is_ok(),
+        follows_motion: scene.material.properties().depends_on_deformation_alone().is_ok(),
         initial_displacement: scene.initial_displacement.clone(),
         initial_velocity: scene.initial_velocity.clone(),
         until,

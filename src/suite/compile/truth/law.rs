@@ -1,7 +1,8 @@
-//! What the truth and the reference FEM know of a material.
+//! Laws of the truth and of the reference FEM for a material.
 
 use crate::{
     exact::Equation,
+    fem::BarLaw,
     mpm::MaterialPlan,
     suite::{
         compile::{evaluator::Evaluator, path::Path},
@@ -11,76 +12,22 @@ use crate::{
     },
 };
 
-/// The law of an FEM bar of this material, if the FEM has it.
+/// Name of the law of an FEM bar of this material, if the FEM has it.
 pub(crate) fn own(material: &MaterialPlan) -> Option<EquationName> {
-    match material {
-        MaterialPlan::LinearElastic { .. } => Some(EquationName::SmallStrain),
-        MaterialPlan::NeoHookean { .. } => Some(EquationName::NeoHookean),
-        MaterialPlan::Hencky { .. } => Some(EquationName::Hencky),
-        MaterialPlan::J2 { .. } | MaterialPlan::Newtonian { .. } | MaterialPlan::Rigid {} => None,
-    }
-}
-
-/// What suites call the equation of motion of a body of this material.
-pub(crate) fn named(material: &MaterialPlan) -> Option<EquationName> {
-    Some(match material {
-        MaterialPlan::J2 { .. } => EquationName::J2,
-        MaterialPlan::Newtonian { .. } => EquationName::Tait,
-        MaterialPlan::LinearElastic { .. } => EquationName::SmallStrain,
-        MaterialPlan::NeoHookean { .. } => EquationName::NeoHookean,
-        MaterialPlan::Hencky { .. } => EquationName::Hencky,
-        MaterialPlan::Rigid {} => return None,
-    })
+    let name = equation(material)?.name();
+    BarLaw::find(name).and(EquationName::find(name))
 }
 
 /// The equation of motion of a body of this material, for which motions the truth has it: J2 where
-/// loading never reverses, a fluid at rest.
+/// loading never reverses, a fluid at rest. Material and law are one by the material's name.
 pub(crate) fn equation(material: &MaterialPlan) -> Option<Equation> {
-    Some(match *material {
-        MaterialPlan::LinearElastic { young, poisson } => Equation::small_strain(young, poisson),
-        MaterialPlan::NeoHookean { young, poisson } => Equation::neo_hookean(young, poisson),
-        MaterialPlan::Hencky { young, poisson } => Equation::hencky(young, poisson),
-        MaterialPlan::J2 { young, poisson, r#yield, hardening } => {
-            Equation::j2(young, poisson, r#yield, hardening)
-        }
-        MaterialPlan::Newtonian { bulk, .. } => Equation::tait(bulk),
-        MaterialPlan::Rigid {} => return None,
-    })
-}
-
-/// The equation that a motion of the scene, or its state `at_rest`, is checked against; or why there
-/// is none, and what to do.
-pub(crate) fn solvable(
-    scene: &Scene,
-    at_rest: bool,
-) -> Result<Equation, (&'static str, &'static str)> {
-    match scene.material {
-        MaterialPlan::J2 { .. } if scene.dimension() > 1 => Err((
-            "what has flowed is a function of the deformation in uniaxial strain only",
-            "make it a scene of dimension 1",
-        )),
-        MaterialPlan::Newtonian { viscosity, .. } if !at_rest && viscosity > 0.0 => Err((
-            "the stress of a viscous fluid in motion depends on its velocity",
-            "state an `equilibrium`, or a motion without viscosity",
-        )),
-        _ => equation(&scene.material)
-            .ok_or(("a rigid body does not move", "state a `temperature`, and no `displacement`")),
-    }
+    Equation::of_material(material.name(), |key| material.parameter(key))
 }
 
 /// The equation that forces are manufactured with, or why there is none.
 pub(crate) fn manufactured(material: &MaterialPlan) -> Result<Equation, &'static str> {
-    match material {
-        MaterialPlan::LinearElastic { .. } => {
-            Err("a law in rate form has no stress of the deformation alone")
-        }
-        MaterialPlan::J2 { .. } => Err("plastic flow depends on the whole history of the motion"),
-        MaterialPlan::Newtonian { .. } => Err("viscous stress depends on the rate of deformation"),
-        MaterialPlan::Rigid {} => Err("a body at rest has no force"),
-        MaterialPlan::NeoHookean { .. } | MaterialPlan::Hencky { .. } => {
-            equation(material).ok_or("the law has no equation")
-        }
-    }
+    material.properties().depends_on_deformation_alone()?;
+    equation(material).ok_or("the law has no equation")
 }
 
 /// Refuses an FEM bar, a method or the reference, of a material that it has no law for.
@@ -96,8 +43,8 @@ pub(crate) fn check(
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &of_fluid()));
     }
     let foreign = |law: EquationName| {
-        let of_mpm = matches!(law, EquationName::J2 | EquationName::Tait);
-        of_mpm.then(|| format!("the reference FEM has no `{}`", law.name()))
+        let known = BarLaw::find(law.name()).is_some();
+        (!known).then(|| format!("the reference FEM has no `{}`", law.name()))
     };
     let reference = words.reference.as_ref().and_then(|reference| reference.equation);
     if let Some(message) = reference.and_then(foreign) {

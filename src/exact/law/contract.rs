@@ -1,0 +1,64 @@
+//! Interface of the truth's constitutive laws.
+
+use crate::exact::{formula::Number, tensor::Tensor};
+
+/// A law between the displacement gradient and the first Piola-Kirchhoff stress, written over any
+/// [`Number`]: over slopes, the divergence of P follows by automatic differentiation.
+pub(super) trait ConstitutiveLaw {
+    /// Name of its equation of motion in suites.
+    const NAME: &'static str;
+
+    /// Its equation of motion, as reports write it.
+    const EQUATION: &'static str;
+
+    /// Whether stress depends on the history of the motion, unless loading never reverses.
+    const HAS_HISTORY: bool = false;
+
+    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
+
+    /// Stiffest modulus at rest (Pa), `lambda + 2 mu` of a solid: a bound for stresses of a given
+    /// strain.
+    fn modulus(&self) -> f64;
+
+    /// `3 lambda + 2 mu` (Pa) of a theory of small strains, which resists equal strain on all axes;
+    /// none of a law of finite strains.
+    fn small_strain_modulus(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether a body in uniaxial strain flows plastically at the displacement gradient `grad`.
+    fn flows(&self, grad: f64) -> bool {
+        let _ = grad;
+        false
+    }
+
+    /// Whether P holds of a motion in `dimension` dimensions, or of a state `at_rest`.
+    ///
+    /// # Errors
+    /// Why it does not, and what a suite can state instead.
+    fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
+        let _ = (dimension, at_rest);
+        Ok(())
+    }
+}
+
+/// Lame's parameters (Pa).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Lame {
+    pub(crate) lambda: f64,
+    pub(crate) mu: f64,
+}
+
+impl Lame {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub(crate) fn new(young: f64, poisson: f64) -> Self {
+        let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+        Self { lambda, mu: young / (2.0 * (1.0 + poisson)) }
+    }
+
+    /// `lambda + 2 mu` (Pa).
+    pub(super) fn modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+}

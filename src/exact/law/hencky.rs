@@ -1,0 +1,97 @@
+//! Hencky elasticity, `P = tau F^-T`, `tau = lambda tr(eps) I + 2 mu eps`, `eps = ln(F F^T)/2`
+//! (Hencky 1928; along the axes `P_ii = (lambda ln J + 2 mu ln F_ii)/F_ii`).
+
+use super::contract::{ConstitutiveLaw, Lame};
+use crate::exact::{
+    formula::Number,
+    tensor::{Tensor, cofactor, det, log_strain, product, tensor, unit},
+};
+
+/// Hencky elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HenckyLaw(Lame);
+
+impl HenckyLaw {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self(Lame::new(young, poisson))
+    }
+}
+
+impl ConstitutiveLaw for HenckyLaw {
+    const NAME: &'static str = "hencky";
+    const EQUATION: &'static str =
+        "Hencky, rho0 u_tt = Div P + rho0 b, P = (lambda ln(J) I + mu ln(F F^T)) F^-T";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let (lambda, mu) = (T::from(self.0.lambda), T::from(self.0.mu));
+        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+        let det = det(&f, &cofactor);
+        let (strain, pressure) = (log_strain(&f), lambda * Number::ln(det));
+        let tau = tensor(|i, j| pressure * unit(i, j) + (mu + mu) * strain[i][j]);
+        product(&tau, &tensor(|i, j| cofactor[i][j] / det))
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::{Equation, energy::assert_is_derivative};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Along the axes, also where stretches coincide, and turned: `P(Q F) = Q P(F)`.
+    #[rstest]
+    fn stress_has_its_closed_form_along_the_axes(
+        #[values([1.3, 0.6, 1.0], [1.2; 3], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0])]
+        stretches: [f64; 3],
+        #[values(0.0, 0.7)] angle: f64,
+    ) {
+        let solid = HenckyLaw::new(50.0, 0.3);
+        let Lame { lambda, mu } = solid.0;
+        let (c, s) = (libm::cos(angle), libm::sin(angle));
+        let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
+        let log: f64 = stretches.iter().map(|stretch| libm::log(*stretch)).sum();
+        let along = |i: usize| (lambda * log + 2.0 * mu * libm::log(stretches[i])) / stretches[i];
+        let grad: Tensor<f64> = tensor(|i, j| turn[i][j] * stretches[j] - unit::<f64>(i, j));
+        let found = solid.piola(&grad);
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
+            let wanted = turn[i][j] * along(j);
+            assert_relative_eq!(found[i][j], wanted, max_relative = 1e-11, epsilon = 1e-13);
+        }
+    }
+
+    /// Nothing shears at this point, but it does beside it: the derivative must not be lost.
+    #[test]
+    fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
+        let mut second = [[[0.0; 3]; 3]; 3];
+        second[0][1][1] = 1.0;
+        let law = HenckyLaw::new(50.0, 0.3);
+        let found = Equation::from(law).divergence(2, &[[0.0; 3]; 3], &second);
+        assert_relative_eq!(found[0], law.0.mu, max_relative = 1e-12);
+    }
+
+    /// A stretch that the series does not reach is no number, rather than a wrong one.
+    #[test]
+    fn an_extreme_stretch_with_shear_has_no_stress() {
+        let mut grad = [[0.0; 3]; 3];
+        grad[0] = [100.0, 1.0, 0.0];
+        assert!(HenckyLaw::new(50.0, 0.3).piola(&grad)[0][0].is_nan());
+    }
+
+    /// `W = lambda/2 ln(J)^2 + mu eps : eps`.
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        let law = HenckyLaw::new(50.0, 0.3);
+        let Lame { lambda, mu } = law.0;
+        assert_is_derivative(&law, |f, log| {
+            let square: f64 = log_strain(f).iter().flatten().map(|c| c * c).sum();
+            0.5 * lambda * log * log + mu * square
+        });
+    }
+}

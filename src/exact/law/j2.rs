@@ -1,0 +1,91 @@
+//! J2 plasticity with linear hardening, under loading that never reverses.
+//!
+//! As long as the logarithmic strain `eps` grows along one direction, what has flowed is a function of
+//! it, and the law is one of the whole deformation (Hencky 1924; it is the flow theory's integral for
+//! proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, `s = 2 mu` up to
+//! `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that `q = Y + H alpha`,
+//! `3 mu alpha = q_elastic - q`. In uniaxial strain, where this is used, all loading is along one
+//! direction; that it never reverses is checked (`loading`).
+
+use super::contract::{ConstitutiveLaw, Lame};
+use crate::exact::{
+    formula::Number,
+    tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit},
+};
+
+/// J2 plasticity with Hencky elasticity in uniaxial strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct J2Law {
+    lame: Lame,
+    yield_stress: f64,
+    hardening: f64,
+}
+
+impl J2Law {
+    /// From Young's modulus (Pa), Poisson's ratio, the yield stress in tension and the hardening
+    /// modulus (Pa).
+    pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
+        Self { lame: Lame::new(young, poisson), yield_stress, hardening }
+    }
+}
+
+impl ConstitutiveLaw for J2Law {
+    const NAME: &'static str = "j2";
+    const EQUATION: &'static str = "J2 under loading that never reverses, rho0 u_tt = Div P + rho0 b, \
+                                    P = tau F^-T, tau = K tr(eps) I + s dev(eps), eps = ln(F F^T)/2";
+    const HAS_HISTORY: bool = true;
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+        let det = det(&f, &cofactor);
+        let tau = kirchhoff(&log_strain(&f), Number::ln(det), self);
+        product(&tau, &tensor(|i, j| cofactor[i][j] / det))
+    }
+
+    fn modulus(&self) -> f64 {
+        self.lame.modulus()
+    }
+
+    fn flows(&self, grad: f64) -> bool {
+        2.0 * self.lame.mu * libm::log(1.0 + grad).abs() > self.yield_stress
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        if dimension == 1 {
+            return Ok(());
+        }
+        Err([
+            "what has flowed is a function of the deformation in uniaxial strain only",
+            "make it a scene of dimension 1",
+        ])
+    }
+}
+
+/// The Kirchhoff stress (Pa) for the logarithmic strain `strain`, whose trace is `trace`.
+fn kirchhoff<T: Number, const D: usize>(
+    strain: &Tensor<T, D>,
+    trace: T,
+    law: &J2Law,
+) -> Tensor<T, D> {
+    let J2Law { lame: Lame { lambda, mu }, yield_stress, hardening } = *law;
+    let third = trace * T::from(1.0 / 3.0);
+    let deviator: Tensor<T, D> = tensor(|i, j| strain[i][j] - third * unit(i, j));
+    let bulk = T::from(3.0 * lambda + 2.0 * mu);
+    let elastic = mises(&deviator, third, mu);
+    let shear = if elastic.value() > yield_stress {
+        let flow = (elastic - T::from(yield_stress)) / T::from(3.0 * mu + hardening);
+        T::from(2.0 * mu) * (T::from(1.0) - T::from(3.0 * mu) * flow / elastic)
+    } else {
+        T::from(2.0 * mu)
+    };
+    tensor(|i, j| bulk * third * unit(i, j) + shear * deviator[i][j])
+}
+
+/// `sqrt(3/2) |2 mu dev(eps)|`; along the axes that are left out the deviator is `-third`.
+fn mises<T: Number, const D: usize>(deviator: &Tensor<T, D>, third: T, mu: f64) -> T {
+    let inside = sum::<T, D>(|i| sum::<T, D>(|j| deviator[i][j] * deviator[i][j]));
+    let square = inside + third * third * T::from((3 - D) as f64);
+    // Where nothing is strained the root has no slope, and nothing flows.
+    if square.value() == 0.0 { square } else { Number::sqrt(square * T::from(6.0 * mu * mu)) }
+}

@@ -1,0 +1,71 @@
+//! Neo-Hookean elasticity, `P = lambda ln(J) F^-T + mu (F - F^-T)`, `F = I + grad u` (Wallstedt &
+//! Guilkey 2008; Kamojjala et al. 2015).
+
+use super::contract::{ConstitutiveLaw, Lame};
+use crate::exact::{
+    formula::Number,
+    tensor::{Tensor, cofactor, det, tensor, unit},
+};
+
+/// Compressible neo-Hookean elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NeoHookeanLaw(Lame);
+
+impl NeoHookeanLaw {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self(Lame::new(young, poisson))
+    }
+}
+
+impl ConstitutiveLaw for NeoHookeanLaw {
+    const NAME: &'static str = "neo_hookean";
+    const EQUATION: &'static str =
+        "neo-Hookean, rho0 u_tt = Div P + rho0 b, P = lambda ln(J) F^-T + mu (F - F^-T)";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let (lambda, mu) = (T::from(self.0.lambda), T::from(self.0.mu));
+        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+        let det = det(&f, &cofactor);
+        let pressure = lambda * Number::ln(det) - mu;
+        tensor(|i, j| pressure * cofactor[i][j] / det + mu * f[i][j])
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::{Equation, energy::assert_is_derivative};
+    use approx::assert_relative_eq;
+
+    /// Simple shear by gamma, and a uniform stretch: closed forms of the Cauchy stress.
+    #[test]
+    fn cauchy_stress_has_its_closed_forms() {
+        let law = NeoHookeanLaw::new(100.0, 0.3);
+        let (solid, Lame { lambda, mu }) = (Equation::from(law), law.0);
+        let gamma = 0.4;
+        let shear = solid.cauchy(&[[0.0, gamma, 0.0], [0.0; 3], [0.0; 3]]);
+        assert_relative_eq!(shear[0][1], mu * gamma, max_relative = 1e-14);
+        assert_relative_eq!(shear[1][0], mu * gamma, max_relative = 1e-14);
+        assert_relative_eq!(shear[0][0], mu * gamma * gamma, max_relative = 1e-13);
+        assert_relative_eq!(shear[1][1], 0.0, epsilon = 1e-13);
+        let lateral = solid.cauchy(&[[0.2, 0.0, 0.0], [0.0; 3], [0.0; 3]])[1][1];
+        assert_relative_eq!(lateral, lambda * libm::log(1.2) / 1.2, max_relative = 1e-14);
+    }
+
+    /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - 3) - mu ln J`.
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        let law = NeoHookeanLaw::new(50.0, 0.3);
+        let Lame { lambda, mu } = law.0;
+        assert_is_derivative(&law, |f, log| {
+            let square: f64 = f.iter().flatten().map(|c| c * c).sum();
+            0.5 * lambda * log * log + 0.5 * mu * (square - 3.0) - mu * log
+        });
+    }
+}

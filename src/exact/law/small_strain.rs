@@ -1,0 +1,76 @@
+//! Small-strain elasticity, `P = lambda tr(eps) I + 2 mu eps`, `eps = sym(grad u)`.
+
+use super::contract::{ConstitutiveLaw, Lame};
+use crate::exact::{
+    formula::Number,
+    tensor::{Tensor, sum, tensor},
+};
+
+/// Small-strain elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SmallStrainLaw(Lame);
+
+impl SmallStrainLaw {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self(Lame::new(young, poisson))
+    }
+}
+
+impl ConstitutiveLaw for SmallStrainLaw {
+    const NAME: &'static str = "small_strain";
+    const EQUATION: &'static str = "small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let (lambda, mu) = (T::from(self.0.lambda), T::from(self.0.mu));
+        let pressure = lambda * sum::<T, D>(|i| grad[i][i]);
+        tensor(|i, j| {
+            let shear = mu * (grad[i][j] + grad[j][i]);
+            if i == j { pressure + shear } else { shear }
+        })
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+
+    fn small_strain_modulus(&self) -> Option<f64> {
+        Some(3.0 * self.0.lambda + 2.0 * self.0.mu)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::Equation;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_bar_without_poisson_effect_has_youngs_modulus() {
+        let bar = SmallStrainLaw::new(100.0, 0.0);
+        let mut grad = [[0.0; 3]; 3];
+        grad[0][0] = 0.01;
+        assert_relative_eq!(bar.piola(&grad)[0][0], 1.0);
+        assert_relative_eq!(bar.modulus(), 100.0);
+    }
+
+    /// u = (x^2 y, x y^2, 0): Div P by hand.
+    #[test]
+    fn the_divergence_agrees_with_a_hand_calculation() {
+        let (x, y) = (0.3, 0.7);
+        let solid = Equation::from(SmallStrainLaw(Lame { lambda: 2.0, mu: 3.0 }));
+        let mut second = [[[0.0; 3]; 3]; 3];
+        second[0] = [[2.0 * y, 2.0 * x, 0.0], [2.0 * x, 0.0, 0.0], [0.0; 3]];
+        second[1] = [[0.0, 2.0 * y, 0.0], [2.0 * y, 2.0 * x, 0.0], [0.0; 3]];
+        let found = solid.divergence(2, &[[0.0; 3]; 3], &second);
+        assert_relative_eq!(found[0], 5.0 * 4.0 * y + 3.0 * 2.0 * y);
+        assert_relative_eq!(found[1], 5.0 * 4.0 * x + 3.0 * 2.0 * x);
+    }
+
+    #[test]
+    fn small_strains_do_not_tell_cauchy_stress_from_p() {
+        let solid = Equation::from(SmallStrainLaw::new(100.0, 0.3));
+        let grad = [[0.01, 0.02, 0.0], [0.0, -0.01, 0.0], [0.0; 3]];
+        assert_eq!(solid.cauchy(&grad), solid.piola(&grad));
+    }
+}
