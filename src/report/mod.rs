@@ -12,11 +12,12 @@ pub mod compare;
 pub mod figure;
 pub(crate) mod json;
 pub mod page;
+pub(crate) mod study;
 pub(crate) mod text;
 
 pub use figure::cost::cost_figures;
 pub use figure::drawing::Figure;
-pub use figure::study::svg;
+pub use figure::suite::svg;
 pub use json::document::json;
 pub use json::timed_suite::priced_json;
 pub use text::cost::cost;

@@ -57,7 +57,9 @@ pub use order::level::Level;
 pub use order::pairwise::observed_order;
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
-pub use outcome::{CaseOutcome, Convergence, ForceRow, LevelOutcome, Study, SuiteOutcome};
+pub use outcome::{
+    CaseOutcome, Convergence, ForceRow, InternalForce, LevelOutcome, StudyResults, SuiteOutcome,
+};
 pub use stability::{
     Critical, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
     StabilityLimit, StabilityRow, StabilityStudy, Trial, Wanted, amplification, resume_trial,

@@ -8,6 +8,7 @@ use super::{
     verdict::{floor::Floor, judge::Judgement, name::Verdict},
 };
 use crate::subject::Profile;
+use std::{any::Any, fmt::Debug, sync::Arc};
 
 /// One suite, run.
 #[derive(Debug, Clone)]
@@ -47,22 +48,17 @@ pub struct CaseOutcome {
     pub reason: String,
     /// What did not come as expected; empty if the case passed.
     pub unmet: Vec<String>,
-    /// The study's own results.
-    pub study: Study,
+    /// Results of its kind of study; absent if the case could not be set up, for the reason in
+    /// `reason`.
+    pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// What kind of study a case is, with its results.
-#[derive(Debug, Clone)]
-pub enum Study {
-    /// Errors over a refinement plan.
-    Convergence(Box<Convergence>),
-    /// Internal force on a node while a particle moves through it.
-    InternalForce(Vec<ForceRow>),
-    /// Whether runs stay bounded.
-    Stability(Box<StabilityStudy>),
-    /// The case could not be set up; the reason is in [`CaseOutcome::reason`].
-    Refused,
-}
+/// Results of one kind of study. What shows them is listed in `report::study`.
+pub trait StudyResults: Any + Debug + Send + Sync {}
+
+impl StudyResults for Convergence {}
+impl StudyResults for InternalForce {}
+impl StudyResults for StabilityStudy {}
 
 /// Results of a convergence study.
 #[derive(Debug, Clone)]
@@ -128,6 +124,13 @@ pub struct LevelOutcome {
     pub safe_step: Option<f64>,
 }
 
+/// Results of an internal-force study.
+#[derive(Debug, Clone)]
+pub struct InternalForce {
+    /// Internal force on the node for every position of the moving particle.
+    pub rows: Vec<ForceRow>,
+}
+
 /// One position of the moving particle in an internal-force study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForceRow {
@@ -149,12 +152,10 @@ impl SuiteOutcome {
         self.cases.iter().all(CaseOutcome::passed)
     }
 
-    /// The stability studies, with the names of their cases.
-    pub fn stability_studies(&self) -> impl Iterator<Item = (&str, &StabilityStudy)> {
-        self.cases.iter().filter_map(|case| match &case.study {
-            Study::Stability(study) => Some((case.case.as_str(), study.as_ref())),
-            _ => None,
-        })
+    /// The results of one kind of study, with the names of their cases.
+    pub fn results<'a, R: StudyResults>(&'a self) -> impl Iterator<Item = (&'a str, &'a R)> {
+        let study = |case: &'a CaseOutcome| Some((case.case.as_str(), case.results()?));
+        self.cases.iter().filter_map(study)
     }
 }
 
@@ -166,10 +167,13 @@ impl CaseOutcome {
 
     /// The convergence study, if the case is one.
     pub fn convergence(&self) -> Option<&Convergence> {
-        match &self.study {
-            Study::Convergence(study) => Some(study),
-            _ => None,
-        }
+        self.results()
+    }
+
+    /// The results, if they are of this kind of study.
+    pub fn results<R: StudyResults>(&self) -> Option<&R> {
+        let results: &dyn Any = self.study.as_deref()?;
+        results.downcast_ref()
     }
 }
 

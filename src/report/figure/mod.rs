@@ -31,6 +31,7 @@ pub(crate) mod cost;
 pub(crate) mod drawing;
 pub(crate) mod plot;
 pub(crate) mod study;
+pub(crate) mod suite;
 pub(crate) mod sweep;
 
 mod convergence;

@@ -1,37 +1,20 @@
-//! The figures of a suite.
+//! The figures of convergence and internal-force studies.
 
-use super::{
-    Convergence as Plot, Curve, History, Mark, Point, Series, cost, drawing::Figure, sweep,
-};
+use super::{Convergence as Plot, Curve, History, Mark, Point, Series, drawing::Figure};
 use crate::{
-    report::text::{cost as ranked, stability},
     subject::Totals,
-    verify::{Axis, Convergence, LevelOutcome, Study, SuiteOutcome, Verdict},
+    verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict},
 };
 
 /// Most curves in one plot: a reader cannot tell more apart.
 const MOST_SERIES: usize = 6;
 
-/// Every figure of a suite: convergence plots (as many as keep each readable), the observed
-/// velocity for each MPM or FEM case that watched one, the energies that were asked for, the forces of an
-/// internal-force study, and error against work.
-pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
+/// Convergence plots, as many as keep each readable; the observed velocity of each case that watched
+/// one; the energies that were asked for.
+pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(histories(outcome));
     figures.extend(energies(outcome));
-    figures.extend(forces(outcome));
-    let file = || format!("{}.svg", outcome.suite);
-    figures.extend(stability::map(outcome).map(|svg| Figure { file: file(), svg }));
-    let named = |(file, svg): (String, String)| Figure { file, svg };
-    figures.extend(sweep::figures(outcome).into_iter().map(named));
-    let (rankings, work) = (ranked::by_transfers(outcome), "particle-node transfers");
-    figures.extend(cost::cost_figures(
-        &outcome.suite,
-        &outcome.title,
-        &rankings,
-        work,
-        "transfers",
-    ));
     figures
 }
 
@@ -159,10 +142,11 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     Some(Figure { file: format!("{}-energy.svg", outcome.suite), svg })
 }
 
-fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
+/// The forces of an internal-force study.
+pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
     let mut curves = Vec::new();
     for case in &outcome.cases {
-        let Study::InternalForce(rows) = &case.study else { continue };
+        let Some(InternalForce { rows }) = case.results() else { continue };
         if curves.is_empty() {
             let points = rows.iter().map(|row| (row.position, row.predicted)).collect();
             curves.push(Curve {

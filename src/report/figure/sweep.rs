@@ -17,7 +17,7 @@ type Named = (String, String);
 
 /// Studies without a limit that is sought, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    outcome.stability_studies().filter(|(_, study)| study.sought.is_none()).collect()
+    outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
 }
 
 /// A figure for each figure of the runs that the suite speaks of, where there is something to compare.

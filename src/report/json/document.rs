@@ -47,16 +47,14 @@
 //! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
 //! or removed without a new major version. `docs/columns.md` lists those of rows.
 
-use super::{cost, number::number, stability};
+use super::cost;
 use crate::{
     report::{
-        columns::{force, json_object, level},
+        study::{KINDS, kind::members},
         text::cost::by_transfers,
     },
     subject::{Column, Holder, Profile},
-    verify::{
-        Axis, CaseOutcome, Convergence, Floor, FloorCause, Interval, Probe, Study, SuiteOutcome,
-    },
+    verify::{CaseOutcome, SuiteOutcome},
 };
 use serde_json::{Value, json};
 
@@ -76,46 +74,18 @@ fn suite(outcome: &SuiteOutcome) -> Value {
 }
 
 fn case(outcome: &CaseOutcome) -> Value {
-    let study = outcome.convergence();
-    let columns = level::json_columns();
-    let levels = study.into_iter().flat_map(level::rows);
-    json!({
+    let mut members = members(json!({
         "case": outcome.case,
         "subject": outcome.subject,
-        "axis": study.map(|study| study.axis.name()),
-        "formal_order": study
-            .filter(|study| study.axis != Axis::Particles)
-            .map(|study| number(study.formal_order)),
-        "judge": study.filter(|study| study.compared).map(judge),
-        "observed_order": study.and_then(|study| study.judgement.order).map(interval),
         "verdict": outcome.verdict,
         "expected": outcome.expected,
         "passed": outcome.passed(),
         "reason": outcome.reason,
         "unmet": outcome.unmet,
         "profile": outcome.profile.as_ref().map(profile),
-        "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
-        "levels": levels.map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
-        "forces": match &outcome.study {
-            Study::InternalForce(rows) => {
-                rows.iter().map(|row| json_object(&force::columns(), row)).collect()
-            }
-            _ => Value::Null,
-        },
-        "stability": match &outcome.study {
-            Study::Stability(study) => stability::study(study),
-            _ => Value::Null,
-        },
-    })
-}
-
-/// What the judged errors are errors of, and what they are divided by.
-fn judge(study: &Convergence) -> Value {
-    json!({"of": study.of.name(), "norm": study.norm, "scale": study.scale.map(number)})
-}
-
-fn interval(order: Interval) -> Value {
-    json!({"value": number(order.value), "low": number(order.low), "high": number(order.high)})
+    }));
+    members.extend(KINDS.iter().flat_map(|kind| kind.json(outcome)));
+    members.into()
 }
 
 fn profile(profile: &Profile) -> Value {
@@ -134,20 +104,5 @@ fn profile(profile: &Profile) -> Value {
         "nodes": profile.nodes,
         "passes": profile.passes.iter().map(pass).collect::<Vec<_>>(),
         "columns": profile.columns.iter().map(column).collect::<Vec<_>>(),
-    })
-}
-
-fn floor(floor: &Floor) -> Value {
-    let probe = |probe: &Probe| {
-        json!({
-            "axis": probe.axis.name(),
-            "error": probe.error.as_ref().ok().copied().map(number),
-            "failure": probe.error.as_ref().err(),
-        })
-    };
-    json!({
-        "cause": floor.cause().map(FloorCause::name),
-        "error": number(floor.error),
-        "probes": floor.probes.iter().map(probe).collect::<Vec<_>>(),
     })
 }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::{
     report::{svg, text},
-    verify::{ForceRow, Study, SuiteOutcome},
+    verify::{ForceRow, InternalForce, SuiteOutcome},
 };
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
         verdict: word(),
         reason: word(),
         unmet: unmet.iter().map(|unmet| format!("{unmet}{words}")).collect(),
-        study: Study::InternalForce(vec![row(0.0), row(1.0)]),
+        study: Some(std::sync::Arc::new(InternalForce { rows: vec![row(0.0), row(1.0)] })),
     };
     SuiteOutcome {
         suite: suite.to_owned(),

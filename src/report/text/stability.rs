@@ -11,7 +11,7 @@ use crate::{
 
 /// The studies of a suite that seek a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    outcome.stability_studies().filter(|(_, study)| study.sought.is_some()).collect()
+    outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
 }
 
 /// The limits of all cases in one table: a row for each case, a column for each value. Nothing

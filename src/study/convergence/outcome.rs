@@ -11,10 +11,10 @@ use crate::{
     verify,
     verify::{
         Axis, CaseOutcome, Convergence, Drift, ErrorScale, Expectation, Floor, Interval, Judgement,
-        LevelOutcome, Measured, OrderHypothesis, Richardson, Run, Seen, Study, Verdict, judge,
-        larger,
+        LevelOutcome, Measured, OrderHypothesis, Richardson, Run, Seen, Verdict, judge, larger,
     },
 };
+use std::sync::Arc;
 
 /// The error that `plan` judges.
 pub(crate) fn error_of(plan: &ConvergencePlan, run: &Run) -> f64 {
@@ -61,7 +61,7 @@ pub(crate) fn judged(
         verdict,
         reason: [Some(reason), found].into_iter().flatten().collect::<Vec<_>>().join("; "),
         unmet,
-        study: Study::Convergence(Box::new(Convergence {
+        study: Some(Arc::new(Convergence {
             axis: plan.refine.axis,
             formal_order: formal_order(plan, case),
             floor,
@@ -194,7 +194,7 @@ fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> 
         verdict: String::new(),
         reason: String::new(),
         unmet: Vec::new(),
-        study: Study::Refused,
+        study: None,
     }
 }
 

@@ -10,8 +10,9 @@ use crate::{
         model::{ForceCase, ForceExpectation, ForcePlan},
     },
     verify,
-    verify::{CaseOutcome, ForceRow},
+    verify::{CaseOutcome, ForceRow, InternalForce},
 };
+use std::sync::Arc;
 
 impl Study for ForcePlan {
     fn statement(&self) -> Rows {
@@ -64,7 +65,7 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
         verdict: verdict.to_owned(),
         reason,
         unmet,
-        study: verify::Study::InternalForce(rows),
+        study: Some(Arc::new(InternalForce { rows })),
     }
 }
 

@@ -21,7 +21,6 @@ use crate::{
             stability::{StabilityCase, StabilityPlan},
         },
     },
-    verify,
     verify::{
         CaseOutcome, CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit,
         StabilityRow, StabilityStudy, Trial, amplification, resume_trial, spectral_radius,
@@ -29,6 +28,7 @@ use crate::{
     },
 };
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Values at which a limit is looked for before the first unstable interval is halved.
 const SCAN: u32 = 48;
@@ -115,7 +115,7 @@ fn outcome(job: &Job<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
         verdict: study.verdict(),
         reason: study.reason(),
         unmet,
-        study: verify::Study::Stability(Box::new(study)),
+        study: Some(Arc::new(study)),
     }
 }
 

@@ -1,0 +1,16 @@
+//! The figures of a suite.
+
+use super::{cost, drawing::Figure};
+use crate::{
+    report::{study::KINDS, text::cost::by_transfers},
+    verify::SuiteOutcome,
+};
+
+/// Every figure of a suite: those of its kind of study, and error against work.
+pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| kind.figures(outcome)).collect();
+    let (rankings, work) = (by_transfers(outcome), "particle-node transfers");
+    let SuiteOutcome { suite, title, .. } = outcome;
+    figures.extend(cost::cost_figures(suite, title, &rankings, work, "transfers"));
+    figures
+}

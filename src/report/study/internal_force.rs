@@ -1,0 +1,36 @@
+//! Internal-force studies in reports.
+
+use super::kind::{StudyReport, members};
+use crate::{
+    report::{
+        columns::{force, json_object},
+        figure::{drawing::Figure, study},
+        text::table::Table,
+    },
+    verify::{CaseOutcome, InternalForce, SuiteOutcome},
+};
+use serde_json::{Map, Value, json};
+
+/// Shows [`InternalForce`].
+pub(crate) struct InternalForceReport;
+
+impl StudyReport for InternalForceReport {
+    fn tables(&self, lines: &mut Vec<String>, case: &CaseOutcome) {
+        if let Some(InternalForce { rows }) = case.results() {
+            lines.extend(Table::new(&force::columns(), rows).lines());
+        }
+    }
+
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
+        let study: Option<&InternalForce> = case.results();
+        let columns = force::columns();
+        let objects = |study: &InternalForce| -> Value {
+            study.rows.iter().map(|row| json_object(&columns, row)).collect()
+        };
+        members(json!({"forces": study.map(objects)}))
+    }
+
+    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
+        study::forces(outcome).into_iter().collect()
+    }
+}

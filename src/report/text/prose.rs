@@ -1,0 +1,35 @@
+//! Prose in text reports, wrapped.
+
+/// Width to which prose is wrapped.
+const WIDTH: usize = 100;
+
+/// A paragraph over the whole width.
+pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
+    wrap(lines, WIDTH, paragraph);
+}
+
+/// `key` in the first column, `value` wrapped beside it.
+pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
+    const KEY: usize = 18;
+    let mut wrapped = Vec::new();
+    wrap(&mut wrapped, WIDTH - KEY - 2, value);
+    for (i, line) in wrapped.iter().enumerate() {
+        let key = if i == 0 { key } else { "" };
+        lines.push(format!("  {key:KEY$}{line}").trim_end().to_owned());
+    }
+}
+
+/// Wraps prose at word boundaries.
+fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
+    let mut line = String::new();
+    for word in prose.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > width {
+            lines.push(std::mem::take(&mut line));
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    lines.push(line);
+}
