@@ -1,18 +1,18 @@
 //! The bar in motion.
 
 use super::{
-    mass::MassMatrix,
+    mass::BarMassMatrix,
     mesh::{Mesh, dot},
-    setup::{Field, Setup, SetupError},
+    setup::{BarSetup, Field, SetupError},
 };
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
 /// A bar, discretised by finite elements, at some instant.
 pub struct Bar {
-    setup: Setup,
+    setup: BarSetup,
     pub(super) mesh: Mesh,
     nodes: Vec<f64>,
-    mass: MassMatrix,
+    mass: BarMassMatrix,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     /// Holds the nodal forces until the mass matrix has been solved with.
@@ -34,10 +34,10 @@ impl Bar {
     ///
     /// # Errors
     /// [`SetupError`] names what makes no sense in `setup`.
-    pub fn new(setup: Setup) -> Result<Self, SetupError> {
+    pub fn new(setup: BarSetup) -> Result<Self, SetupError> {
         setup.check()?;
         let mesh = Mesh::new(setup.from, setup.to, setup.cells, setup.element);
-        let mass = MassMatrix::new(setup.mass, &mesh, setup.density, setup.fixed)?;
+        let mass = BarMassMatrix::new(setup.mass, &mesh, setup.density, setup.fixed)?;
         let nodes: Vec<f64> = (0..mesh.node_count()).map(|i| mesh.node(i)).collect();
         let places = if setup.body_force.is_some() { quadrature(&mesh) } else { Vec::new() };
         let mut bar = Self {

@@ -8,7 +8,7 @@ use super::{Mass, mesh::Mesh};
 use crate::subject::Failure;
 
 /// A mass matrix that is ready to be solved with, as often as there are steps.
-pub(super) enum MassMatrix {
+pub(super) enum BarMassMatrix {
     /// The diagonal.
     Lumped(Vec<f64>),
     /// The Cholesky factor. It keeps the band of the matrix, so nothing is lost by a library that
@@ -16,7 +16,7 @@ pub(super) enum MassMatrix {
     Consistent(Box<CscCholesky<f64>>),
 }
 
-impl MassMatrix {
+impl BarMassMatrix {
     /// Assembles, and factorises if there is something to factorise.
     pub(super) fn new(
         mass: Mass,

@@ -28,7 +28,7 @@
 //! which is `dt = 2 / omega` of the highest frequency of a single element (Hughes 2000, section
 //! 9.1 for the limit, 7.3.2 for the matrices).
 //!
-//! [`Setup`] says what is computed, [`Bar`] computes it. A step allocates nothing: every array,
+//! [`BarSetup`] says what is computed, [`Bar`] computes it. A step allocates nothing: every array,
 //! the factor of the mass matrix included, is made by [`Bar::new`], and the triangular solves work
 //! in place.
 
@@ -46,4 +46,4 @@ mod tests;
 pub use bar::Bar;
 pub use element::Element;
 pub use law::BarLaw;
-pub use setup::{Field, History, Load, Mass, Sampling, Setup, SetupError, pointwise};
+pub use setup::{BarSetup, Field, History, Load, Mass, Sampling, SetupError, pointwise};

@@ -46,7 +46,7 @@ named! {
 }
 
 /// A bar on `[from, to]` (m), its law, its loads and its discretisation.
-pub struct Setup {
+pub struct BarSetup {
     /// Reference position of the left end (m).
     pub from: f64,
     /// Reference position of the right end (m).
@@ -109,7 +109,7 @@ pub enum SetupError {
     Initial(#[from] Failure),
 }
 
-impl Setup {
+impl BarSetup {
     /// Refuses whatever has no meaning. Each comparison is such that NaN fails it.
     pub(super) fn check(&self) -> Result<(), SetupError> {
         let Self { from, to, cells, density, .. } = *self;

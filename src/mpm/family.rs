@@ -77,3 +77,40 @@ macro_rules! objects {
     };
 }
 pub(in crate::mpm) use objects;
+
+/// Declares a family of objects that suites choose by name and parameter; each type has a constant
+/// `PARAMETER` and is made by `new`.
+macro_rules! objects_with_parameter {
+    ($(#[$meta:meta])* pub enum $names:ident: $parameter:ty;
+        $(#[$fn_meta:meta])* fn $make:ident -> $contract:ident;
+        $($text:literal => $member:ident: $kind:ty,)+
+    ) => {
+        $crate::named::named! {
+            $(#[$meta])*
+            pub enum $names {
+                $(
+                    #[doc = concat!("`", $text, "`: `", stringify!($kind), "`.")]
+                    $member = $text,
+                )+
+            }
+        }
+
+        impl $names {
+            /// The parameter.
+            pub fn parameter(self) -> $parameter {
+                const D: usize = 1;
+                match self {
+                    $(Self::$member => <$kind>::PARAMETER,)+
+                }
+            }
+        }
+
+        $(#[$fn_meta])*
+        pub(in crate::mpm) fn $make<const D: usize>(name: $names, value: u32) -> Box<dyn $contract<D>> {
+            match name {
+                $($names::$member => Box::new(<$kind>::new(value)),)+
+            }
+        }
+    };
+}
+pub(in crate::mpm) use objects_with_parameter;

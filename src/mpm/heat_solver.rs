@@ -62,7 +62,7 @@ impl<const D: usize> Subject for HeatSolver<D> {
         let Self { grid, particles, kernel, effects, .. } = self;
         for effect in effects {
             let now = (self.time, dt);
-            self.transfers += effect.advance(now, particles, kernel.as_ref(), grid)?;
+            self.transfers += effect.integrate_state(now, particles, kernel.as_ref(), grid)?;
         }
         self.time += dt;
         Ok(())

@@ -47,9 +47,9 @@ pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_bodies};
 pub use effect::{
-    ArtificialViscosity, BodyForce, Damping, Driven, Effect, EffectName, Field, Gravity, Heat,
-    HeatSource, LocalDamping, Placement, Pressure, PressureField, ScalarField, SetForce, Thermal,
-    ThermalExpansion, ThermalFace, Traction, TractionField,
+    ArtificialViscosity, BodyForce, Damping, Effect, EffectName, ForceField, Gravity, Heat,
+    HeatSource, LocalDamping, Placement, PrescribedVelocity, Pressure, PressureField, ScalarField,
+    SetForce, Thermal, ThermalBoundary, ThermalExpansion, Traction, TractionField,
 };
 pub use frame::FrameName;
 pub use grid::Grid;
@@ -74,5 +74,5 @@ pub use solver::Solver;
 pub use stage::Stage;
 pub use transfer::{
     Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
-    TransferName, Xpic, g2p, transfer,
+    TransferName, TransferParameter, WithParameter, Xpic, g2p, transfer,
 };

@@ -13,7 +13,7 @@ pub struct Particles<const D: usize> {
     /// frame the reference positions X.
     pub x: Vec<Vector<D>>,
     /// Current positions (m) in the total-Lagrangian frame; empty in the updated one.
-    pub moved: Vec<Vector<D>>,
+    pub current_position: Vec<Vector<D>>,
     /// Velocities (m/s).
     pub v: Vec<Vector<D>>,
     /// Masses (kg), constant.
@@ -97,7 +97,7 @@ impl<const D: usize> Particles<D> {
             vol0: vec![volume; total],
             vol: vec![volume; total],
             sigma: vec![Matrix::zeros(); total],
-            moved: Vec::new(),
+            current_position: Vec::new(),
             def_grad: Vec::new(),
             domain: Vec::new(),
             domain0: Vec::new(),
@@ -163,7 +163,7 @@ impl<const D: usize> Particles<D> {
     /// Enters the total-Lagrangian frame: from now on the basis sees reference positions.
     pub(super) fn stay_in_reference(&mut self) {
         self.track_deformation();
-        self.moved.clone_from(&self.x);
+        self.current_position.clone_from(&self.x);
         self.x.clone_from(&self.x0);
     }
 
@@ -175,12 +175,12 @@ impl<const D: usize> Particles<D> {
     /// Current positions (m), in either frame.
     #[inline(always)]
     pub fn positions(&self) -> &[Vector<D>] {
-        if self.moved.is_empty() { &self.x } else { &self.moved }
+        if self.current_position.is_empty() { &self.x } else { &self.current_position }
     }
 
     /// Current positions (m), to be changed.
     pub fn positions_mut(&mut self) -> &mut Vec<Vector<D>> {
-        if self.moved.is_empty() { &mut self.x } else { &mut self.moved }
+        if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
     }
 
     /// Stress times volume (N m) of particle `p`, the flux that the gradients of the basis meet:
@@ -188,7 +188,7 @@ impl<const D: usize> Particles<D> {
     #[inline]
     pub fn flux(&self, p: usize) -> Matrix<D> {
         let flux = self.sigma[p] * self.vol[p];
-        if self.moved.is_empty() {
+        if self.current_position.is_empty() {
             return flux;
         }
         // No inverse: the particle is inverted, and the next stage says so.
@@ -213,7 +213,7 @@ impl<const D: usize> Particles<D> {
         let all = [
             Column::of_particles("X", &self.x0),
             Column::of_particles("x", &self.x),
-            Column::of_particles("x moved", &self.moved),
+            Column::of_particles("x moved", &self.current_position),
             Column::of_particles("v", &self.v),
             Column::of_particles("mass", &self.mass),
             Column::of_particles("V0", &self.vol0),

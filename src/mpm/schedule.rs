@@ -1,4 +1,4 @@
-//! Schedule of a run: scheme, transfer, conditions and coupling, compiled once to a list of passes.
+//! StepSchedule of a run: scheme, transfer, conditions and coupling, compiled once to a list of passes.
 //!
 //! A pass of P2G or G2P computes the weights of all particles anew, so that neighbouring stages
 //! share one wherever no stage between them changes particles (P2G) or nodal velocities (G2P):
@@ -45,7 +45,7 @@ pub(super) enum CouplingPoint {
 
 /// Passes of a run.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Schedule {
+pub(super) struct StepSchedule {
     /// Passes before the first step, for the accelerations at t = 0 where velocities start half a
     /// step back.
     pub(super) opening: Arc<[Pass]>,
@@ -62,7 +62,7 @@ pub(super) struct Coupled {
     pub(super) reads_velocity: bool,
 }
 
-impl Schedule {
+impl StepSchedule {
     /// The schedule of `setup`; positions stay in a `fixed_configuration`.
     pub(super) fn new<const D: usize>(
         setup: &mut Setup<D>,

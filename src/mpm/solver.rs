@@ -8,7 +8,7 @@ use super::{
     frame::FrameName,
     grid::Grid,
     particles::Particles,
-    schedule::{Coupled, Pass, Schedule},
+    schedule::{Coupled, Pass, StepSchedule},
     setup::Setup,
     stage::Stage,
     state::initial,
@@ -19,7 +19,7 @@ use crate::subject::{Column, Failure, Profile};
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
     pub(super) setup: Setup<D>,
-    pub(super) schedule: Schedule,
+    pub(super) schedule: StepSchedule,
     pub(super) time: f64,
     /// Time of the velocities (s): once steps are made, half a step behind.
     pub(super) velocity_time: f64,
@@ -57,7 +57,7 @@ impl<const D: usize> Solver<D> {
         let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
         transfer.start(kernel.as_ref(), grid, particles);
         Ok(Self {
-            schedule: Schedule::new(&mut setup, Coupled::default(), false),
+            schedule: StepSchedule::new(&mut setup, Coupled::default(), false),
             time: 0.0,
             velocity_time: 0.0,
             advance: Advance { from: 0.0, to: 0.0, dt: 0.0 },
@@ -162,7 +162,7 @@ impl<const D: usize> Solver<D> {
             self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
         }
         for effect in &self.setup.effects {
-            effect.oppose_motion(&mut self.setup.grid);
+            effect.modify_force(&mut self.setup.grid);
         }
     }
 
@@ -184,7 +184,7 @@ impl<const D: usize> Solver<D> {
     /// Applies the effects' velocity hooks after an advance of `dt` (s).
     pub(super) fn drive(&mut self, dt: f64) {
         for effect in &self.setup.effects {
-            effect.drive_velocity(self.velocity_time, dt, &mut self.setup.particles);
+            effect.modify_velocity(self.velocity_time, dt, &mut self.setup.particles);
         }
     }
 
@@ -193,7 +193,7 @@ impl<const D: usize> Solver<D> {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects {
             let now = (self.time, dt);
-            self.transfers += effect.advance(now, particles, kernel.as_ref(), grid)?;
+            self.transfers += effect.integrate_state(now, particles, kernel.as_ref(), grid)?;
         }
         Ok(())
     }
@@ -202,7 +202,7 @@ impl<const D: usize> Solver<D> {
         let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
         std::mem::swap(particles.positions_mut(), &mut self.advected);
         for effect in effects {
-            effect.drive_position(dt, particles);
+            effect.modify_position(dt, particles);
         }
         if kernel.domain() == Domain::Follows && *frame == FrameName::Updated {
             particles.track_domains();

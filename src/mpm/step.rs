@@ -1,7 +1,7 @@
 //! A step: the passes of the schedule in their order, and the start of a run.
 
 use super::{
-    schedule::{Pass, Schedule},
+    schedule::{Pass, StepSchedule},
     setup::Setup,
     solver::Solver,
     transfer::kick,
@@ -55,7 +55,7 @@ impl<const D: usize> Solver<D> {
 
 impl<const D: usize> Subject for Solver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        let Schedule { opening, passes } = self.schedule.clone();
+        let StepSchedule { opening, passes } = self.schedule.clone();
         if !self.started {
             self.open(dt);
             self.run_all(&opening, dt)?;

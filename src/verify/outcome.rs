@@ -121,7 +121,7 @@ pub struct LevelOutcome {
     pub order: Option<f64>,
     /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the step
     /// is longer.
-    pub safe_step: Option<f64>,
+    pub stable_time_step: Option<f64>,
 }
 
 /// Results of an internal-force study.
@@ -180,7 +180,7 @@ impl CaseOutcome {
 impl LevelOutcome {
     /// Whether its step is longer than any that is known to be safe.
     pub fn is_too_long(&self) -> bool {
-        self.safe_step.is_some_and(|stable| self.dt > stable)
+        self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
     /// What tells the level from others of its study: `64 cells`, `dt = 1e-3 s`.

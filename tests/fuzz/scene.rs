@@ -129,7 +129,7 @@ impl Scene {
     fn predicts<const D: usize>(&self, what: &str, particles: Particles<D>) {
         const LONGEST: f64 = 0.1;
         let Ok(solver) = self.solver(particles) else { return };
-        if let Ok(safe) = solver.safe_step(LONGEST, 3) {
+        if let Ok(safe) = solver.stable_time_step(LONGEST, 3) {
             assert!((0.0..=LONGEST).contains(&safe), "{what}: safe step {safe} of {self:?}");
         }
     }

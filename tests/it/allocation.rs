@@ -11,11 +11,11 @@ use mpm_verify::{
     fem,
     fem::{Bar, Element, Mass, Sampling},
     mpm::{
-        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Driven, EffectName,
-        Fixed, Friction, Gravity, Grid, Heat, HeatSolver, LocalDamping, MaterialPlan, Matrix,
-        Particles, Placement, Prescribed, Pressure, Roller, ScalarField, SchemeName, SetForce,
-        Setup, Side, Solver, Thermal, ThermalExpansion, ThermalFace, Traction, TransferName,
-        Vector, VelocityField,
+        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, EffectName, Fixed,
+        Friction, Gravity, Grid, Heat, HeatSolver, LocalDamping, MaterialPlan, Matrix, Particles,
+        Placement, Prescribed, PrescribedVelocity, Pressure, Roller, ScalarField, SchemeName,
+        SetForce, Setup, Side, Solver, Thermal, ThermalBoundary, ThermalExpansion, Traction,
+        TransferName, Vector, VelocityField,
     },
     subject::{Holder, Samples, Start, Subject},
 };
@@ -98,7 +98,7 @@ fn heat<const D: usize>(
         ((0, Side::High), convection),
         ((D - 1, Side::Low), Thermal::Flux(number())),
     ];
-    let face = |(at, condition)| ThermalFace::new((grid, basis), particles, at, condition);
+    let face = |(at, condition)| ThermalBoundary::new((grid, basis), particles, at, condition);
     heat.with_faces(conditions.map(face).into())
         .with_source(Box::new(move |t, _, into| forcing.at(t, into)))
 }
@@ -117,7 +117,7 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         let pull = Box::new(|t| Vector::<D>::from_element(0.1 * t));
         let force = SetForce::on(&setup.particles, &[0, 1], pull);
         let drive = || -> VelocityField<D> { Box::new(|x, t| x * t) };
-        let driven = Driven::on(&setup.particles, &[2, 3], drive());
+        let driven = PrescribedVelocity::on(&setup.particles, &[2, 3], drive());
         let mut forcing = forcing(&setup.particles.x0);
         let made = BodyForce::new(Box::new(move |t, _, b| {
             forcing.at(t, b, |force| Vector::<D>::from_fn(|i, _| force[i]));
@@ -316,7 +316,7 @@ fn no_scheme_is_left_out_above() {
 
 /// A bar under a body force, fixed on the left and pulled on the right.
 fn loaded_bar(element: Element, mass: Mass, start: Start, sampling: Sampling) -> Bar {
-    let setup = fem::Setup {
+    let setup = fem::BarSetup {
         from: 0.0,
         to: 1.0,
         cells: 12,

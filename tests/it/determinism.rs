@@ -7,7 +7,7 @@ use crate::common::{
 use mpm_verify::{
     mpm::{
         BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver,
-        TransferChoice, TransferName, Vector, combine, mass_matrix,
+        TransferChoice, TransferName, Vector, WithParameter, combine, mass_matrix,
     },
     subject::{Start, Subject},
 };
@@ -147,7 +147,9 @@ fn an_interrupted_run_of_any_combination_gives_the_bits_of_a_whole_one() {
 /// Series of any length are no registered names.
 #[test]
 fn an_interrupted_run_with_a_series_gives_the_bits_of_a_whole_one() {
-    for choice in [TransferChoice::Xpic(3), TransferChoice::Fmpm(3)] {
+    for choice in
+        [WithParameter::Xpic, WithParameter::Fmpm].map(|name| TransferChoice::With(name, 3))
+    {
         let setup = || {
             let named = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
             Setup { transfer: choice.build(), ..named }

@@ -6,10 +6,11 @@ use crate::common::{
 };
 use mpm_verify::{
     mpm::{
-        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Driven,
-        Effect, EffectName, Fixed, Friction, Gravity, Grid, Heat, HeatSolver, HeatSource,
-        LocalDamping, NeoHookean, Particles, Placement, Prescribed, Pressure, Roller, SchemeName,
-        SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
+        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Effect,
+        EffectName, Fixed, Friction, Gravity, Grid, Heat, HeatSolver, HeatSource, LocalDamping,
+        NeoHookean, Particles, Placement, Prescribed, PrescribedVelocity, Pressure, Roller,
+        SchemeName, SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName,
+        Vector,
     },
     study,
     subject::{Column, Holder, Profile, Subject},
@@ -52,8 +53,8 @@ fn effect<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) -> 
             Box::new(Pressure::at(particles, 0, side, at, Box::new(move |_, t| size * (1.0 + t))))
         }
         EffectName::SetForce => Box::new(SetForce::on(particles, &[0, 1], Box::new(uniform))),
-        EffectName::Driven => {
-            Box::new(Driven::on(particles, members, Box::new(move |_, t| uniform(t))))
+        EffectName::PrescribedVelocity => {
+            Box::new(PrescribedVelocity::on(particles, members, Box::new(move |_, t| uniform(t))))
         }
         EffectName::LocalDamping => Box::new(LocalDamping(size)),
         EffectName::ArtificialViscosity => Box::new(viscosity(size)),

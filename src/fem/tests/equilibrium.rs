@@ -5,7 +5,7 @@ use rstest::rstest;
 
 use super::{bar_at_rest, run};
 use crate::{
-    fem::{Bar, Element, Mass, Sampling, Setup, pointwise},
+    fem::{Bar, BarSetup, Element, Mass, Sampling, pointwise},
     subject::{Samples, Subject},
 };
 
@@ -28,7 +28,7 @@ fn a_uniform_stretch_stays(
         (!fixed).then(|| Box::new(|_| neo_hookean(STRETCH)) as _)
     };
     let bar = run(
-        Setup {
+        BarSetup {
             element,
             mass,
             fixed,
@@ -52,7 +52,7 @@ fn a_free_bar_falls(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
     #[values(Mass::Lumped, Mass::Consistent)] mass: Mass,
 ) {
-    let setup = Setup {
+    let setup = BarSetup {
         element,
         mass,
         fixed: [false; 2],
@@ -73,7 +73,7 @@ fn samples_cover_the_bar(
 ) {
     let (initial_displacement, initial_velocity) = (Box::new(|x| 0.1 * x), Box::new(|x| 3.0 * x));
     let start = bar_at_rest(2.0, 100.0, 1.0);
-    let setup = Setup { element, initial_displacement, initial_velocity, sampling, ..start };
+    let setup = BarSetup { element, initial_displacement, initial_velocity, sampling, ..start };
     let bar = Bar::new(setup).unwrap();
     let mut samples = Samples::default();
     bar.sample(&mut samples);

@@ -8,12 +8,12 @@ mod time;
 
 use std::f64::consts::PI;
 
-use super::{Bar, Element, Mass, Sampling, Setup};
+use super::{Bar, BarSetup, Element, Mass, Sampling};
 use crate::subject::{Samples, Start, Subject};
 
 /// A bar at rest: fixed on the left, free on the right, `P = E (F - 1)`.
-fn bar_at_rest(length: f64, young: f64, density: f64) -> Setup {
-    Setup {
+fn bar_at_rest(length: f64, young: f64, density: f64) -> BarSetup {
+    BarSetup {
         from: 0.0,
         to: length,
         cells: 8,
@@ -32,13 +32,13 @@ fn bar_at_rest(length: f64, young: f64, density: f64) -> Setup {
 }
 
 /// The vibrating bar of Wobbes & Tielen (2015): wave speed 10 m/s, a quarter wave in 25 m.
-fn vibrating_bar(cells: usize, element: Element, mass: Mass) -> Setup {
+fn vibrating_bar(cells: usize, element: Element, mass: Mass) -> BarSetup {
     let initial_velocity = Box::new(|x| 0.1 * libm::sin(PI * x / 50.0));
-    Setup { cells, element, mass, initial_velocity, ..bar_at_rest(25.0, 100.0, 1.0) }
+    BarSetup { cells, element, mass, initial_velocity, ..bar_at_rest(25.0, 100.0, 1.0) }
 }
 
 /// Steps to `until` in steps of at most `dt`, all alike.
-fn run(setup: Setup, until: f64, dt: f64) -> Bar {
+fn run(setup: BarSetup, until: f64, dt: f64) -> Bar {
     let mut bar = Bar::new(setup).unwrap();
     let steps = libm::ceil(until / dt - 1e-6);
     for _ in 0..steps as usize {

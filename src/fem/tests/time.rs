@@ -5,19 +5,19 @@ use rstest::rstest;
 use super::{bar_at_rest, orders, run, vibrating_bar};
 use crate::{
     fem::{
-        Bar, Element,
+        Bar, BarSetup, Element,
         Element::{Linear, Quadratic},
         Mass,
         Mass::{Consistent, Lumped},
-        Setup, pointwise,
+        pointwise,
     },
     subject::{Checkpoint, Samples, Start, Subject},
 };
 
 /// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
-fn column(start: Start) -> Setup {
+fn column(start: Start) -> BarSetup {
     let body_force = Some(pointwise(|_, _| -9.81));
-    Setup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
+    BarSetup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
 }
 
 /// Displacement and velocity somewhere in the column, after 0.1 s in so many steps.
@@ -64,7 +64,7 @@ fn a_change_of_step_keeps_the_second_order() {
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {
         let body_force = Some(pointwise(|_, t| 6.0 * t));
-        let setup = Setup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
+        let setup = BarSetup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
         run(setup, 1.0, 1.0 / f64::from(steps)).displacement_at(0.5) - 1.0
     };
     let observed = orders(&[20, 40, 80].map(error).map(f64::abs));
@@ -100,7 +100,7 @@ fn energy(bar: &Bar) -> f64 {
 /// A symplectic step keeps the energy near its start, for 100 periods as for one.
 #[rstest]
 fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Start) {
-    let mut bar = Bar::new(Setup { start, ..vibrating_bar(16, Linear, Lumped) }).unwrap();
+    let mut bar = Bar::new(BarSetup { start, ..vibrating_bar(16, Linear, Lumped) }).unwrap();
     let initial = energy(&bar);
     let mut worst_of_period = || {
         let mut worst = 0.0_f64;
@@ -131,7 +131,7 @@ fn an_interrupted_run_gives_the_bits_of_a_whole_one(
 ) {
     let body_force = || Some(pointwise(|x, t| libm::sin(x + 9.0 * t)));
     let make = || {
-        let setup = Setup { start, body_force: body_force(), ..vibrating_bar(6, element, mass) };
+        let setup = BarSetup { start, body_force: body_force(), ..vibrating_bar(6, element, mass) };
         Bar::new(setup).unwrap()
     };
     let (mut whole, mut other) = (make(), make());

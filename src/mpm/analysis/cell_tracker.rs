@@ -47,8 +47,8 @@ impl<const D: usize> CellTracker<D> {
         grid: &Grid<D>,
         particles: &Particles<D>,
     ) -> Result<(), Failure> {
-        if !particles.moved.is_empty() {
-            let moved = particles.moved.iter().enumerate();
+        if !particles.current_position.is_empty() {
+            let moved = particles.current_position.iter().enumerate();
             return miss(&mut self.left_domain, moved.filter(|(_, x)| !is_finite(x)));
         }
         let is_inside = |x: &Vector<D>| is_inside(grid, x);

@@ -61,7 +61,7 @@ impl<const D: usize> Solver<D> {
     ///
     /// # Errors
     /// What breaks in a stage; [`Failure::Solve`] if there is no such number.
-    pub fn safe_step(mut self, longest: f64, rounds: u32) -> Result<f64, Failure> {
+    pub fn stable_time_step(mut self, longest: f64, rounds: u32) -> Result<f64, Failure> {
         self.setup.effects.retain(|effect| makes_stress(effect.name()));
         self.setup.boundary.retain(|condition| !condition.reads_velocity());
         self.run_all(&passes_of(&[Stage::Mass]), longest)?;

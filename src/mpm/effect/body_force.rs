@@ -10,18 +10,18 @@ use crate::{
 
 /// Fills in the force per unit mass (m/s2) of every particle at a time (s), from their reference
 /// positions. The particles of a run, their order and their reference positions never change.
-pub type Field<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [Vector<D>]) + Send>;
+pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [Vector<D>]) + Send>;
 
 /// A body force b(X, t) (m/s2).
 pub struct BodyForce<const D: usize> {
-    field: Field<D>,
+    field: ForceField<D>,
     /// Of every particle, at the present time.
     b: Vec<Vector<D>>,
 }
 
 impl<const D: usize> BodyForce<D> {
     /// A body force that `field` gives.
-    pub fn new(field: Field<D>) -> Self {
+    pub fn new(field: ForceField<D>) -> Self {
         Self { field, b: Vec::new() }
     }
 

@@ -36,7 +36,7 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
-    /// Whether [`Effect::oppose_motion`] reads the velocities of the grid: schemes map them before the
+    /// Whether [`Effect::modify_force`] reads the velocities of the grid: schemes map them before the
     /// forces only if somebody does.
     fn reads_grid_velocity(&self) -> bool {
         false
@@ -44,16 +44,16 @@ pub trait Effect<const D: usize>: Send {
 
     /// Changes `grid.force`, the sum of all forces, in the light of `grid.velocity`, that which
     /// particles bring to the step. Called once all effects have added their forces.
-    fn oppose_motion(&self, _grid: &mut Grid<D>) {}
+    fn modify_force(&self, _grid: &mut Grid<D>) {}
 
     /// Gives particles a velocity that is not the grid's; `t` (s) is the time that velocities stand
     /// for, and `dt` (s) what they have advanced by. Called whenever velocities have been taken from
     /// the grid, and at the start of a run with `dt` = 0.
-    fn drive_velocity(&self, _t: f64, _dt: f64, _particles: &mut Particles<D>) {}
+    fn modify_velocity(&self, _t: f64, _dt: f64, _particles: &mut Particles<D>) {}
 
     /// Moves particles otherwise than the grid did, over `dt` (s). Called after the grid has moved
     /// all of them.
-    fn drive_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
+    fn modify_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
 
     /// Completes the initial state of the particles, once their columns are there.
     fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
@@ -70,7 +70,7 @@ pub trait Effect<const D: usize>: Send {
     ///
     /// # Errors
     /// What became of the first particle that cannot go on.
-    fn advance(
+    fn integrate_state(
         &mut self,
         _t_and_dt: (f64, f64),
         _particles: &mut Particles<D>,

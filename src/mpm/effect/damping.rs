@@ -21,7 +21,7 @@ impl<const D: usize> Effect<D> for Damping {
         EffectName::Damping
     }
 
-    fn drive_velocity(&self, t: f64, dt: f64, particles: &mut Particles<D>) {
+    fn modify_velocity(&self, t: f64, dt: f64, particles: &mut Particles<D>) {
         let factor = libm::exp(-(self.0)(t - 0.5 * dt) * dt);
         for v in &mut particles.v {
             *v *= factor;

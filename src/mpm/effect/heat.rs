@@ -19,7 +19,7 @@
 //! Second order in space, first in time. What `Q_i` sums up to is what enters, to round-off. Neglected:
 //! heat from plastic work, viscosity and compression; a conductivity that depends on anything.
 
-use super::{contract::Effect, name::EffectName, thermal_face::ThermalFace};
+use super::{contract::Effect, name::EffectName, thermal_face::ThermalBoundary};
 use crate::{
     mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
     subject::{Checkpoint, Column, Failure, Site},
@@ -34,7 +34,7 @@ pub struct Heat<const D: usize> {
     conductivity: f64,
     capacity: f64,
     source: Option<(HeatSource<D>, Vec<f64>)>,
-    faces: Vec<ThermalFace<D>>,
+    faces: Vec<ThermalBoundary<D>>,
     /// g_p (K/m).
     slope: Vec<Vector<D>>,
     /// T_i (K).
@@ -74,7 +74,7 @@ impl<const D: usize> Heat<D> {
     /// With conditions on faces; one that has none is insulated. Where faces meet, a given
     /// temperature wins, and of two the last.
     #[must_use]
-    pub fn with_faces(self, faces: Vec<ThermalFace<D>>) -> Self {
+    pub fn with_faces(self, faces: Vec<ThermalBoundary<D>>) -> Self {
         Self { faces, ..self }
     }
 
@@ -131,7 +131,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
             Column::of_nodes("temperature", &self.temperature),
             Column::of_nodes("heat flow", &self.flow),
         ];
-        columns.extend(self.faces.iter().flat_map(ThermalFace::columns));
+        columns.extend(self.faces.iter().flat_map(ThermalBoundary::columns));
         columns
     }
 
@@ -140,7 +140,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
         checkpoint.visit(&mut self.slope[..]);
     }
 
-    fn advance(
+    fn integrate_state(
         &mut self,
         (t, dt): (f64, f64),
         particles: &mut Particles<D>,
@@ -222,7 +222,7 @@ mod tests {
         let start = |x: &Vector<2>| (libm::sin(9.0 * x[0]) * x[1], Vector::zeros());
         let heat = Heat::new((0.1, 2.0), &mut particles, start);
         let flux = Thermal::Flux(Box::new(|_, _| 7.0));
-        let face = ThermalFace::new((&grid, basis), &particles, (0, Side::High), flux);
+        let face = ThermalBoundary::new((&grid, basis), &particles, (0, Side::High), flux);
         let source: HeatSource<2> = Box::new(|_, _, into| into.fill(5.0));
         let mut heat = heat.with_faces(vec![face]).with_source(source);
         let content = |particles: &Particles<2>| -> f64 {
@@ -232,7 +232,7 @@ mod tests {
         let before = content(&particles);
         for step in 0..5 {
             let now = (0.01 * f64::from(step), 0.01);
-            heat.advance(now, &mut particles, kernel.as_ref(), &grid).unwrap();
+            heat.integrate_state(now, &mut particles, kernel.as_ref(), &grid).unwrap();
         }
         let gained = content(&particles) - before;
         assert_relative_eq!(gained, 0.05 * (7.0 * 0.5 + 5.0 * 1.5), max_relative = 1e-12);
@@ -244,7 +244,7 @@ mod tests {
         let source: HeatSource<2> = Box::new(|_, _, into| into[3] = f64::INFINITY);
         let start = |_: &Vector<2>| (0.0, Vector::zeros());
         let mut heat = Heat::new((1.0, 1.0), &mut particles, start).with_source(source);
-        let found = heat.advance((0.0, 0.1), &mut particles, kernel.as_ref(), &grid);
+        let found = heat.integrate_state((0.0, 0.1), &mut particles, kernel.as_ref(), &grid);
         assert!(matches!(found, Err(Failure::NonFinite { quantity: "temperature", .. })));
     }
 }

@@ -26,7 +26,7 @@ impl<const D: usize> Effect<D> for LocalDamping {
         true
     }
 
-    fn oppose_motion(&self, grid: &mut Grid<D>) {
+    fn modify_force(&self, grid: &mut Grid<D>) {
         for (force, velocity) in grid.force.iter_mut().zip(&grid.velocity) {
             for (f, v) in force.iter_mut().zip(velocity) {
                 // A node at rest is not damped; neither is one without a number for its velocity,
@@ -54,7 +54,7 @@ mod tests {
         grid.velocity[1] = Vector::<2>::new(-2.0, 0.0);
         grid.force[0] = Vector::<2>::new(8.0, 4.0);
         grid.force[1] = Vector::<2>::new(-8.0, 4.0);
-        Effect::<2>::oppose_motion(&LocalDamping(0.25), &mut grid);
+        Effect::<2>::modify_force(&LocalDamping(0.25), &mut grid);
         assert_eq!(grid.force[0], Vector::<2>::new(6.0, 5.0));
         assert_eq!(grid.force[1], Vector::<2>::new(-6.0, 4.0));
     }

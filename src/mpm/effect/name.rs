@@ -56,7 +56,7 @@ effects! {
     /// A total force on a set of particles.
     SetForce = "force";
     /// A set of particles that move as they are told.
-    Driven = "velocity";
+    PrescribedVelocity = "velocity";
     /// Damping in proportion to mass.
     Damping = "damping";
     /// A share of the force out of balance, against the motion.

@@ -15,22 +15,22 @@ use crate::{
 };
 
 /// A velocity v(X, t) (m/s) that a set of particles has.
-pub struct Driven<const D: usize> {
+pub struct PrescribedVelocity<const D: usize> {
     value: VelocityField<D>,
     /// Particles and where they are (m).
     members: Vec<(usize, Vector<D>)>,
 }
 
-impl<const D: usize> Driven<D> {
+impl<const D: usize> PrescribedVelocity<D> {
     /// The velocity `value` for the particles `members`.
     pub fn on(particles: &Particles<D>, members: &[usize], value: VelocityField<D>) -> Self {
         Self { value, members: members.iter().map(|&p| (p, particles.x[p])).collect() }
     }
 }
 
-impl<const D: usize> Effect<D> for Driven<D> {
+impl<const D: usize> Effect<D> for PrescribedVelocity<D> {
     fn name(&self) -> EffectName {
-        EffectName::Driven
+        EffectName::PrescribedVelocity
     }
 
     fn columns(&self) -> Vec<Column> {
@@ -41,13 +41,13 @@ impl<const D: usize> Effect<D> for Driven<D> {
         self.members.iter_mut().for_each(|(_, x)| checkpoint.visit(x));
     }
 
-    fn drive_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {
+    fn modify_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {
         for (p, _) in &self.members {
             particles.v[*p] = continued(&self.value, &particles.x0[*p], t);
         }
     }
 
-    fn drive_position(&mut self, dt: f64, particles: &mut Particles<D>) {
+    fn modify_position(&mut self, dt: f64, particles: &mut Particles<D>) {
         for (p, x) in &mut self.members {
             *x += particles.v[*p] * dt;
             particles.positions_mut()[*p] = *x;

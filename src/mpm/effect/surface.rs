@@ -147,7 +147,7 @@ impl Surface {
     fn arm<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         let arm = self.to_face(particles, p);
         match particles.def_grad.get(p) {
-            Some(f) if particles.moved.is_empty() => f * arm,
+            Some(f) if particles.current_position.is_empty() => f * arm,
             _ => arm,
         }
     }

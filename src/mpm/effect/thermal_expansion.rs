@@ -21,11 +21,11 @@ pub struct ThermalExpansion<const D: usize> {
     coefficient: f64,
     /// T0 (K), at which the body is free of stress when it is not deformed.
     reference: f64,
-    law: Law<D>,
+    law: ExpansionLaw<D>,
 }
 
 /// How the law sees it.
-enum Law<const D: usize> {
+enum ExpansionLaw<const D: usize> {
     /// Fe, in the place of F while stresses are computed.
     OfDeformation { elastic: Vec<Matrix<D>> },
     /// `E/(1 - 2 nu)` (Pa), and the temperatures of the stresses (K).
@@ -35,13 +35,17 @@ enum Law<const D: usize> {
 impl<const D: usize> ThermalExpansion<D> {
     /// With a law of the whole deformation: alpha (1/K) and T0 (K).
     pub fn of_deformation(coefficient: f64, reference: f64) -> Self {
-        Self { coefficient, reference, law: Law::OfDeformation { elastic: Vec::new() } }
+        Self { coefficient, reference, law: ExpansionLaw::OfDeformation { elastic: Vec::new() } }
     }
 
     /// With a law in rate form, of Young's modulus (Pa) and Poisson's ratio.
     pub fn in_rate_form(coefficient: f64, reference: f64, (young, poisson): (f64, f64)) -> Self {
         let modulus = young / (1.0 - 2.0 * poisson);
-        Self { coefficient, reference, law: Law::InRateForm { modulus, before: Vec::new() } }
+        Self {
+            coefficient,
+            reference,
+            law: ExpansionLaw::InRateForm { modulus, before: Vec::new() },
+        }
     }
 }
 
@@ -52,24 +56,28 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
 
     fn columns(&self) -> Vec<Column> {
         match &self.law {
-            Law::OfDeformation { elastic } => vec![Column::of_particles("Fe", elastic)],
-            Law::InRateForm { before, .. } => vec![Column::of_particles("T before", before)],
+            ExpansionLaw::OfDeformation { elastic } => vec![Column::of_particles("Fe", elastic)],
+            ExpansionLaw::InRateForm { before, .. } => {
+                vec![Column::of_particles("T before", before)]
+            }
         }
     }
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         match &mut self.law {
             // Overwritten before it is read.
-            Law::OfDeformation { .. } => {}
-            Law::InRateForm { before, .. } => checkpoint.visit(&mut before[..]),
+            ExpansionLaw::OfDeformation { .. } => {}
+            ExpansionLaw::InRateForm { before, .. } => checkpoint.visit(&mut before[..]),
         }
     }
 
     /// The stress of the temperature at the start.
     fn start(&mut self, material: &mut dyn Material<D>, particles: &mut Particles<D>) {
         match &mut self.law {
-            Law::OfDeformation { elastic } => elastic.clone_from(&particles.def_grad),
-            Law::InRateForm { before, .. } => before.resize(particles.len(), self.reference),
+            ExpansionLaw::OfDeformation { elastic } => elastic.clone_from(&particles.def_grad),
+            ExpansionLaw::InRateForm { before, .. } => {
+                before.resize(particles.len(), self.reference)
+            }
         }
         self.before_stress(particles);
         material.update(0.0, particles);
@@ -77,7 +85,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
     }
 
     fn before_stress(&mut self, particles: &mut Particles<D>) {
-        let Law::OfDeformation { elastic } = &mut self.law else { return };
+        let ExpansionLaw::OfDeformation { elastic } = &mut self.law else { return };
         std::mem::swap(elastic, &mut particles.def_grad);
         let whole = elastic.iter().zip(&particles.temperature);
         for (inner, (f, temperature)) in particles.def_grad.iter_mut().zip(whole) {
@@ -87,14 +95,14 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
 
     fn after_stress(&mut self, particles: &mut Particles<D>) {
         match &mut self.law {
-            Law::OfDeformation { elastic } => {
+            ExpansionLaw::OfDeformation { elastic } => {
                 std::mem::swap(elastic, &mut particles.def_grad);
                 for (vol, temperature) in particles.vol.iter_mut().zip(&particles.temperature) {
                     let theta = 1.0 + self.coefficient * (temperature - self.reference);
                     *vol *= (0..D).map(|_| theta).product::<f64>();
                 }
             }
-            Law::InRateForm { modulus, before } => {
+            ExpansionLaw::InRateForm { modulus, before } => {
                 let changes = before.iter_mut().zip(&particles.temperature);
                 for (sigma, (before, now)) in particles.sigma.iter_mut().zip(changes) {
                     let pressure = *modulus * self.coefficient * (now - *before);

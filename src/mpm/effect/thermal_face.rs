@@ -40,7 +40,7 @@ pub enum Thermal<const D: usize> {
 }
 
 /// A face of the grid at which the body ends.
-pub struct ThermalFace<const D: usize> {
+pub struct ThermalBoundary<const D: usize> {
     condition: Thermal<D>,
     axis: usize,
     wall: usize,
@@ -54,7 +54,7 @@ pub struct ThermalFace<const D: usize> {
     share: Vec<f64>,
 }
 
-impl<const D: usize> ThermalFace<D> {
+impl<const D: usize> ThermalBoundary<D> {
     /// `condition` on the face `side` of `axis` of `grid`, which has the functions of `basis`.
     pub fn new(
         (grid, basis): (&Grid<D>, BasisName),

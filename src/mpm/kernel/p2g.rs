@@ -33,7 +33,8 @@ pub(in crate::mpm) fn has_one_field<const D: usize>(
     particles: &Particles<D>,
     maps: &P2gRequest<'_, D>,
 ) -> bool {
-    let by_gradient = maps.force == Some(Divergence::Gradient) && particles.moved.is_empty();
+    let by_gradient =
+        maps.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
     2 * D < LANES && maps.momentum.is_some() && by_gradient
 }
 
@@ -137,7 +138,7 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
                 let slope = divide::<B, S, D>((simd, patches, lane), of_all, &flux, h);
                 patches.scatter_affine(lane, (simd.splat(0.0), &slope), &mut accumulator);
             }
-        } else if particles.moved.is_empty() {
+        } else if particles.current_position.is_empty() {
             // What `flux` does, with one look at the columns for all.
             let sigma = lanes.zip(&particles.sigma[here.clone()]);
             for ((lane, sigma), vol) in sigma.zip(&particles.vol[here]) {

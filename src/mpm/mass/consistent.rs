@@ -22,12 +22,12 @@ use nalgebra_sparse::factorization::{CholeskyError, CscCholesky, CscSymbolicChol
 pub struct Consistent {
     /// One for each axis, but for axes on which the same nodes are held.
     factors: Vec<Factor>,
-    entries: Entries,
+    entries: MassEntries,
 }
 
 /// What all pairs of nodes that a particle sees add to the matrix, before anything is held.
 #[derive(Default)]
-struct Entries {
+struct MassEntries {
     /// Nodes of each.
     pairs: Vec<(usize, usize)>,
     /// Mass of each (kg).
@@ -36,7 +36,7 @@ struct Entries {
     have_moved: bool,
 }
 
-impl Entries {
+impl MassEntries {
     fn collect<const D: usize>(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -75,7 +75,7 @@ struct Factor {
 
 impl Factor {
     /// The factor after `last`, that of the step before.
-    fn after(last: Option<Self>, free: &[bool], entries: &Entries) -> Result<Self, Failure> {
+    fn after(last: Option<Self>, free: &[bool], entries: &MassEntries) -> Result<Self, Failure> {
         let mut rows = 0;
         let mut number = |free: &bool| {
             rows += usize::from(*free);
@@ -108,7 +108,7 @@ impl Factor {
         assembly: Assembly,
         row: Vec<Option<usize>>,
         rows: usize,
-        entries: &Entries,
+        entries: &MassEntries,
     ) -> Result<Self, CholeskyError> {
         let mut values = Vec::new();
         assembly.add_up(&entries.masses, &mut values);
@@ -119,7 +119,7 @@ impl Factor {
 
     /// The factor of other masses at the same places: the steps of the factorisation, and so its bits,
     /// are those of a new one.
-    fn refactored(mut self, entries: &Entries) -> Result<Self, CholeskyError> {
+    fn refactored(mut self, entries: &MassEntries) -> Result<Self, CholeskyError> {
         self.assembly.add_up(&entries.masses, &mut self.values);
         self.cholesky.refactor(&self.values).map(|()| self)
     }

@@ -19,7 +19,7 @@ mod shared_velocity;
 mod state;
 
 use super::{
-    schedule::{Coupled, Pass, Schedule},
+    schedule::{Coupled, Pass, StepSchedule},
     setup::Setup,
     solver::Solver,
 };
@@ -34,7 +34,7 @@ pub struct Bodies<const D: usize> {
     solvers: Vec<Solver<D>>,
     /// None of a single body.
     coupling: Option<Box<dyn Coupling<D>>>,
-    schedule: Schedule,
+    schedule: StepSchedule,
 }
 
 impl<const D: usize> Bodies<D> {
@@ -58,7 +58,7 @@ impl<const D: usize> Bodies<D> {
             Some(friction) => Some(Box::new(Contact::of(&solvers, friction))),
             None => Some(Box::new(SharedVelocity::of(&solvers))),
         };
-        let mut bodies = Self { solvers, coupling, schedule: Schedule::default() };
+        let mut bodies = Self { solvers, coupling, schedule: StepSchedule::default() };
         bodies.compile(false);
         Ok(bodies)
     }
@@ -84,7 +84,7 @@ impl<const D: usize> Bodies<D> {
         let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
         let coupled = Coupled { bodies: self.coupling.is_some(), reads_velocity };
         if let Some(one) = self.solvers.first_mut() {
-            self.schedule = Schedule::new(&mut one.setup, coupled, fixed_configuration);
+            self.schedule = StepSchedule::new(&mut one.setup, coupled, fixed_configuration);
         }
     }
 
@@ -110,7 +110,7 @@ fn particles<const D: usize>(solvers: &[Solver<D>]) -> usize {
 
 impl<const D: usize> Subject for Bodies<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        let Schedule { opening, passes } = self.schedule.clone();
+        let StepSchedule { opening, passes } = self.schedule.clone();
         if self.solvers.iter().any(|solver| !solver.started) {
             self.solvers.iter_mut().for_each(|solver| solver.open(dt));
             self.run_all(&opening, dt)?;

@@ -38,16 +38,28 @@ impl<const D: usize> Particles<D> {
 
     fn reorder(&mut self, order: &[usize]) {
         let Self {
-            x0, x, moved, v, mass, vol0, vol, sigma, def_grad, domain, domain0, grad_v, ..
+            x0,
+            x,
+            current_position,
+            v,
+            mass,
+            vol0,
+            vol,
+            sigma,
+            def_grad,
+            domain,
+            domain0,
+            grad_v,
+            ..
         } = self;
-        permute([x0, x, moved, v], order);
+        permute([x0, x, current_position, v], order);
         permute([mass, vol0, vol, &mut self.temperature], order);
         permute([sigma, def_grad, domain, domain0, grad_v], order);
     }
 }
 
 /// Puts entry `order[k]` at place k, in the columns that are there. Each leaves its memory to the next: new
-/// memory costs more than what is moved.
+/// memory costs more than the moves.
 fn permute<T: Copy, const N: usize>(columns: [&mut Vec<T>; N], order: &[usize]) {
     let mut spare = Vec::new();
     for column in columns.into_iter().filter(|column| !column.is_empty()) {
@@ -88,7 +100,7 @@ mod tests {
             cells.push((j, i, old));
         }
         assert!(cells.is_sorted(), "rows of cells, and within a cell as before: {cells:?}");
-        assert!(particles.moved.is_empty() && particles.temperature.is_empty());
+        assert!(particles.current_position.is_empty() && particles.temperature.is_empty());
     }
 
     #[test]

@@ -23,7 +23,7 @@ impl<const D: usize> Memory for Particles<D> {
         let Self {
             x0: _,
             x,
-            moved,
+            current_position,
             v,
             mass: _,
             vol0: _,
@@ -36,7 +36,7 @@ impl<const D: usize> Memory for Particles<D> {
             temperature,
             spacing: _,
         } = self;
-        for column in [x, moved, v] {
+        for column in [x, current_position, v] {
             checkpoint.visit::<[Vector<D>]>(column);
         }
         for column in [vol, temperature] {

@@ -9,7 +9,7 @@ use crate::{
         algebra::Matrix,
         kernel::request::{Affine, G2pRequest},
         particles::Particles,
-        schedule::{Coupled, Schedule},
+        schedule::{Coupled, StepSchedule},
         solver::Solver,
         transfer::Transfer,
     },
@@ -34,7 +34,7 @@ pub(super) fn affine_state_mut<const D: usize>(transfer: &mut dyn Transfer<D>) -
 
 impl<const D: usize> Perturbable for Solver<D> {
     fn fix_configuration(&mut self) {
-        self.schedule = Schedule::new(&mut self.setup, Coupled::default(), true);
+        self.schedule = StepSchedule::new(&mut self.setup, Coupled::default(), true);
     }
 
     fn state(&self, state: &mut Vec<f64>) {

@@ -1,16 +1,14 @@
-//! A transfer as a suite chooses it: by its name, or a series with any number of terms.
+//! A transfer in a suite: a registered name, or a name with a parameter (`{fmpm: 8}`).
 
-use super::{Fmpm, Transfer, TransferKind, TransferName, Xpic, transfer};
+use super::{Transfer, TransferKind, TransferName, WithParameter, transfer, with_parameter};
 
 /// A transfer, ready to be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferChoice {
     /// A registered one.
     Named(TransferName),
-    /// XPIC(m); m is at least 1.
-    Xpic(u32),
-    /// FMPM(k); k is at least 1.
-    Fmpm(u32),
+    /// One with a parameter, in its range.
+    With(WithParameter, u32),
 }
 
 impl From<TransferName> for TransferChoice {
@@ -24,25 +22,20 @@ impl TransferChoice {
     pub fn name(self) -> String {
         match self {
             Self::Named(name) => name.name().to_owned(),
-            Self::Xpic(order) => format!("xpic_{order}"),
-            Self::Fmpm(order) => format!("fmpm_{order}"),
+            Self::With(name, value) => format!("{}_{value}", name.name()),
         }
     }
 
-    /// Kind of the transfer.
+    /// Kind of the transfer, the same in every dimension.
     pub fn kind(self) -> TransferKind {
-        match self {
-            Self::Named(name) => name.kind(),
-            Self::Xpic(_) | Self::Fmpm(_) => TransferKind::Series,
-        }
+        self.build::<1>().kind()
     }
 
     /// Makes the transfer.
     pub fn build<const D: usize>(self) -> Box<dyn Transfer<D>> {
         match self {
             Self::Named(name) => transfer(name),
-            Self::Xpic(order) => Box::new(Xpic::new(order)),
-            Self::Fmpm(order) => Box::new(Fmpm::new(order)),
+            Self::With(name, value) => with_parameter(name, value),
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Contract of a transfer with the rest of the solver.
 
-use super::passes::p2g;
 use crate::{
     mpm::{
         algebra::{Matrix, Vector},
@@ -29,6 +28,20 @@ pub enum TransferKind {
     Series,
     /// Fields that are reconstructed in cells.
     Cells,
+}
+
+/// Parameter of a transfer, a whole number: its range and the words of messages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TransferParameter {
+    /// Least and greatest value.
+    pub range: (u32, u32),
+    /// Words before and after the value, as in `a series of 8 terms`.
+    pub words: (&'static str, &'static str),
+}
+
+impl TransferParameter {
+    /// Terms of a series, each of which takes two passes over the particles.
+    pub(super) const TERMS: Self = Self { range: (1, 64), words: ("a series of", "terms") };
 }
 
 /// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods that pass
@@ -95,4 +108,21 @@ pub trait Transfer<const D: usize>: Send + Sync {
     fn moment(&self, _p: usize) -> Option<Matrix<D>> {
         None
     }
+}
+
+/// One pass of P2G: the parts of `request` that `stages` need.
+pub(super) fn p2g<const D: usize>(
+    request: P2gRequest<'_, D>,
+    kernel: &dyn Kernel<D>,
+    particles: &Particles<D>,
+    grid: &mut Grid<D>,
+    stages: &[Stage],
+) -> u64 {
+    let request = P2gRequest {
+        mass: stages.contains(&Stage::Mass),
+        momentum: request.momentum.filter(|_| stages.contains(&Stage::Momentum)),
+        force: request.force.filter(|_| stages.contains(&Stage::Force)),
+    };
+    kernel.p2g(particles, &request, grid);
+    request.parts().count() as u64
 }

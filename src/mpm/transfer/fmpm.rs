@@ -5,7 +5,7 @@
 //! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved so; particles then
 //! take the grid's velocity. FMPM(1) is PIC.
 
-use super::contract::{Transfer, TransferKind};
+use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::{
     mpm::{
         algebra::Vector,
@@ -30,6 +30,9 @@ pub struct Fmpm<const D: usize> {
 }
 
 impl<const D: usize> Fmpm<D> {
+    /// The order k.
+    pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
+
     /// FMPM(k) with k = `order`.
     pub fn new(order: u32) -> Self {
         Self { order, seen: Vec::new(), rest: Vec::new(), nodal: Vec::new() }

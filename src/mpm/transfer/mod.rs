@@ -1,5 +1,5 @@
 //! Transfers of velocity between particles and grid: the family. A member is one file and one
-//! line below.
+//! line below, and another one if suites may give it a parameter.
 
 mod apic;
 mod blend;
@@ -17,7 +17,7 @@ mod xpic;
 pub use apic::Apic;
 pub use blend::Blend;
 pub use choice::TransferChoice;
-pub use contract::{Transfer, TransferKind};
+pub use contract::{Transfer, TransferKind, TransferParameter};
 pub use flip::Flip;
 pub use fmpm::Fmpm;
 pub use mls::Mls;
@@ -28,7 +28,7 @@ pub use tls::Tls;
 pub use tpic::Tpic;
 pub use xpic::Xpic;
 
-use super::family::objects;
+use super::family::{objects, objects_with_parameter};
 
 objects! {
     /// Names of the transfers that suites may choose.
@@ -47,6 +47,15 @@ objects! {
     "xpic_5" => Xpic5: Xpic::new(5),
     "fmpm_2" => Fmpm2: Fmpm::new(2),
     "fmpm_4" => Fmpm4: Fmpm::new(4),
+}
+
+objects_with_parameter! {
+    /// Names of the transfers to which suites give a parameter.
+    pub enum WithParameter: TransferParameter;
+    /// Makes the transfer of this name with the value of its parameter.
+    fn with_parameter -> Transfer;
+    "xpic" => Xpic: Xpic::<D>,
+    "fmpm" => Fmpm: Fmpm::<D>,
 }
 
 impl TransferName {

@@ -1,4 +1,4 @@
-//! Passes of P2G and G2P for the requests of a transfer.
+//! Passes of G2P for the request of a transfer.
 
 use super::contract::Transfer;
 use crate::mpm::{
@@ -6,28 +6,11 @@ use crate::mpm::{
     grid::Grid,
     kernel::{
         contract::Kernel,
-        request::{Divergence, G2pRequest, P2gRequest},
+        request::{Divergence, G2pRequest},
     },
     particles::Particles,
     stage::Stage,
 };
-
-/// One pass of P2G: the parts of `request` that `stages` need.
-pub(super) fn p2g<const D: usize>(
-    request: P2gRequest<'_, D>,
-    kernel: &dyn Kernel<D>,
-    particles: &Particles<D>,
-    grid: &mut Grid<D>,
-    stages: &[Stage],
-) -> u64 {
-    let request = P2gRequest {
-        mass: stages.contains(&Stage::Mass),
-        momentum: request.momentum.filter(|_| stages.contains(&Stage::Momentum)),
-        force: request.force.filter(|_| stages.contains(&Stage::Force)),
-    };
-    kernel.p2g(particles, &request, grid);
-    request.parts().count() as u64
-}
 
 /// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and
 /// positions after the step into `advected` (m). One pass, and another one for gradients where the

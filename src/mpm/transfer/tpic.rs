@@ -4,10 +4,7 @@
 //! `v_p + C_p (x_i - x_p)` (Nakamura, Matsumura & Mizutani 2023, CMAME 411). No inertia tensor is
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
-use super::{
-    contract::{Transfer, TransferKind},
-    passes::p2g,
-};
+use super::contract::{Transfer, TransferKind, p2g};
 use crate::{
     mpm::{
         algebra::Matrix,

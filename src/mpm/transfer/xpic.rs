@@ -6,7 +6,7 @@
 //! l is multiplied by 1 - (1 - l)^m. The filter knows no walls, which may be driven; walls act
 //! through the accelerations.
 
-use super::contract::{Transfer, TransferKind};
+use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::{
     mpm::{
         algebra::Vector,
@@ -29,6 +29,9 @@ pub struct Xpic<const D: usize> {
 }
 
 impl<const D: usize> Xpic<D> {
+    /// The order m.
+    pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
+
     /// XPIC(m) with m = `order`.
     pub fn new(order: u32) -> Self {
         Self { order, rest: Vec::new(), nodal: Vec::new() }

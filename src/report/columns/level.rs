@@ -159,7 +159,7 @@ fn counters<'a>() -> Vec<LevelColumn<'a>> {
             "safe_step",
             "time step over the longest safe one; in JSON the latter (s)",
             |row| {
-                let safe = row.level.safe_step;
+                let safe = row.level.stable_time_step;
                 let ratio = Cell::number(safe.map(|safe| row.level.dt / safe), decimals(3));
                 Cell { json: safe.map_or(Value::Null, number), ..ratio }
             },

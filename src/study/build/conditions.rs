@@ -3,8 +3,8 @@
 use crate::{
     exact::{Region, formula::Formula},
     mpm::{
-        BasisName, Boundary, Driven, Effect, Fixed, Friction, Grid, Particles, Prescribed, Roller,
-        SetForce, Side, Vector, VelocityField,
+        BasisName, Boundary, Effect, Fixed, Friction, Grid, Particles, Prescribed,
+        PrescribedVelocity, Roller, SetForce, Side, Vector, VelocityField,
     },
     suite::model::{Scene, SceneFace, boundary::BoundaryCondition},
 };
@@ -64,7 +64,11 @@ pub(crate) fn on_sets<const D: usize>(
             effects.push(Box::new(SetForce::on(particles, &members, of_time(force))));
         }
         if let Some(velocity) = &set.velocity {
-            effects.push(Box::new(Driven::on(particles, &members, of_place_and_time(velocity))));
+            effects.push(Box::new(PrescribedVelocity::on(
+                particles,
+                &members,
+                of_place_and_time(velocity),
+            )));
         }
     }
     Ok(effects)

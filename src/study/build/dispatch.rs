@@ -81,7 +81,7 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
 ///
 /// # Errors
 /// One line that says why it cannot be told.
-pub(crate) fn safe_step(
+pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
     level: LevelPlan,
@@ -90,12 +90,12 @@ pub(crate) fn safe_step(
     plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
         // A given force makes no difference, and is dear to prepare.
         let body = Body { manufactured: None, ..Body::of(plan, own) };
-        Ok(least.min(safe_step_of(&body, method, level, rounds)?))
+        Ok(least.min(stable_time_step_of(&body, method, level, rounds)?))
     })
 }
 
 /// The same for one body.
-pub(crate) fn safe_step_of(
+pub(crate) fn stable_time_step_of(
     body: &Body<'_>,
     method: Method,
     level: LevelPlan,
@@ -110,7 +110,7 @@ pub(crate) fn safe_step_of(
         let solver = solver::<D>(body, method, level)?;
         let fastest = solver.particles().v.iter().map(Vector::norm).fold(0.0, f64::max);
         let longest = level.h / (body.own.wave_speed() + fastest);
-        solver.safe_step(longest, rounds).map_err(|failure| failure.to_string())
+        solver.stable_time_step(longest, rounds).map_err(|failure| failure.to_string())
     }
     with_dimension!(body.scene.dimension(), D => of::<D>(body, method, level, rounds))
 }

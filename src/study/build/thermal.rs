@@ -7,7 +7,7 @@ use crate::{
         heat::{Conduction, HeatForcing, Temperature, ThermalCondition, Warmth},
     },
     mpm::{
-        BasisName, Grid, Heat, HeatSource, Particles, ScalarField, Side, Thermal, ThermalFace,
+        BasisName, Grid, Heat, HeatSource, Particles, ScalarField, Side, Thermal, ThermalBoundary,
         Vector,
     },
     suite::model::Scene,
@@ -68,7 +68,7 @@ fn faces<const D: usize>(
     scene: &Scene,
     (grid, basis): (&Grid<D>, BasisName),
     particles: &Particles<D>,
-) -> Vec<ThermalFace<D>> {
+) -> Vec<ThermalBoundary<D>> {
     let stated = scene.heat.iter().flat_map(|heat| heat.faces.iter().zip(&scene.faces));
     let build =
         |(face, place): (&crate::exact::heat::ThermalFace, &crate::suite::model::SceneFace)| {
@@ -84,7 +84,7 @@ fn faces<const D: usize>(
                 },
             };
             let at: (usize, Side) = (face.axis, side(place));
-            Some(ThermalFace::new((grid, basis), particles, at, condition))
+            Some(ThermalBoundary::new((grid, basis), particles, at, condition))
         };
     stated.filter_map(build).collect()
 }

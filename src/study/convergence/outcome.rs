@@ -255,7 +255,7 @@ mod tests {
             error,
             usable,
             order: None,
-            safe_step: None,
+            stable_time_step: None,
         }
     }
 

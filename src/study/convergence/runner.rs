@@ -113,7 +113,7 @@ impl<'a> ConvergenceRunner<'a> {
             .map(|level| {
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
                     let outcome = self.level(case, truth, level)?;
-                    Ok(LevelOutcome { safe_step: limit, ..outcome })
+                    Ok(LevelOutcome { stable_time_step: limit, ..outcome })
                 });
                 progress();
                 level
@@ -189,8 +189,8 @@ fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> Leve
         Axis::Particles => level.particle_spacing(plan.scene.dimension()),
     };
     let error = error_of(plan, &run);
-    let (usable, order, safe_step) = (!excluded, None, None);
-    LevelOutcome { cells, h, spacing, dt, ppc, run, error, usable, order, safe_step }
+    let (usable, order, stable_time_step) = (!excluded, None, None);
+    LevelOutcome { cells, h, spacing, dt, ppc, run, error, usable, order, stable_time_step }
 }
 
 #[cfg(test)]

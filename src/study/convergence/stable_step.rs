@@ -69,11 +69,11 @@ impl StableSteps {
 fn stepped(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> Result<Stepped, String> {
     let Method::Mpm { .. } = case.method else { return Ok((level, None)) };
     if let Some(share) = plan.refine.rule {
-        let limit = dispatch::safe_step(plan, case.method, level, ROUNDS)?;
+        let limit = dispatch::stable_time_step(plan, case.method, level, ROUNDS)?;
         return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
     }
     // A level that cannot be set up says so when it is run.
-    let limit = |rounds| dispatch::safe_step(plan, case.method, level, rounds).ok();
+    let limit = |rounds| dispatch::stable_time_step(plan, case.method, level, rounds).ok();
     // Iterations that have not settled give more than there is.
     let taken = taken(plan, case, level);
     let suspect = limit(FEW).is_some_and(|limit| taken > NEAR * limit);

@@ -66,7 +66,9 @@ impl Scene {
             EffectName::Traction => self.faces.iter_mut().for_each(|face| face.traction = None),
             EffectName::Pressure => self.faces.iter_mut().for_each(|face| face.pressure = None),
             EffectName::SetForce => self.sets.iter_mut().for_each(|set| set.force = None),
-            EffectName::Driven => self.sets.iter_mut().for_each(|set| set.velocity = None),
+            EffectName::PrescribedVelocity => {
+                self.sets.iter_mut().for_each(|set| set.velocity = None)
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     exact::Random,
     study::{
         build::{
-            dispatch::{perturbable, safe_step_of},
+            dispatch::{perturbable, stable_time_step_of},
             initial_state::Initial,
             setup::Body,
         },
@@ -149,7 +149,7 @@ impl Job<'_> {
         }
         if let Some(share) = setting.rule {
             let limit = bodies(&setting).iter().try_fold(f64::INFINITY, |least, body| {
-                Ok::<f64, String>(least.min(safe_step_of(
+                Ok::<f64, String>(least.min(stable_time_step_of(
                     body,
                     self.case.method,
                     setting.level,

@@ -191,7 +191,7 @@ impl LoadSpec {
             Self::Traction { .. } => EffectName::Traction,
             Self::Pressure { .. } => EffectName::Pressure,
             Self::Force { .. } => EffectName::SetForce,
-            Self::Velocity { .. } => EffectName::Driven,
+            Self::Velocity { .. } => EffectName::PrescribedVelocity,
             Self::Heat(_) => EffectName::Heat,
             Self::ThermalExpansion(_) => EffectName::ThermalExpansion,
         }

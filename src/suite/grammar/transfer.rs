@@ -1,35 +1,21 @@
-//! The words of a transfer: a name, or a series and its number of terms (`{fmpm: 8}`).
+//! Grammar of a transfer: a name, or a name with its parameter (`{fmpm: 8}`).
 
 use crate::{
-    mpm::{TransferChoice, TransferName},
+    mpm::{TransferChoice, TransferName, WithParameter},
     suite::yaml::refuse,
 };
-use serde::de::{
-    Deserialize, Deserializer, Error, MapAccess, Visitor,
-    value::{MapAccessDeserializer, StrDeserializer},
-};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor, value::StrDeserializer};
 use std::fmt;
-
-/// Most terms of a series: each is two passes over the particles.
-const MOST: u32 = 64;
-
-/// A series with its number of terms.
-#[derive(serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Series {
-    Xpic(u32),
-    Fmpm(u32),
-}
 
 impl<'de> Deserialize<'de> for TransferChoice {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(NameOrSeries)
+        deserializer.deserialize_any(NameOrParameter)
     }
 }
 
-struct NameOrSeries;
+struct NameOrParameter;
 
-impl<'de> Visitor<'de> for NameOrSeries {
+impl<'de> Visitor<'de> for NameOrParameter {
     type Value = TransferChoice;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -40,17 +26,20 @@ impl<'de> Visitor<'de> for NameOrSeries {
         TransferName::deserialize(StrDeserializer::new(name)).map(TransferChoice::Named)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TransferChoice, A::Error> {
-        let series = Series::deserialize(MapAccessDeserializer::new(map))?;
-        let (Series::Xpic(terms) | Series::Fmpm(terms)) = series;
-        if !(1..=MOST).contains(&terms) {
-            let message = format!("a series of {terms} terms");
-            let label = format!("expected a whole number from 1 to {MOST}");
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<TransferChoice, A::Error> {
+        let Some(name) = map.next_key::<WithParameter>()? else {
+            return Err(A::Error::invalid_length(0, &self));
+        };
+        let (value, parameter) = (map.next_value::<u32>()?, name.parameter());
+        let ((least, most), (before, after)) = (parameter.range, parameter.words);
+        if !(least..=most).contains(&value) {
+            let message = format!("{before} {value} {after}");
+            let label = format!("expected a whole number from {least} to {most}");
             return Err(refuse(&message, &label, ""));
         }
-        Ok(match series {
-            Series::Xpic(terms) => TransferChoice::Xpic(terms),
-            Series::Fmpm(terms) => TransferChoice::Fmpm(terms),
-        })
+        if map.next_key::<WithParameter>()?.is_some() {
+            return Err(A::Error::invalid_length(2, &self));
+        }
+        Ok(TransferChoice::With(name, value))
     }
 }

@@ -7,7 +7,7 @@ pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<
     let Particles {
         x0,
         x,
-        moved,
+        current_position,
         v,
         mass,
         vol0,
@@ -20,7 +20,7 @@ pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<
         temperature,
         spacing,
     } = particles;
-    let vectors = [x0, x, moved, v].into_iter().flatten().flatten();
+    let vectors = [x0, x, current_position, v].into_iter().flatten().flatten();
     let matrices = [sigma, def_grad, domain, domain0, grad_v].into_iter().flatten().flatten();
     let scalars = [mass, vol0, vol].into_iter().flatten();
     (temperature, vectors.chain(matrices).chain(scalars).chain(spacing).copied().collect())

@@ -4,8 +4,8 @@ use super::{conservative, some};
 use crate::common::{DT, H, free_body, in_dimension};
 use mpm_verify::{
     mpm::{
-        BasisName, Block, Driven, Fixed, Gravity, Matrix, Particles, Prescribed, Roller,
-        SchemeName, SetForce, Setup, Side, Solver, TransferName, Vector, VelocityField,
+        BasisName, Block, Fixed, Gravity, Matrix, Particles, Prescribed, PrescribedVelocity,
+        Roller, SchemeName, SetForce, Setup, Side, Solver, TransferName, Vector, VelocityField,
     },
     subject::{Start, Subject},
 };
@@ -201,7 +201,7 @@ fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
     for method in some(D) {
         let mut setup = Setup { start, ..free_body::<D>(method, scheme) };
         let members = [0, 1, 3];
-        setup.effects.push(Box::new(Driven::on(&setup.particles, &members, swing())));
+        setup.effects.push(Box::new(PrescribedVelocity::on(&setup.particles, &members, swing())));
         let mut solver = Solver::new(setup).unwrap();
         for steps in 1..=30 {
             solver.step(DT).unwrap();
