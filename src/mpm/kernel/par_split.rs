@@ -34,7 +34,7 @@ impl<const D: usize> G2pRequest<'_, D> {
     }
 }
 
-/// Runs `work` for registers_of of `these` particles, each with what its particles take.
+/// Runs `work` for parts of `these` particles, each with the targets of its particles.
 pub(in crate::mpm) fn par_split<const D: usize>(
     these: Range<usize>,
     takes: G2pRequest<'_, D>,

@@ -1,13 +1,13 @@
-//! The registers_of of one pass over particles and nodes.
+//! The parts of one pass over particles and nodes.
 //!
-//! A pass computes the weights of a particle anew, so that all registers_of for the same particles and nodes
-//! share one pass; each part has the bits that it would have alone.
+//! A pass computes the weights of a particle anew, so that all parts for the same particles and
+//! nodes share one pass; each part has the bits that it would have alone.
 
 use crate::mpm::algebra::{Matrix, Vector};
 
 /// Slope of the velocity field around each particle. `mean_p` is the weighted mean of the nodes:
-/// the position of the particle, except for domains cut off by a wall. G2pSums from there, the affine
-/// part has no momentum.
+/// the position of the particle, except for domains cut off by a wall. Relative to it,
+/// the affine part has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
     /// `C_p` (1/s).
