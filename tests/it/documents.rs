@@ -41,16 +41,20 @@ fn arguments(line: &str) -> Option<Vec<&str>> {
 }
 
 /// The program parses a line's arguments in order, so that `--help` behind them is reached only if
-/// each of them is understood; then nothing is run.
+/// each of them is understood; then nothing is run. The help is that of the subcommand.
 fn understood(arguments: &[&str]) -> Result<(), String> {
     let program = Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
         .args(arguments)
         .arg("--help")
         .output()
         .expect("the program starts");
-    let help = String::from_utf8_lossy(&program.stdout).contains("Usage: mpm-verify");
-    let errors = String::from_utf8_lossy(&program.stderr).into_owned();
-    if program.status.success() && help { Ok(()) } else { Err(errors) }
+    let help = String::from_utf8_lossy(&program.stdout);
+    let usage = help.lines().find_map(|line| line.strip_prefix("Usage: ")).unwrap_or_default();
+    let of = usage.split(' ').nth(1).unwrap_or_default();
+    let wanted = arguments.first().filter(|first| !first.starts_with('-'));
+    let answered = !usage.is_empty() && wanted.is_none_or(|subcommand| of == *subcommand);
+    let errors = String::from_utf8_lossy(&program.stderr);
+    if program.status.success() && answered { Ok(()) } else { Err(format!("{usage}\n{errors}")) }
 }
 
 #[test]
