@@ -11,7 +11,7 @@ pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
 /// Determinant by expansion; D = 1, 2 or 3.
 ///
 /// # Panics
-/// For any other D: no such solver is ever built.
+/// For any other D.
 pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
     let minor = |i: usize, j: usize| m[(1, i)] * m[(2, j)] - m[(1, j)] * m[(2, i)];
     match D {
@@ -25,7 +25,7 @@ pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
 /// The matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
 ///
 /// # Panics
-/// For any other D: no such solver is ever built.
+/// For any other D.
 pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
     Matrix::from_fn(|i, j| match D {
         1 => 1.0,
@@ -45,8 +45,8 @@ pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
 }
 
-/// `[f(0), f(1), ...]`, by way of an array of `nothing`. For the hot loop: `std::array::from_fn` does
-/// not always become part of its caller.
+/// `[f(0), f(1), ...]`, by way of an array of `nothing`. For the hot loop: `std::array::from_fn`
+/// is not always inlined.
 #[inline(always)]
 pub(super) fn array<const N: usize, T: Copy>(nothing: T, mut f: impl FnMut(usize) -> T) -> [T; N] {
     let mut array = [nothing; N];

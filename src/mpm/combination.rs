@@ -1,4 +1,4 @@
-//! Which parts of a method go together.
+//! Combinations of the parts of a method.
 
 use super::{
     basis::{BasisName, Domain, with_basis},
@@ -66,8 +66,8 @@ pub fn combine(
     Ok(())
 }
 
-/// Refuses what means nothing where several bodies meet on one grid; `contact`: they push each other
-/// rather than share one velocity field.
+/// Refuses a combination that means nothing for several bodies on one grid, with `contact` or one
+/// velocity field.
 ///
 /// # Errors
 /// One line that names the part and says why it does not go with several bodies.

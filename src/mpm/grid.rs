@@ -13,7 +13,7 @@ pub struct Grid<const D: usize> {
     pub h: f64,
     /// Cells along each axis.
     pub cells: [usize; D],
-    /// Axes whose ends are one and the same.
+    /// Periodic axes.
     pub periodic: [bool; D],
     /// Basis functions ("nodes") along each axis.
     pub counts: [usize; D],
@@ -71,7 +71,7 @@ impl<const D: usize> Grid<D> {
         ]
     }
 
-    /// Gives up the fields of a motion, for a body that has none.
+    /// Drops the fields of a motion, for a body at rest.
     pub(super) fn forget_motion(&mut self) {
         (self.velocity, self.force, self.acceleration) = (Vec::new(), Vec::new(), Vec::new());
     }
@@ -195,8 +195,8 @@ impl<const D: usize> Grid<D> {
 /// 2^52: numbers from here to twice that are whole, and their last bits are those of the excess.
 pub(super) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than all
-/// the rest, and a conversion to integers and back as much as the weights.
+/// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than
+/// all the rest, and a conversion to integers and back as much as the weights.
 #[inline(always)]
 pub(super) fn floor(x: f64) -> f64 {
     const SHIFT: f64 = 1.5 * WHOLE;

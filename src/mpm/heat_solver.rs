@@ -1,4 +1,4 @@
-//! A body at rest in which heat flows: no stage of mechanics, and no column of it.
+//! Heat conduction in a body at rest, without stages and columns of mechanics.
 
 use super::{
     analysis::cell_tracker::CellTracker, basis::Domain, effect::Effect, grid::Grid,
@@ -6,8 +6,7 @@ use super::{
 };
 use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject};
 
-/// A body at rest with the effects that advance what they keep: the masses of the grid are taken
-/// once, and a step is what the effects make of it.
+/// A body at rest: nodal masses are mapped once, and a step integrates the state of the effects.
 pub struct HeatSolver<const D: usize> {
     grid: Grid<D>,
     particles: Particles<D>,
@@ -21,8 +20,8 @@ impl<const D: usize> HeatSolver<D> {
     /// A body at t = 0.
     ///
     /// # Errors
-    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it is
-    /// outside the grid.
+    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
+    /// is outside the grid.
     pub fn new(
         kernel: Box<dyn Kernel<D>>,
         mut grid: Grid<D>,
@@ -41,7 +40,7 @@ impl<const D: usize> HeatSolver<D> {
         Ok(Self { grid, particles, kernel, effects, time: 0.0, transfers })
     }
 
-    /// The effects, and all that is kept for particles and nodes.
+    /// The effects, and all columns for particles and nodes.
     pub fn profile(&self) -> Profile {
         let mut columns = self.particles.columns();
         columns.extend(self.effects.iter().flat_map(|effect| effect.columns()));

@@ -6,7 +6,7 @@
 //! Only the basis meets particles and nodes inside a loop, so only dimension and basis are type
 //! parameters, hidden behind the object-safe [`Kernel`], whose passes [`Transfer`], [`MassMatrix`]
 //! and [`Effect`] are made of; these and [`Material`] meet the solver between stages and are trait
-//! objects. An effect that a scene does not list is not there.
+//! objects. Effects exist only where a scene lists them.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x

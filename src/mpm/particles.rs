@@ -9,8 +9,8 @@ use crate::subject::Column;
 pub struct Particles<const D: usize> {
     /// Reference positions X (m): the labels at which errors are taken.
     pub x0: Vec<Vector<D>>,
-    /// Where the basis sees the particles (m): their current positions x, in the total-Lagrangian
-    /// frame the reference positions X.
+    /// Positions at which the basis is evaluated (m): current positions x, or in the
+    /// total-Lagrangian frame reference positions X.
     pub x: Vec<Vector<D>>,
     /// Current positions (m) in the total-Lagrangian frame; empty in the updated one.
     pub current_position: Vec<Vector<D>>,
@@ -33,11 +33,12 @@ pub struct Particles<const D: usize> {
     pub domain: Vec<Matrix<D>>,
     /// Domains in the reference configuration; empty where all are boxes of the size `spacing`.
     pub domain0: Vec<Matrix<D>>,
-    /// Velocity gradients of the present step (1/s), where the material meets the kernel.
+    /// Velocity gradients of the present step (1/s), from the kernel to the material.
     pub grad_v: Vec<Matrix<D>>,
-    /// Temperatures (K); empty unless an effect keeps them.
+    /// Temperatures (K); empty unless an effect has them.
     pub temperature: Vec<f64>,
-    /// Reference spacing of the particles on each axis (m); its mean where it is not the same for all.
+    /// Reference spacing of the particles on each axis (m); its mean where it is not the same for
+    /// all.
     pub spacing: Vector<D>,
 }
 
@@ -160,7 +161,8 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Enters the total-Lagrangian frame: from now on the basis sees reference positions.
+    /// Enters the total-Lagrangian frame: from now on the basis is evaluated at reference
+    /// positions.
     pub(super) fn stay_in_reference(&mut self) {
         self.track_deformation();
         self.current_position.clone_from(&self.x);
@@ -183,8 +185,8 @@ impl<const D: usize> Particles<D> {
         if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
     }
 
-    /// Stress times volume (N m) of particle `p`, the flux that the gradients of the basis meet:
-    /// V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
+    /// Stress times volume (N m) of particle `p`, the factor of basis gradients in the internal
+    /// force: V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
     #[inline]
     pub fn flux(&self, p: usize) -> Matrix<D> {
         let flux = self.sigma[p] * self.vol[p];
@@ -195,7 +197,7 @@ impl<const D: usize> Particles<D> {
         flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
     }
 
-    /// Gives up the columns of a motion, for a body that has none.
+    /// Drops the columns of a motion, for a body at rest.
     pub(super) fn forget_motion(&mut self) {
         (self.v, self.sigma, self.grad_v) = (Vec::new(), Vec::new(), Vec::new());
         self.def_grad = Vec::new();

@@ -1,12 +1,13 @@
-//! StepSchedule of a run: scheme, transfer, conditions and coupling, compiled once to a list of passes.
+//! StepSchedule of a run: scheme, transfer, conditions and coupling, compiled once to a list of
+//! passes.
 //!
 //! A pass of P2G or G2P computes the weights of all particles anew, so that neighbouring stages
 //! share one wherever no stage between them changes particles (P2G) or nodal velocities (G2P):
 //!
 //! ```text
-//! USL:  P2G(mass, momentum, force), ..., G2P(particle velocity, stress, position), ...
-//! USF:  P2G(mass, momentum), ..., G2P(stress), ..., P2G(force), ..., G2P(particle velocity, position), ...
-//! MUSL: P2G(mass, force), ..., G2P(particle velocity), ..., P2G(momentum), ..., G2P(stress, position), ...
+//! USL:  P2G(mass, momentum, force)  G2P(particle velocity, stress, position)
+//! USF:  P2G(mass, momentum)  G2P(stress)  P2G(force)  G2P(particle velocity, position)
+//! MUSL: P2G(mass, force)  G2P(particle velocity)  P2G(momentum)  G2P(stress, position)
 //! ```
 
 use super::{setup::Setup, stage::Stage};

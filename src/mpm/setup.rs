@@ -55,8 +55,8 @@ impl<const D: usize> Setup<D> {
         self.scheme.stages(is_taken || is_read || self.reads_velocity())
     }
 
-    /// The effects, and all that is kept for particles and nodes, with the columns `of_solver` of the
-    /// solver. The factors of a consistent mass matrix, made anew in each step, are not among them.
+    /// The effects, and all columns for particles and nodes, with those `of_solver`; the factors of
+    /// a consistent mass matrix, computed anew in each step, are left out.
     pub(super) fn profile(&self, of_solver: [Column; 2]) -> Profile {
         let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
         let mut columns = particles.columns();

@@ -1,4 +1,4 @@
-//! The stage of strains and stresses: the same for every basis and transfer.
+//! Strains and stresses, the same for every basis and transfer.
 
 use super::{
     algebra::Matrix, effect::strain, frame::FrameName, particles::Particles, setup::Setup,
@@ -7,7 +7,7 @@ use super::{
 use crate::subject::{Failure, Site};
 
 impl<const D: usize> Solver<D> {
-    /// Deformation, stress and volume from the gradients of velocity that the particles have taken.
+    /// Deformation, stress and volume from the velocity gradients of the particles.
     pub(super) fn stress(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { particles, material, frame, effects, .. } = &mut self.setup;
         if *frame == FrameName::Total {
@@ -42,11 +42,11 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Ratios that are looked at together.
+/// Ratios computed together.
 const TOGETHER: usize = 4;
 
-/// The smallest `a / b`, if all are positive and finite; infinity of none. As all are in most steps,
-/// the loop has no early way out, and divides several at a time.
+/// The smallest `a / b`, if all are positive and finite; infinity of none. As all are in most
+/// steps, the loop has no early exit, and divides several at a time.
 fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
     let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
     let (many_b, rest_b) = b.as_chunks::<TOGETHER>();

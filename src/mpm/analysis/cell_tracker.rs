@@ -1,4 +1,4 @@
-//! Which cell each particle is in, and how often one has changed its cell.
+//! Cell of each particle, and counters of cell crossings and departures.
 
 use crate::{
     mpm::{
@@ -32,7 +32,7 @@ impl<const D: usize> CellTracker<D> {
         Ok(Self { cells, crossings: 0, left_domain: 0 })
     }
 
-    /// What is kept.
+    /// Columns for particles.
     pub(in crate::mpm) fn columns(&self) -> Column {
         Column::of_particles("cell", &self.cells)
     }
@@ -41,7 +41,7 @@ impl<const D: usize> CellTracker<D> {
     /// cell of its reference position, and its position must be a number.
     ///
     /// # Errors
-    /// What became of the first particle that is in no cell.
+    /// The failure of the first particle that is in no cell.
     pub(in crate::mpm) fn track(
         &mut self,
         grid: &Grid<D>,
@@ -55,7 +55,7 @@ impl<const D: usize> CellTracker<D> {
         if grid.periodic.contains(&true) || !all(&particles.x, is_inside) {
             return self.track_each(grid, &particles.x);
         }
-        // No way out of the loop, and no call in it: several particles are compared at a time.
+        // No early exit and no call in the loop, so that it compares several particles at a time.
         for (cell, x) in self.cells.iter_mut().zip(&particles.x) {
             let mut crosses = false;
             for axis in 0..D {

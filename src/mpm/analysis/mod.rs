@@ -1,4 +1,5 @@
-//! Analyses of a solver: its stable time step, its null space, totals over the body, and the cells of its particles.
+//! Analyses of a solver: its stable time step, its null space, totals over the body, and the cells
+//! of its particles.
 
 pub(crate) mod cell_tracker;
 pub(crate) mod null_space;

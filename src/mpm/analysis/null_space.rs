@@ -1,11 +1,12 @@
-//! What the grid cannot see of the velocities of particles.
+//! Null space of the map to the grid: the part of the particles' velocities without nodal momentum.
 //!
-//! With N the map from nodes to particles and M the particle masses, velocities are `v = N w + v0` in one
-//! way in which v0 gives no node any momentum, `N^T M v0 = 0`: v0 lies in the null space of the map to the
-//! grid, and no force ever answers it (Brackbill 1988; Gritton & Berzins 2017, Comp. Part. Mech. 4). w is the
-//! least-squares fit `N^T M N w = N^T M v`, whose matrix is the consistent mass matrix. That may be singular,
-//! which conjugate gradients do not mind; the lumped one stands in for its inverse, so that
-//! a round applies the map to the grid and back, the operator of PIC and XPIC, once.
+//! With N the map from nodes to particles and M the particle masses, velocities are `v = N w + v0`
+//! in one way in which v0 gives no node any momentum, `N^T M v0 = 0`: v0 lies in the null space of
+//! the map to the grid, and no force ever answers it (Brackbill 1988; Gritton & Berzins 2017, Comp.
+//! Part. Mech. 4). w is the least-squares fit `N^T M N w = N^T M v`, whose matrix is the consistent
+//! mass matrix. That may be singular, which conjugate gradients allow; the lumped one stands
+//! in for its inverse, so that a round applies the map to the grid and back, the operator of PIC
+//! and XPIC, once.
 
 use crate::mpm::{
     algebra::Vector,
@@ -15,16 +16,16 @@ use crate::mpm::{
     solver::Solver,
 };
 
-/// Share of the energy at which what the grid still sees of the rest counts as rounding.
+/// Energy of the residual, as a share of the whole, that counts as rounding.
 const ROUNDING: f64 = 1e-26;
 
 /// Rounds at most. A mode that PIC multiplies by l is found in about `1/sqrt(l)` of them.
 const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
-    /// Kinetic energy (J) of the part of the particles' velocities that lies in the null space of the
-    /// map to the grid, where the particles are now. Walls do not matter: they hold nodes, and this part
-    /// gives nothing to any.
+    /// Kinetic energy (J) of the part of the particles' velocities that lies in the null space of
+    /// the map to the grid, where the particles are now. Walls do not matter: they hold nodes, and
+    /// this part gives nothing to any.
     pub fn null_space_energy(&self) -> f64 {
         let (kernel, particles) = (self.setup.kernel.as_ref(), &self.setup.particles);
         0.5 * square(particles, &null_part(kernel, &self.setup.grid, particles))
@@ -48,7 +49,7 @@ fn null_part<const D: usize>(
     for _ in 0..MOST {
         to_nodes(&rest, &mut momentum);
         let seen = seen(&masses, &momentum);
-        // Written so that NaN ends it, and comes through in what is left.
+        // A comparison that NaN fails, so that it ends the loop and stays in the residual.
         if !(seen > ROUNDING * size) {
             break;
         }
@@ -66,7 +67,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Nodal masses (kg) where the particles are now; those of the grid are of the step that has moved them.
+/// Nodal masses (kg) where the particles are now; those of the grid are of the step that has moved
+/// them.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

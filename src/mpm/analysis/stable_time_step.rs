@@ -1,16 +1,17 @@
-//! The longest step that is stable, from the stages of the solver's own step.
+//! Stable time step, by power iteration with the passes of the solver itself.
 //!
-//! Velocities of nodes strain the particles, the stresses make forces, and these accelerate the nodes:
-//! `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest eigenvalue,
-//! the square of the highest frequency, is found by power iteration. With it an explicit step is
-//! stable up to `dt^2 L = 4/((2 - a) l)` under USL, where a, between 0 and 1, is the share of a velocity
-//! that particles show to the grid again; so `dt = sqrt(2/L)` is safe whatever a mode shows. Under USF and
-//! MUSL a particle is strained by what has gone through particles: `L = P N M^-1 K` with the maps to
-//! nodes and to particles, of which nothing grows where a node has little mass. Nothing is assumed of
-//! basis, mass matrix, place of particles or law, which are those of the run.
+//! Velocities of nodes strain the particles, the stresses make forces, and these accelerate the
+//! nodes: `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest
+//! eigenvalue, the square of the highest frequency, is found by power iteration. With it an
+//! explicit step is stable up to `dt^2 L = 4/((2 - a) l)` under USL, where a, between 0 and 1, is
+//! the share of a velocity that particles show to the grid again; so `dt = sqrt(2/L)` is safe
+//! whatever a mode shows. Under USF and MUSL a particle is strained by what has gone through
+//! particles: `L = P N M^-1 K` with the maps to nodes and to particles, of which nothing grows
+//! where a node has little mass. Nothing is assumed of basis, mass matrix, place of particles or
+//! law, which are those of the run.
 //!
-//! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the dependence
-//! on the place of particles also Ni & Zhang (2020), IJNME 121.
+//! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
+//! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
 
 use crate::{
     mpm::{
@@ -26,25 +27,27 @@ use crate::{
     subject::Failure,
 };
 
-/// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside rounding, 1e-16,
-/// and small beside one; and it is a velocity, so that a quadratic viscosity means nothing to it.
+/// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside
+/// rounding, 1e-16, and small beside one; and it is a velocity, so that a quadratic viscosity means
+/// nothing to it.
 const SPEED: f64 = 1e-7;
 
-/// Times that the iteration is repeated with the step that it gave: where stresses depend on rates the
-/// frequency depends on the step.
+/// Times that the iteration is repeated with the step that it gave: where stresses depend on rates
+/// the frequency depends on the step.
 const REPEATS: u32 = 12;
 
 /// Rounds of a repetition, which starts where the one before has ended.
 const AGAIN: u32 = 4;
 
-/// Share of the largest eigenvalue so far by which all are shifted, which almost doubles the rate at
-/// which the others die out. It must be less than a half, or the smallest one would be the largest.
+/// Share of the largest eigenvalue so far by which all are shifted, which almost doubles the rate
+/// at which the others die out. It must be less than a half, or the smallest one would be the
+/// largest.
 const SHIFT: f64 = 0.45;
 
-/// A step that changes by no more than this share has settled.
+/// Relative change at which the step counts as converged.
 const SETTLED: f64 = 1e-3;
 
-/// The state that the iteration starts from each time.
+/// Initial state of each iteration.
 struct InitialState<const D: usize> {
     v: Vec<Vector<D>>,
     sigma: Vec<Matrix<D>>,
@@ -54,13 +57,13 @@ struct InitialState<const D: usize> {
 }
 
 impl<const D: usize> Solver<D> {
-    /// The longest safe step (s), but at most `longest`, in the present state of the body. Loads are left
-    /// out, and so is friction of walls, and damping but that of the law and of artificial viscosity.
-    /// `rounds` of the power iteration, each as dear as a step, give an upper bound that is too large
-    /// by a few percent after some twenty.
+    /// The longest stable step (s), but at most `longest`, in the present state of the body. Loads
+    /// are left out, and so is friction of walls, and damping but that of the law and of artificial
+    /// viscosity. `rounds` of the power iteration, each as expensive as a step, give an upper bound
+    /// that is too large by a few percent after some twenty.
     ///
     /// # Errors
-    /// What breaks in a stage; [`Failure::Solve`] if there is no such number.
+    /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
     pub fn stable_time_step(mut self, longest: f64, rounds: u32) -> Result<f64, Failure> {
         self.setup.effects.retain(|effect| makes_stress(effect.name()));
         self.setup.boundary.retain(|condition| !condition.reads_velocity());
@@ -86,8 +89,8 @@ impl<const D: usize> Solver<D> {
         Ok(dt)
     }
 
-    /// Power iteration: the largest ratio of the norm of `L mode` to that of `mode`, in the norm of the
-    /// nodal masses, in which the matrix is symmetric.
+    /// Power iteration: the largest ratio of the norm of `L mode` to that of `mode`, in the norm of
+    /// the nodal masses, in which the matrix is symmetric.
     fn square_of_frequency(
         &mut self,
         start: &InitialState<D>,
@@ -122,8 +125,8 @@ impl<const D: usize> Solver<D> {
         Ok(square)
     }
 
-    /// What the nodes do next after they have moved with `velocity` (m/s) for `dt` (s): their
-    /// accelerations (m/s2), or what comes back of these from the particles.
+    /// Response of the nodes to a motion with `velocity` (m/s) for `dt` (s): their accelerations
+    /// (m/s2), or the velocities that P2G gives after a kick by these over 1 s.
     fn response(
         &mut self,
         start: &InitialState<D>,
@@ -145,8 +148,8 @@ impl<const D: usize> Solver<D> {
         Ok(self.setup.grid.velocity.clone())
     }
 
-    /// Whether velocities go through particles before they strain them. What an affine field or a series
-    /// brings back is taken for all of it.
+    /// Whether velocities pass through particles before they strain them. For affine fields and
+    /// series the loss in that passage is neglected.
     fn strains_by_mapped_velocity(&self) -> bool {
         self.setup.scheme != SchemeName::Usl && self.setup.transfer.kind() == TransferKind::Velocity
     }
@@ -177,7 +180,8 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Whether an effect meets the law. Given forces are the same whatever moves, and damping takes energy.
+/// Whether an effect meets the law. Given forces are the same whatever moves, and damping takes
+/// energy.
 fn makes_stress(effect: EffectName) -> bool {
     use EffectName::{ArtificialViscosity, Heat, ThermalExpansion};
     matches!(effect, ArtificialViscosity | Heat | ThermalExpansion)

@@ -1,4 +1,4 @@
-//! Sums over the body of what a motion without outer forces keeps.
+//! Sums over the body that a motion without external forces conserves.
 
 use crate::{
     mpm::{
@@ -9,8 +9,9 @@ use crate::{
 };
 
 impl<const D: usize> Particles<D> {
-    /// Mass, momenta and kinetic energy now; what the material stores is its own to say. `own` is the first moment of the velocity field that a
-    /// particle carries about itself, if the transfer gives it one (Jiang et al. 2015).
+    /// Mass, momenta and kinetic energy now; the strain energy is left to the material. `own` is
+    /// the first moment of the velocity field that a particle has about itself, if the transfer
+    /// gives it one (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
         for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
@@ -30,8 +31,8 @@ impl<const D: usize> Particles<D> {
         totals
     }
 
-    /// What particle p holds of angular momentum per unit of its mass, as the matrix whose axial
-    /// vector that is: `v x^T`, for the motion of its centre, and what it carries about that.
+    /// Angular momentum of particle p per unit of its mass, as the matrix with that axial vector:
+    /// `v x^T` for the motion of its centre, and the moment `own` about the centre.
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
         dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
     }

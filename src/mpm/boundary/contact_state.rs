@@ -1,8 +1,8 @@
-//! How what meets with friction touches: a node and a wall, or two bodies at a node.
+//! Contact state under Coulomb friction, of a node at a wall or of two bodies at a node.
 
 use crate::subject::{Checkpoint, Memory};
 
-/// What Coulomb's law makes of a meeting.
+/// State of a contact by Coulomb's law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum ContactState {
     /// They do not touch.

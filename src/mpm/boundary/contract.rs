@@ -1,4 +1,4 @@
-//! What a boundary condition is to the rest of the solver.
+//! Contract of a boundary condition with the rest of the solver.
 
 use crate::{
     mpm::algebra::Vector,
@@ -7,17 +7,17 @@ use crate::{
 
 /// An advance of the grid's velocities: `v += dt a`.
 ///
-/// Euler-Cromer is a leapfrog: the velocities that carry positions from t to t + dt stand for the
-/// middle of that time. So a step takes velocities from t - dt/2 to t + dt/2, and a velocity that is
-/// prescribed in between is followed to second order, whatever the scheme. Only the first step is
-/// shorter, if it starts from the velocities at t = 0.
+/// Euler-Cromer is a leapfrog: the velocities that move positions from t to t + dt are those of the
+/// middle of that time. So a step takes velocities from t - dt/2 to t + dt/2, and a velocity that
+/// is prescribed in between is followed to second order, whatever the scheme. Only the first step
+/// is shorter, if it starts from the velocities at t = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
-    /// Time that the velocities stand for before (s).
+    /// Time of the velocities before the advance (s).
     pub from: f64,
-    /// Time that they stand for after (s).
+    /// Time of the velocities after it (s).
     pub to: f64,
-    /// What accelerations are multiplied by (s).
+    /// Factor of the accelerations (s).
     pub dt: f64,
 }
 
@@ -28,10 +28,10 @@ pub struct Advance {
 /// must agree: a held velocity that takes the held acceleration is the held velocity of the time
 /// after.
 pub trait Boundary<const D: usize>: Send {
-    /// What the condition keeps for its nodes.
+    /// Columns for nodes.
     fn columns(&self) -> Vec<Column>;
 
-    /// Shows what it remembers from step to step.
+    /// Visits the state between two steps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether [`Boundary::hold_advance`] reads velocities: they are then mapped before forces.
@@ -39,15 +39,14 @@ pub trait Boundary<const D: usize>: Send {
         false
     }
 
-    /// Gives the nodal velocities (m/s), which stand for time `t` (s), what is held of them.
+    /// Imposes the condition on nodal velocities (m/s) of time `t` (s).
     fn hold_velocity(&self, velocity: &mut [Vector<D>], t: f64);
 
-    /// Gives the nodal accelerations (m/s2) of `advance` what is held of them.
+    /// Imposes the condition on nodal accelerations (m/s2) of `advance`.
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance);
 
-    /// Gives an advance what is held of it, where that depends on both: the nodal velocities (m/s)
-    /// before it, which have been held, and the accelerations (m/s2). Velocities are those of the
-    /// grid only if some condition reads them.
+    /// Imposes a condition on velocities (m/s) and accelerations (m/s2) together; the former
+    /// satisfy it before the advance. Velocities are mapped by then only if a condition reads them.
     fn hold_advance(
         &mut self,
         _velocity: &mut [Vector<D>],
@@ -57,6 +56,6 @@ pub trait Boundary<const D: usize>: Send {
         self.hold_acceleration(acceleration, advance);
     }
 
-    /// Sets to zero what is held of a nodal field, whatever it is held at.
+    /// Sets the constrained components of a nodal field to zero.
     fn clear(&self, field: &mut [Vector<D>]);
 }

@@ -1,16 +1,15 @@
 //! A wall that presses, cannot pull, and resists sliding: Coulomb's law, `|t| <= mu N`.
 //!
 //! At every node of the wall the step is tried without the wall first, `v* = v + dt a`. Where that
-//! would enter the wall (or, for a node that the wall holds already, press on it) the node keeps
-//! to the wall, `v . n = a . n = 0`, as with a roller, and the impulse that this takes,
-//! `I = m |v* . n|`, is what friction is measured by. If an impulse of at most `mu I` brings `v*` to
-//! rest along the wall the node sticks, `v = a = 0`, as on a fixed wall; otherwise it slides, and
-//! `mu I` against `v*` is taken from its acceleration. Where the wall would have to pull, the node is
-//! free. (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a wall that does not move
-//! as the other body.)
+//! would enter the wall (or, for a node that the wall holds already, press on it) the node keeps to
+//! the wall, `v . n = a . n = 0`, as with a roller, and the impulse that this takes,
+//! `I = m |v* . n|`, is what friction is measured by. If an impulse of at most `mu I` brings `v*`
+//! to rest along the wall the node sticks, `v = a = 0`, as on a fixed wall; otherwise it slides,
+//! and `mu I` against `v*` is taken from its acceleration. Where the wall would have to pull, the
+//! node is free. (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a wall that does
+//! not move as the other body.)
 //!
-//! Nodes keep what they were in the last step: velocities that are mapped between two advances are
-//! held as the last one left them.
+//! Nodes keep their contact state between two advances: velocities mapped in between follow it.
 
 use super::{
     contact_state::ContactState,
@@ -119,7 +118,7 @@ mod tests {
 
     const ADVANCE: Advance = Advance { from: 0.0, to: 0.5, dt: 0.5 };
 
-    /// One node of the wall after an advance from v with a, and what became of both.
+    /// One node of the wall after an advance from v with a, and both afterwards.
     fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
         let grid = kernel::<2>(BasisName::Linear).grid(Vector::zeros(), 1.0, [1; 2], [false; 2]);
         let mut wall = Friction::face(&grid, 1, side, 0.25);
@@ -154,7 +153,7 @@ mod tests {
         assert_relative_eq!(acceleration, mirrored(held_a).into());
     }
 
-    /// What is mapped afterwards is held as the advance left it.
+    /// Velocities mapped after the advance follow its contact state.
     #[rstest]
     #[case::free([3.0, 5.0], [0.7, 0.2])]
     #[case::slides([3.0, -1.0], [0.7, 0.0])]

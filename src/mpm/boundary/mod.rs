@@ -1,6 +1,6 @@
 //! Boundary conditions on the grid: the family. A member is one file and one line below.
 //!
-//! A face that no condition speaks of is free. A periodic axis needs no condition: the grid itself
+//! A face without a condition is free. A periodic axis needs no condition: the grid itself
 //! has no end there. With the bases of this crate the functions of index 0 and of the last index on
 //! an axis are the only ones that do not vanish on its walls (open knots, Steffen, Kirby & Berzins
 //! 2008), so holding their coefficients holds the wall. Where faces meet, a later condition of the

@@ -1,4 +1,4 @@
-//! A wall that moves as it is told, and the body with it: v = v(x, t).
+//! A wall with a prescribed velocity, and the body with it: v = v(x, t).
 //!
 //! The nodes take the velocity at their own place. The grid does not follow the wall: the face of
 //! the grid is where the wall is, so a wall may slide along itself as far as it likes, but move
@@ -18,7 +18,7 @@ pub type VelocityField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D
 
 /// A face of the grid whose velocity is given.
 pub struct Prescribed<const D: usize> {
-    /// Nodes and where they are (m).
+    /// Nodes and their positions (m).
     nodes: Vec<(usize, Vector<D>)>,
     value: VelocityField<D>,
 }
@@ -37,9 +37,9 @@ impl<const D: usize> Prescribed<D> {
     }
 }
 
-/// `value` at `x` and `t` (s). No velocity is asked for before the start, where a formula may have no
-/// meaning: there it is continued through its value at the start, `v(-t) = 2 v(0) - v(t)`, which is
-/// exact for a constant acceleration.
+/// `value` at `x` and `t` (s). No velocity is asked for before the start, where a formula may have
+/// no meaning: there it is continued through its value at the start, `v(-t) = 2 v(0) - v(t)`, which
+/// is exact for a constant acceleration.
 pub(in crate::mpm) fn continued<const D: usize>(
     value: &VelocityField<D>,
     x: &Vector<D>,

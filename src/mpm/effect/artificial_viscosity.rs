@@ -1,13 +1,13 @@
 //! Artificial viscosity: a pressure against compression that gives shocks a width of some cells.
 //!
-//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` where `tr D < 0`, and zero where the body does not compress,
-//! with the present density rho, the cell size l and the wave speed c at rest. The quadratic term
-//! (von Neumann & Richtmyer 1950) acts in strong shocks, and is of second order where the motion is
-//! smooth; the linear term (Landshoff 1955) takes the oscillations behind weak ones, and is of
-//! first order.
+//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` where `tr D < 0`, and zero where the body does not
+//! compress, with the present density rho, the cell size l and the wave speed c at rest. The
+//! quadratic term (von Neumann & Richtmyer 1950) acts in strong shocks, and is of second order
+//! where the motion is smooth; the linear term (Landshoff 1955) takes the oscillations behind weak
+//! ones, and is of first order.
 //!
-//! The pressure is a part of the stress only while forces are taken from it: before the material makes
-//! new stresses, which a law in rate form adds to the old ones, it is taken out again.
+//! The pressure is a part of the stress only while forces are taken from it: before the material
+//! makes new stresses, which a law in rate form adds to the old ones, it is taken out again.
 
 use super::{contract::Effect, name::EffectName};
 use crate::{
@@ -107,7 +107,7 @@ mod tests {
         }
     }
 
-    /// Bit for bit: a body that only expands knows of no viscosity.
+    /// A body that only expands has the bits of one without viscosity.
     #[test]
     fn expansion_is_free() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };

@@ -8,7 +8,7 @@ use crate::{
     subject::Column,
 };
 
-/// Fills in the force per unit mass (m/s2) of every particle at a time (s), from their reference
+/// Writes the force per unit mass (m/s2) of every particle at a time (s), from their reference
 /// positions. The particles of a run, their order and their reference positions never change.
 pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [Vector<D>]) + Send>;
 

@@ -1,4 +1,4 @@
-//! Damping in proportion to mass, for bodies that are to come to rest.
+//! Mass-proportional damping, for dynamic relaxation.
 //!
 //! `dv/dt = -alpha(t) v` for every material point, as the exact factor `exp(-alpha dt)` on the
 //! velocities of the particles, once a step, after they have been taken from the grid.

@@ -7,17 +7,18 @@
 //! ```text
 //! T_i    = sum_p m_p (T_p + g_p . (x_i - x_p)) N_i / m_i       held where it is given
 //! g_p    = sum_i T_i grad N_i                                  grad T of the particle
-//! Q_i    = -sum_p V_p k g_p . grad N_i + sum_p m_p s_p N_i + what enters through faces
+//! Q_i    = -sum_p V_p k g_p . grad N_i + sum_p m_p s_p N_i + flow through faces
 //! T_p   += dt sum_i Q_i/(c m_i) N_i                            as FLIP: increments only
 //! ```
 //!
-//! The published scheme shows the nodes T_p alone. Row sums then take the mean over a function,
+//! The published scheme maps T_p alone. Row sums then take the mean over a function,
 //! which at a wall is no value at the wall: the slope there comes out a third too small with linear
 //! functions, and a face through which heat flows costs the second order. With `g_p`, the slope of
 //! the step before (as in TPIC), a linear field is reproduced up to the wall.
 //!
-//! Second order in space, first in time. What `Q_i` sums up to is what enters, to round-off. Neglected:
-//! heat from plastic work, viscosity and compression; a conductivity that depends on anything.
+//! Second order in space, first in time. The sum of `Q_i` is the flow into the body, to round-off.
+//! Neglected: heat from plastic work, viscosity and compression; a conductivity that is not
+//! constant.
 
 use super::{contract::Effect, name::EffectName, thermal_face::ThermalBoundary};
 use crate::{
@@ -25,7 +26,7 @@ use crate::{
     subject::{Checkpoint, Column, Failure, Site},
 };
 
-/// Fills in the heat per unit mass and time (W/kg) of every particle at a time (s), from their
+/// Writes the heat per unit mass and time (W/kg) of every particle at a time (s), from their
 /// reference positions.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [f64]) + Send>;
 
@@ -135,7 +136,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
         columns
     }
 
-    /// Of the nodes nothing is remembered.
+    /// State of the particles; that of the nodes is computed anew in each step.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.slope[..]);
     }
@@ -185,7 +186,7 @@ mod tests {
         (kernel, grid, particles)
     }
 
-    /// `1 + 2 x - 3 y`, up to the walls: what nodes are shown is the field at their own place.
+    /// `1 + 2 x - 3 y`, up to the walls: each node has the field's value at its position.
     #[rstest]
     fn a_linear_temperature_is_shown_as_it_is(
         #[values(
@@ -212,8 +213,8 @@ mod tests {
         }
     }
 
-    /// The heat that the particles gain is what entered: 7 W/m through an edge of 0.5 m, and 5 W/kg in
-    /// 1.5 kg.
+    /// The heat that the particles gain is what entered: 7 W/m through an edge of 0.5 m, and 5 W/kg
+    /// in 1.5 kg.
     #[rstest]
     fn no_heat_is_lost(
         #[values(BasisName::Linear, BasisName::Cpdi, BasisName::CubicBSpline)] basis: BasisName,

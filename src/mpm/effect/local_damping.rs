@@ -1,4 +1,4 @@
-//! Local damping: a force against the motion, in proportion to the force that is out of balance.
+//! Local damping: a force against the motion, proportional to the unbalanced force.
 //!
 //! `f_i <- f_i - zeta |f_i| sign(v_i)`, component by component and node by node, once all other
 //! forces are there (Cundall 1987, in Analytical and Computational Methods in Engineering Rock
@@ -6,14 +6,14 @@
 //! to be known: each mode loses the same share of its amplitude in each of its own half periods,
 //! `sqrt((1 - zeta)/(1 + zeta))` where all of the body turns at once.
 //!
-//! The sign is that of the velocity that particles bring to the step, half a step behind the forces,
-//! so where the motion turns the damping turns up to a step late: of first order in time. As it acts
-//! on nodes, what no node sees of FLIP's velocities is left as it is.
+//! The sign is that of the velocity that particles bring to the step, half a step behind the
+//! forces, so where the motion turns the damping turns up to a step late: of first order in time.
+//! As it acts on nodes, what no node sees of FLIP's velocities is left as it is.
 
 use super::{contract::Effect, name::EffectName};
 use crate::mpm::grid::Grid;
 
-/// The share zeta, 0 <= zeta < 1, of the force that is out of balance.
+/// The share zeta, 0 <= zeta < 1, of the unbalanced force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalDamping(pub f64);
 
@@ -29,8 +29,8 @@ impl<const D: usize> Effect<D> for LocalDamping {
     fn modify_force(&self, grid: &mut Grid<D>) {
         for (force, velocity) in grid.force.iter_mut().zip(&grid.velocity) {
             for (f, v) in force.iter_mut().zip(velocity) {
-                // A node at rest is not damped; neither is one without a number for its velocity,
-                // which the particles will tell of.
+                // A node at rest is not damped; neither is one with NaN, which the check of the
+                // particles reports.
                 if *v > 0.0 {
                     *f -= self.0 * f.abs();
                 } else if *v < 0.0 {

@@ -1,7 +1,7 @@
 //! A face of a body that is a mapped box: the particles whose domains end on it.
 //!
-//! Middles of outer faces of domains lie on the face of the body ([`Particles::fill_mapped`]), however slanting
-//! the rows of particles are that end there.
+//! Middles of outer faces of domains lie on the face of the body ([`Particles::fill_mapped`]),
+//! however slanting the rows of particles are that end there.
 
 use crate::mpm::particles::Particles;
 
@@ -14,13 +14,14 @@ pub(super) struct MappedFace {
     pub(super) layer: Vec<usize>,
     /// The column of their domains that ends on the face, and its sign.
     pub(super) column: (usize, f64),
-    /// Share of the face that each stands for (m^(D-1)): along a straight side in 2-D, all are equal.
+    /// Share of the face of each particle (m^(D-1)): along a straight side in 2-D, all are
+    /// equal.
     pub(super) area: f64,
 }
 
 impl MappedFace {
-    /// The face that lies furthest out along `axis`, in the direction `outwards` (1 or -1). None of a body
-    /// that is no mapped box.
+    /// The face that lies furthest out along `axis`, in the direction `outwards` (1 or -1). None of
+    /// a body that is no mapped box.
     pub(super) fn of<const D: usize>(
         particles: &Particles<D>,
         axis: usize,
@@ -57,8 +58,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: whatever the map
-    /// starts with, force and moment about the origin are those of the side.
+    /// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: whatever
+    /// the map starts with, force and moment about the origin are those of the side.
     #[rstest]
     fn a_side_carries_its_whole_load_where_it_is(
         #[values(0, 1, 2, 3)] first: usize,

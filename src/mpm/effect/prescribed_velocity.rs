@@ -1,8 +1,8 @@
-//! A set of particles that move as they are told.
+//! A set of particles with a prescribed velocity.
 //!
 //! Their velocity is set once the grid's has been taken, and they move with it rather than with the
-//! grid. What is around them learns of it when velocities are mapped to the grid: in MUSL within
-//! the same step, in USF and USL in the next.
+//! grid. It reaches the rest of the body with the next P2G of velocities: in MUSL within the same
+//! step, in USF and USL in the next.
 
 use super::{contract::Effect, name::EffectName};
 use crate::{
@@ -14,10 +14,10 @@ use crate::{
     subject::{Checkpoint, Column},
 };
 
-/// A velocity v(X, t) (m/s) that a set of particles has.
+/// Prescribed velocity v(X, t) (m/s) of a set of particles.
 pub struct PrescribedVelocity<const D: usize> {
     value: VelocityField<D>,
-    /// Particles and where they are (m).
+    /// Particles and their positions (m).
     members: Vec<(usize, Vector<D>)>,
 }
 

@@ -1,8 +1,9 @@
 //! A pressure on a face of the body, which follows the face: `t = -p n` per present area.
 //!
-//! Per reference area that is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so the force on the
-//! particles of the layer needs their F, and a face that is stretched or turned carries another force
-//! than before. Where the force is put at the surface ([`Placement`]), F is continued to there.
+//! Per reference area that is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so the force on
+//! the particles of the layer needs their F, and a face that is stretched or turned carries another
+//! force than before. Where the force is put at the surface ([`Placement`]), F is continued to
+//! there.
 
 use super::{
     contract::Effect,

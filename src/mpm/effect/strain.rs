@@ -1,4 +1,4 @@
-//! The stage in which a material makes stresses of strains, with what effects have to say.
+//! Constitutive update with the hooks of the effects.
 
 use super::contract::Effect;
 use crate::mpm::{material::Material, particles::Particles};

@@ -1,16 +1,17 @@
 //! The surface of a body, as the layer of particles that lies at one of its faces.
 //!
-//! Each particle of the layer stands for a share A_p of the face, whose middle is
-//! `X_s = X_p + s/2 N` with the spacing s along the normal N. What acts there is put on the grid in one
-//! of two places ([`Placement`]):
+//! Each particle of the layer represents a share A_p of the face, whose middle is
+//! `X_s = X_p + s/2 N` with the spacing s along the normal N. A traction there is put on the grid
+//! in one of two places ([`Placement`]):
 //!
-//! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum of the
-//!   forces is right, their moment is not: forces along the face lack the arm s/2, which bends the whole
-//!   body by an error of the order h;
-//! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of the
-//!   surface point as far as their slope at the particle tells, so that sum and moment are right,
-//!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, wherever linear fields are. Not the weights at the surface
-//!   point itself: just beyond a node they belong in part to a node that no particle gives any mass.
+//! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
+//!   of the forces is right, their moment is not: forces along the face lack the arm s/2, which
+//!   bends the whole body by an error of the order h;
+//! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
+//!   the surface point as far as their slope at the particle tells, so that sum and moment are
+//!   right, `sum_i f_i (x) x_i = f (x) (x_p + d)`, wherever linear fields are. Not the weights at
+//!   the surface point itself: just beyond a node they belong in part to a node that no particle
+//!   gives any mass.
 
 use super::mapped_face::MappedFace;
 use crate::{
@@ -25,7 +26,7 @@ use crate::{
 };
 
 named! {
-    /// Where a force on a surface acts.
+    /// Point of action of a surface force.
     #[derive(Default)]
     pub enum Placement {
         /// At the outermost particles.
@@ -45,7 +46,7 @@ pub(super) struct Surface {
     axis: usize,
     /// Sign of the outward normal along the axis.
     outwards: f64,
-    /// Share of the face that each particle stands for (m^(D-1)).
+    /// Share of the face of each particle (m^(D-1)).
     pub(super) area: f64,
     /// Half a spacing along the axis (m), but of a mapped body.
     depth: f64,
@@ -93,7 +94,8 @@ impl Surface {
         Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
     }
 
-    /// From particle `p` to the middle of its share of the face, in the reference configuration (m).
+    /// From particle `p` to the middle of its share of the face, in the reference configuration
+    /// (m).
     fn to_face<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         match self.column {
             Some((column, sign)) => particles.domain0[p].column(column) * sign,
@@ -101,7 +103,7 @@ impl Surface {
         }
     }
 
-    /// The middle of the share of the face that particle `p` stands for, X_s (m).
+    /// The middle of the share of the face of particle `p`, X_s (m).
     pub(super) fn label<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         particles.x0[p] + self.to_face(particles, p)
     }

@@ -1,13 +1,14 @@
 //! Thermal expansion: strain that temperature makes, and that causes no stress.
 //!
 //! For a law of the whole deformation F is split, `F = theta Fe` with the stretch
-//! `theta = 1 + alpha (T - T0)` on every axis, and the law sees Fe (Stojanovic, Djuric & Vujosevic 1964;
-//! Lubarda 2004, Appl. Mech. Rev. 57): a body that is free expands by theta exactly. A law in rate form
-//! takes what `alpha T` changes in the step off the strain, `sigma -= E/(1 - 2 nu) alpha dT I` (Duhamel
-//! & Neumann), which is plane strain in the plane and uniaxial strain on the line.
+//! `theta = 1 + alpha (T - T0)` on every axis, and the law sees Fe (Stojanovic, Djuric & Vujosevic
+//! 1964; Lubarda 2004, Appl. Mech. Rev. 57): a body that is free expands by theta exactly. A law in
+//! rate form takes what `alpha T` changes in the step off the strain,
+//! `sigma -= E/(1 - 2 nu) alpha dT I` (Duhamel & Neumann), which is plane strain in the plane and
+//! uniaxial strain on the line.
 //!
-//! The split lives in the D dimensions of the scene: with Poisson's ratio zero the axes that a scene
-//! leaves out have no part in it. Neglected: heat that the expansion takes up.
+//! The split lives in the D dimensions of the scene: with Poisson's ratio zero the axes that a
+//! scene leaves out have no part in it. Neglected: heat absorbed by the expansion.
 
 use super::{contract::Effect, name::EffectName};
 use crate::{
@@ -24,7 +25,7 @@ pub struct ThermalExpansion<const D: usize> {
     law: ExpansionLaw<D>,
 }
 
-/// How the law sees it.
+/// Form of the expansion, by the kind of law.
 enum ExpansionLaw<const D: usize> {
     /// Fe, in the place of F while stresses are computed.
     OfDeformation { elastic: Vec<Matrix<D>> },

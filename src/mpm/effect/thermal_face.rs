@@ -1,10 +1,10 @@
-//! What enters a body through a face of the grid, or what temperature it has there.
+//! Thermal condition on a face of the grid: temperature, heat flux or heat transfer.
 //!
-//! The functions of every basis of this crate conform to the walls of the grid: along the normal one
-//! function is 1 there, and all others are 0. So the nodes of the wall carry the temperature of the
-//! face, and `sum_p A_p N_i` over the layer of particles at the face, taken along the face only, is
-//! the share of the face that node i stands for. Heat enters at the face itself, not at the particles
-//! half a spacing inside: that would be an error of first order.
+//! The functions of every basis of this crate conform to the walls of the grid: along the normal
+//! one function is 1 there, and all others are 0. So the nodes of the wall carry the temperature of
+//! the face, and `sum_p A_p N_i` over the layer of particles at the face, taken along the face
+//! only, is the share of the face of node i. Heat enters at the face itself, not at
+//! the particles half a spacing inside: that would be an error of first order.
 //!
 //! Areas are those of the reference body, as with tractions. The face stays where the grid ends.
 
@@ -24,7 +24,7 @@ use crate::{
 /// A number as a function of place and time (s).
 pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// What holds on a face that is not insulated.
+/// Condition on a face that is not insulated.
 pub enum Thermal<const D: usize> {
     /// A temperature (K).
     Temperature(ScalarField<D>),
@@ -44,7 +44,7 @@ pub struct ThermalBoundary<const D: usize> {
     condition: Thermal<D>,
     axis: usize,
     wall: usize,
-    /// Nodes and where they are (m).
+    /// Nodes and their positions (m).
     nodes: Vec<(usize, Vector<D>)>,
     /// Particles next to the face.
     layer: Vec<usize>,
@@ -76,7 +76,7 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// What is kept.
+    /// Columns for particles and nodes.
     pub(super) fn columns(&self) -> [Column; 3] {
         [
             Column::of_particles("face layer", &self.layer),
@@ -85,7 +85,7 @@ impl<const D: usize> ThermalBoundary<D> {
         ]
     }
 
-    /// Gives the nodal temperatures (K) at time `t` (s) what is held of them.
+    /// Imposes a given temperature on those of nodes (K) at time `t` (s).
     pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -103,8 +103,8 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Adds what enters at time `t` (s) to the `flow` (W) into each node, whose temperatures (K) are
-    /// given; returns the particle-node pairs visited.
+    /// Adds the flow through the face at time `t` (s) to the `flow` (W) into each node, whose
+    /// temperatures (K) are given; returns the particle-node pairs visited.
     pub(super) fn let_in(
         &mut self,
         t: f64,
@@ -130,8 +130,8 @@ impl<const D: usize> ThermalBoundary<D> {
         self.layer.len() as u64 * kernel.support()
     }
 
-    /// The share of the face of each of its nodes: what the layer of particles gives to any node goes
-    /// to the node of the face on the same normal.
+    /// The share of the face of each of its nodes: what the layer of particles gives to any node
+    /// goes to the node of the face on the same normal.
     fn gather_shares(&mut self, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
         self.share.fill(0.0);
         for &p in &self.layer {

@@ -1,9 +1,9 @@
-//! A surface traction, carried by the layer of particles that lies at the surface.
+//! A surface traction on the layer of particles at the surface.
 //!
 //! `f_ext_i += sum_p p0 A_p N_i(x_p)` over that layer, with A_p the particle's reference share of
-//! the surface: a dead load, `P N = p0(X, t)`. The body need not end on a node: the force follows the
-//! particles (Wobbes & Tielen 2015, Steffen's bar), and with them faces that turn and bend. It acts
-//! half a particle spacing inside the surface unless it is put there ([`Placement`]).
+//! the surface: a dead load, `P N = p0(X, t)`. The body need not end on a node: the force follows
+//! the particles (Wobbes & Tielen 2015, Steffen's bar), and with them faces that turn and bend. It
+//! acts half a particle spacing inside the surface unless it is put there ([`Placement`]).
 
 use super::{
     contract::Effect,
@@ -17,8 +17,8 @@ use crate::{
     subject::Column,
 };
 
-/// A traction (Pa, per reference area) as a function of the place in the reference configuration and
-/// of time.
+/// A traction (Pa, per reference area) as a function of the place in the reference configuration
+/// and of time.
 pub type TractionField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;
 
 /// Traction p0(X, t) (Pa, per reference area) on one face of the body.

@@ -1,8 +1,8 @@
-//! A symmetric sparse matrix from its entries, of which many belong to the same place.
+//! Assembly of a symmetric sparse matrix from entries, many of which share a place.
 //!
 //! In a run the entries of one step mostly belong to the places of the step before. So the order in
-//! which they are added up is kept, and found anew only where places have changed: that takes sorting,
-//! several times as long as the sums.
+//! which they are added up is kept, and found anew only where places have changed: that takes
+//! sorting, several times as long as the sums.
 
 use nalgebra_sparse::pattern::SparsityPattern;
 
@@ -17,10 +17,11 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    /// For a matrix of `size` rows with entries at `places`, row and column; those without are left out.
+    /// For a matrix of `size` rows with entries at `places`, row and column; those without are left
+    /// out.
     ///
-    /// Entries of a place are added in the order of a sort that is not stable, but the same everywhere:
-    /// that of `nalgebra_sparse` for a `CooMatrix`, and so are the bits.
+    /// Entries of a place are added in the order of a sort that is not stable, but the same
+    /// everywhere: that of `nalgebra_sparse` for a `CooMatrix`, and so are the bits.
     pub(super) fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
         let mut row = Vec::new();

@@ -1,10 +1,11 @@
 //! The consistent matrix, `M_ij = sum_p m_p N_i(x_p) N_j(x_p)` (Sulsky, Chen & Schreyer 1994, eq.
 //! 2.16), solved by a sparse Cholesky factorisation.
 //!
-//! It is what order p + 1 needs with a basis of degree p > 1. Nodes without mass have no row, held
+//! Order p + 1 needs it with a basis of degree p > 1. Nodes without mass have no row, held
 //! nodes none in the component that is held: there, walls must be at rest. A node that too few
-//! particles see makes the matrix singular, and the run fails with that reason. Where entries are added
-//! up and where the factor has its own is found anew only if particles have come to other nodes.
+//! particles see makes the matrix singular, and the run fails with that reason. The sparsity
+//! patterns of the matrix and of its factor are found anew only if particles have come to other
+//! nodes.
 
 use super::{assembly::Assembly, contract::MassMatrix};
 use crate::{
@@ -25,7 +26,8 @@ pub struct Consistent {
     entries: MassEntries,
 }
 
-/// What all pairs of nodes that a particle sees add to the matrix, before anything is held.
+/// Entries of the matrix, one for each pair of nodes in the support of a particle, before
+/// constraints.
 #[derive(Default)]
 struct MassEntries {
     /// Nodes of each.
@@ -117,8 +119,8 @@ impl Factor {
         Ok(Self { row, rows, assembly, values, cholesky })
     }
 
-    /// The factor of other masses at the same places: the steps of the factorisation, and so its bits,
-    /// are those of a new one.
+    /// The factor of other masses at the same places: the steps of the factorisation, and so its
+    /// bits, are those of a new one.
     fn refactored(mut self, entries: &MassEntries) -> Result<Self, CholeskyError> {
         self.assembly.add_up(&entries.masses, &mut self.values);
         self.cholesky.refactor(&self.values).map(|()| self)

@@ -1,4 +1,4 @@
-//! What a mass matrix is to the rest of the solver.
+//! Contract of a mass matrix with the rest of the solver.
 
 use crate::{
     mpm::{
@@ -10,8 +10,8 @@ use crate::{
 
 /// Turns nodal momenta into velocities, and forces into accelerations.
 pub trait MassMatrix<const D: usize>: Send + Sync {
-    /// Takes in that particles have moved; `grid.mass` is up to date. Returns the passes over
-    /// particles that it took.
+    /// Assembles the matrix for new positions of the particles; `grid.mass` is up to date. Returns
+    /// the passes over particles that it took.
     ///
     /// # Errors
     /// [`Failure::Solve`] if there is no inverse.

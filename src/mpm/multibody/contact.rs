@@ -1,19 +1,21 @@
 //! Contact with friction, at the nodes where bodies meet (Bardenhagen, Brackbill & Sulsky 2000,
 //! CMAME 187, section 3).
 //!
-//! Each body has its own velocity at such a node. Two that approach, `(v_a - v_b) . n > 0`, are given
-//! equal and opposite impulses, so that they go on with one velocity along the normal and
-//! with one along the surface too, or, if that takes more than mu times the normal impulse, with as much
-//! as that changes. Bodies that part are left alone.
+//! Each body has its own velocity at such a node. Two that approach, `(v_a - v_b) . n > 0`, are
+//! given equal and opposite impulses, so that they go on with one velocity along the normal and
+//! with one along the surface too, or, if that takes more than mu times the normal impulse, with as
+//! much as that changes. Bodies that part are left alone.
 //!
-//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. take that of each body's
-//! own mass, and two such normals are not opposite: impulses along them would not be either. With one
-//! normal for both, momentum is kept to rounding, however many bodies meet, pair after pair. The logarithm,
-//! because a smooth basis sees the mass inside a body waver: where one body is there with its last
-//! particles and the other with its inside, `grad m_a - grad m_b` may point the wrong way.
+//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. take that of each
+//! body's own mass, and two such normals are not opposite: impulses along them would not be either.
+//! With one normal for both, momentum is kept to rounding, however many bodies meet, pair after
+//! pair. The logarithm, because a smooth basis sees the mass inside a body waver: where one body is
+//! there with its last particles and the other with its inside, `grad m_a - grad m_b` may point the
+//! wrong way.
 //!
-//! Impulses go into accelerations, `a_i = (v*_i - v_i)/dt`, so that particles are given all of them.
-//! Velocities that strain the bodies before or after are corrected likewise, for the strain alone.
+//! Impulses go into accelerations, `a_i = (v*_i - v_i)/dt`, so that particles are given all of
+//! them. Velocities that strain the bodies before or after are corrected likewise, for the strain
+//! alone.
 
 use super::{coupling::Coupling, interface::InterfaceNodes};
 use crate::{
@@ -32,7 +34,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     outwards: Vec<Vec<Vector<D>>>,
     /// Every two bodies.
     pairs: Vec<[usize; 2]>,
-    /// For each node and every two bodies: the contact state after the last push.
+    /// For each node and every two bodies: the contact state after the last impulse.
     touches: Vec<ContactState>,
     /// For each body: velocities as they were mapped (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
@@ -65,7 +67,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Pushes apart what would approach at each node after `dt` (s), by accelerations.
+    /// Impulses against approach after `dt` (s), as accelerations of nodes.
     fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
         self.touches.fill(ContactState::Separated);
         for k in 0..self.interface.nodes().len() {
@@ -99,8 +101,8 @@ impl<const D: usize> Contact<D> {
         (ContactState::Slip, -(normal * approach + along * (most / speed)))
     }
 
-    /// Gives velocities that strain the bodies what the last push left of them: along the normal they are
-    /// one where bodies touch, and along the surface too where they stick.
+    /// Applies the contact states of the last impulses to velocities that strain the bodies: equal
+    /// along the normal in contact, and along the surface too where bodies stick.
     fn hold(&self, bodies: &mut [Solver<D>]) {
         for &i in self.interface.nodes() {
             for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
@@ -121,7 +123,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// How a pair of bodies meets at node i, if both are there.
+    /// Normal and reduced mass of a pair of bodies at node i, if both have mass there.
     fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<ContactPair<D>> {
         let [(m, out_of_one), (k, out_of_other)] =
             self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));
@@ -137,9 +139,9 @@ impl<const D: usize> Contact<D> {
 
 /// Two bodies at a node.
 struct ContactPair<const D: usize> {
-    /// From the first into the other.
+    /// Unit normal from the first body into the other.
     normal: Vector<D>,
-    /// Reduced mass (kg): what an impulse is that changes the relative velocity.
+    /// Reduced mass (kg): impulse per change of the relative velocity.
     mass: f64,
 }
 
@@ -161,7 +163,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         ]
     }
 
-    /// How the last push left bodies: what strains them next is held so.
+    /// The contact states of the last impulses, which velocities that strain follow.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.touches[..]);
     }

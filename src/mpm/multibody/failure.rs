@@ -1,4 +1,4 @@
-//! Failures of one body, told of all.
+//! Failures of one body, with indices among the particles of all.
 
 use crate::subject::{Failure, Site};
 

@@ -1,14 +1,15 @@
 //! Several bodies on one grid.
 //!
-//! Each body is a [`Solver`] with its own particles, material, effects and fields on a grid of its own
-//! over the same geometry. Each pass is run by all of them; at nodes to which more than one body gives
-//! mass they are then coupled:
+//! Each body is a [`Solver`] with its own particles, material, effects and fields on a separate
+//! grid over the same geometry. Each pass is run by all of them; at nodes to which more than one
+//! body gives mass they are then coupled:
 //!
-//! - [`shared_velocity`]: they have one velocity and one acceleration there, as in the original MPM, which does not
-//!   know bodies (Sulsky, Chen & Schreyer 1994): they stick to each other for good;
+//! - [`shared_velocity`]: they have one velocity and one acceleration there, as in the original
+//!   MPM, which does not know bodies (Sulsky, Chen & Schreyer 1994): they stick together
+//!   permanently;
 //! - [`contact`]: each keeps its own, and they push each other apart where they approach.
 //!
-//! A single body is not coupled with anything, and takes the steps of its solver.
+//! A single body has no coupling.
 
 mod contact;
 mod coupling;
@@ -42,7 +43,7 @@ impl<const D: usize> Bodies<D> {
     /// scheme and start.
     ///
     /// # Errors
-    /// What [`Solver::new`] has against one of them, and bodies whose grids are not the same.
+    /// Failures of [`Solver::new`], and [`Failure::Solve`] for bodies on different grids.
     pub fn new(setups: Vec<Setup<D>>, friction: Option<f64>) -> Result<Self, Failure> {
         let mut solvers: Vec<Solver<D>> = Vec::new();
         for setup in setups {
@@ -73,7 +74,7 @@ impl<const D: usize> Bodies<D> {
         self.coupling.as_ref().map_or(0, |coupling| coupling.nodes().len())
     }
 
-    /// What a step works with, of all bodies and of what couples them.
+    /// Profile of a step of all bodies, with their coupling.
     pub fn profile(&self) -> Profile {
         let coupling = self.coupling.as_deref();
         profile::of(self.solvers.iter().map(Solver::profile), coupling)

@@ -1,10 +1,9 @@
-//! What a step of several bodies works with: what each keeps of one kind is one column.
+//! Profile of a step of several bodies: equal columns of all bodies are one column.
 
 use super::coupling::Coupling;
 use crate::subject::{Column, Profile};
 
-/// The profiles of all bodies and of what couples them, as one. Every body has a grid of its own, so
-/// nodes are those of all.
+/// One profile of all bodies and their coupling. Every body has a grid, so nodes are those of all.
 pub(in crate::mpm) fn of<const D: usize>(
     bodies: impl Iterator<Item = Profile>,
     coupling: Option<&dyn Coupling<D>>,
@@ -27,8 +26,8 @@ pub(in crate::mpm) fn of<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to those of others, each to the one that is the same; a second of the
-/// same body (two walls) to the second.
+/// Adds the columns of one body to those of others, each to the one that is the same; a second of
+/// the same body (two walls) to the second.
 fn add(all: &mut Vec<Column>, body: Vec<Column>) {
     let kind = |column: &Column| (column.name, column.holder, column.bytes);
     let known = all.len();

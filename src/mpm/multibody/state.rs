@@ -1,4 +1,4 @@
-//! The state of several bodies as a row of numbers: that of one after the other.
+//! State of several bodies as a row of numbers, body after body.
 
 use super::Bodies;
 use crate::subject::Perturbable;
@@ -28,7 +28,7 @@ impl<const D: usize> Perturbable for Bodies<D> {
     }
 }
 
-/// What each gives of its own, one after the other.
+/// The numbers that `give` writes for each body, body after body.
 fn joined<T>(all: &mut Vec<f64>, each: impl Iterator<Item = T>, give: impl Fn(T, &mut Vec<f64>)) {
     all.clear();
     let mut own = Vec::new();

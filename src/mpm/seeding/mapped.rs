@@ -1,10 +1,11 @@
 //! Bodies that are a mapped box: particles at equal distances in the unit square or cube, and their
 //! places, volumes and domains by the map.
 //!
-//! A share of the unit box, `1/n_a` long on each axis, is mapped onto the particle's part of the body. Its
-//! domain is the parallelogram of the map's slope at its middle, its volume that of the slope: exactly
-//! the part's where the Jacobian is linear in each coordinate, as that of a bilinear map is. The
-//! volumes then add up to that of the body, and middles of outer faces of domains lie on those of the body.
+//! A share of the unit box, `1/n_a` long on each axis, is mapped onto the particle's part of the
+//! body. Its domain is the parallelogram of the map's slope at its middle, its volume that of the
+//! slope: exactly the part's where the Jacobian is linear in each coordinate, as that of a bilinear
+//! map is. The volumes then add up to that of the body, and middles of outer faces of domains lie
+//! on those of the body.
 
 use crate::mpm::{
     algebra::{Matrix, Vector, det},
@@ -12,8 +13,9 @@ use crate::mpm::{
 };
 
 impl<const D: usize> Particles<D> {
-    /// Fills a mapped box of density `density` (kg/m^D) with `counts` particles along its axes. `map` gives the
-    /// place (m) of a point of the unit box, and the slope there (m). At rest and free of stress.
+    /// Fills a mapped box of density `density` (kg/m^D) with `counts` particles along its axes.
+    /// `map` gives the place (m) of a point of the unit box, and the slope there (m). At rest and
+    /// free of stress.
     pub fn fill_mapped(
         counts: [usize; D],
         density: f64,

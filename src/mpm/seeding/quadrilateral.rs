@@ -6,8 +6,8 @@ use crate::mpm::{
     particles::Particles,
 };
 
-/// A panel in the plane: its corners (m), counter-clockwise, each side turning to the left of the one
-/// before; the first is where the side begins that runs along X most.
+/// A panel in the plane: its corners (m), counter-clockwise, each side turning to the left of the
+/// one before; the first is where the side begins that runs along X most.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrilateral {
     corners: [Vector<2>; 4],
@@ -29,8 +29,9 @@ impl Quadrilateral {
         }
     }
 
-    /// The same panel from another corner on, so that the first axis of its map runs along X as far as it
-    /// can: GIMP has boxes in place of domains, and takes the diagonal of their vectors for the sides.
+    /// The same panel from another corner on, so that the first axis of its map runs along X as far
+    /// as it can: GIMP has boxes in place of domains, and takes the diagonal of their vectors for
+    /// the sides.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
@@ -64,8 +65,8 @@ impl Quadrilateral {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// As near to `per_axis` particles per cell of size `h` (m) along each axis of the map as the mean
-    /// length of its two sides allows, and two at least.
+    /// As near to `per_axis` particles per cell of size `h` (m) along each axis of the map as the
+    /// mean length of its two sides allows, and two at least.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());

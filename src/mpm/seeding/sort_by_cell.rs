@@ -1,14 +1,14 @@
 //! Particles in the order of cells: neighbours in space are neighbours in memory.
 //!
-//! A body that is filled here lies in rows, and stays nearly so. Particles that come from elsewhere, in
-//! any order, cost several times as much in a large scene, as each meets other nodes than the one
-//! before: they are sorted once, before a solver is made of them.
+//! Seeded bodies are nearly sorted. Unsorted particles cost several times as much in a large scene,
+//! as each meets other nodes than the one before: they are sorted once, before the solver is set
+//! up.
 
 use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
 
 impl<const D: usize> Particles<D> {
-    /// Brings the particles into the order of the cells of `grid`, and returns the old index of each.
-    /// Particles of one cell keep their order; those outside the grid come last. To be called
+    /// Brings the particles into the order of the cells of `grid`, and returns the old index of
+    /// each. Particles of one cell keep their order; those outside the grid come last. To be called
     /// before effects or transfers keep columns of their own.
     pub fn sort_by_cell(&mut self, grid: &Grid<D>) -> Vec<usize> {
         // Behind all cells, what is in none.
@@ -19,7 +19,8 @@ impl<const D: usize> Particles<D> {
             })
         };
         let cells: Vec<usize> = self.x.iter().map(place).collect();
-        // Counted, not compared: where the particles of a cell begin is how many are in those before.
+        // Counted, not compared: where the particles of a cell begin is how many are in those
+        // before.
         let mut next = vec![0; nowhere + 2];
         for cell in &cells {
             next[cell + 1] += 1;
@@ -58,8 +59,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Puts entry `order[k]` at place k, in the columns that are there. Each leaves its memory to the next: new
-/// memory costs more than the moves.
+/// Puts entry `order[k]` at place k, in the columns that are there. Each leaves its memory to the
+/// next: new memory costs more than the moves.
 fn permute<T: Copy, const N: usize>(columns: [&mut Vec<T>; N], order: &[usize]) {
     let mut spare = Vec::new();
     for column in columns.into_iter().filter(|column| !column.is_empty()) {

@@ -1,8 +1,8 @@
-//! Whether the state of the particles is made of numbers.
+//! Check that the state of the particles is finite.
 //!
 //! A NaN spreads through the grid to all that see the same nodes, or hides behind a node that is
-//! fixed or has no mass: what is not finite is looked for where it comes about, so that the particle
-//! that is named is the one to blame.
+//! fixed or has no mass: each quantity is checked where it is computed, so that the
+//! failure names the particle it began at.
 
 use crate::{
     mpm::{
@@ -29,8 +29,7 @@ impl<const D: usize> Particles<D> {
         self.strained_finite()
     }
 
-    /// The same for what has just come of a velocity gradient: F and the stress. The volume is
-    /// looked at by who knows what it means.
+    /// The same for F and the stress, after an update from velocity gradients.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
@@ -48,8 +47,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Looks for the particle to blame only if there is one: the loop that every step makes has no early
-/// way out, so that several numbers are looked at at a time.
+/// Searches for the particle only if there is one: the loop of every step has no early exit, so
+/// that it checks several numbers at a time.
 #[inline(always)]
 fn first<T>(
     quantity: &'static str,

@@ -1,4 +1,4 @@
-//! The initial state of the particles, made whole before the first step.
+//! Initial state of the particles: columns, stresses and domains before the first step.
 //!
 //! A body may start deformed ([`Particles::deform`]): stress and volume then follow from F by the
 //! material, and domains from F by the basis, as they would have had the body been brought there.
@@ -12,8 +12,8 @@ use crate::{
 /// smallest J.
 ///
 /// # Errors
-/// [`Failure::NotOfDeformation`] if a deformed body has a law that cannot tell its stress,
-/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first particle that is no sound one.
+/// [`Failure::NotOfDeformation`] if a deformed body has a law without a stress of F,
+/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
 pub(in crate::mpm) fn complete<const D: usize>(
     particles: &mut Particles<D>,
     kernel: &dyn Kernel<D>,

@@ -1,4 +1,5 @@
-//! The state of a solver: the initial one, checkpoints, perturbations, and the check that it is finite.
+//! The state of a solver: the initial one, checkpoints, perturbations, and the check that it is
+//! finite.
 
 pub(crate) mod checkpoint;
 pub(crate) mod finite_check;

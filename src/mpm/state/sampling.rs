@@ -1,4 +1,4 @@
-//! The particles as the judge sees them.
+//! Samples of the particles for the verification.
 
 use crate::{mpm::particles::Particles, subject::Samples};
 

@@ -69,8 +69,8 @@ pub trait Transfer<const D: usize>: Send + Sync {
         P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
     }
 
-    /// P2G for `stages`, in one pass if the transfer can. Mass is among them in the first pass after
-    /// particles have moved.
+    /// P2G for `stages`, in one pass if the transfer can. Mass is among them in the first pass
+    /// after particles have moved.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -98,8 +98,8 @@ pub trait Transfer<const D: usize>: Send + Sync {
         0
     }
 
-    /// Parts of G2P that give particles their new velocities after `dt` (s). Its moment or gradient is
-    /// the affine state that the transfer remembers from step to step.
+    /// Parts of G2P that give particles their new velocities after `dt` (s). Its moment or gradient
+    /// is the affine state that the transfer remembers from step to step.
     fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D>;
 
     /// First moment of the velocity field around particle `p`, `C_p D_p` (m^2/s): per unit mass,

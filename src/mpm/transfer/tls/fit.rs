@@ -1,6 +1,6 @@
 //! A linear Taylor polynomial through the data of the particles in one cell.
 
-use super::quadrature_points::Spot;
+use super::quadrature_points::QuadraturePoint;
 use crate::mpm::{
     algebra::{Matrix, Vector, dyad},
     grid::Grid,
@@ -16,12 +16,12 @@ pub(super) struct Fit<'a, const D: usize> {
 }
 
 impl<const D: usize> Fit<'_, D> {
-    /// Value at `spot` of the polynomial whose integral over the cell is `sum`, and whose slope fits
-    /// the densities that particles have: `f(x) = mean + g . (x - centre)`, g by least squares
+    /// Value at `point` of the polynomial whose integral over the cell is `sum`, and whose slope
+    /// fits the densities that particles have: `f(x) = mean + g . (x - centre)`, g by least squares
     /// (Wobbes et al. 2019, with the Taylor basis of degree one).
     pub(super) fn conserved<T>(
         &self,
-        spot: &Spot<D>,
+        point: &QuadraturePoint<D>,
         sum: T,
         grid: &Grid<D>,
         density: impl Fn(usize) -> T,
@@ -30,18 +30,18 @@ impl<const D: usize> Fit<'_, D> {
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
     {
         let mean = sum * (1.0 / grid.cell_volume());
-        self.sloped(spot, &spot.centre, mean, density)
+        self.sloped(point, &point.centre, mean, density)
     }
 
-    /// Value at `spot` of the linear least-squares fit.
-    pub(super) fn free<T>(&self, spot: &Spot<D>, value: impl Fn(usize) -> T) -> T
+    /// Value at `point` of the linear least-squares fit.
+    pub(super) fn free<T>(&self, point: &QuadraturePoint<D>, value: impl Fn(usize) -> T) -> T
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
     {
         let share = 1.0 / self.members.len() as f64;
         let nothing = value(self.members[0]) * 0.0;
         let mean = self.members.iter().fold(nothing, |sum, &p| sum + value(p) * share);
-        self.sloped(spot, &self.middle(), mean, value)
+        self.sloped(point, &self.middle(), mean, value)
     }
 
     fn middle(&self) -> Vector<D> {
@@ -55,17 +55,23 @@ impl<const D: usize> Fit<'_, D> {
         self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
     }
 
-    /// `mean + g . (x - about)` with the slope g that fits best; no slope where the particles do not
-    /// span all axes among themselves. Through the mean of a cell and a row of particles there would
-    /// be one too, as steep as the row is near to the centre, and masses of nodes below zero.
-    fn sloped<T>(&self, spot: &Spot<D>, about: &Vector<D>, mean: T, value: impl Fn(usize) -> T) -> T
+    /// `mean + g . (x - about)` with the slope g that fits best; no slope where the particles do
+    /// not span all axes among themselves. Through the mean of a cell and a row of particles there
+    /// would be one too, as steep as the row is near to the centre, and masses of nodes below zero.
+    fn sloped<T>(
+        &self,
+        point: &QuadraturePoint<D>,
+        about: &Vector<D>,
+        mean: T,
+        value: impl Fn(usize) -> T,
+    ) -> T
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
     {
-        let inverse = spanned(&self.second(&self.middle()), spot.smallest)
-            .and_then(|_| spanned(&self.second(about), spot.smallest));
+        let inverse = spanned(&self.second(&self.middle()), point.smallest)
+            .and_then(|_| spanned(&self.second(about), point.smallest));
         let Some(inverse) = inverse else { return mean };
-        let reach = inverse * (spot.x - about);
+        let reach = inverse * (point.x - about);
         self.members
             .iter()
             .fold(mean, |sum, &p| sum + (value(p) - mean) * (self.x[p] - about).dot(&reach))

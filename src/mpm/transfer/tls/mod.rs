@@ -2,16 +2,16 @@
 //!
 //! In each cell a linear Taylor polynomial is fitted to the particles' data, and nodal mass,
 //! momentum and internal force are integrated from it by Gauss's rule (Wobbes, Moeller, Galavi &
-//! Vuik 2019, IJNME 117): the internal force of a uniform stress is zero between any two full cells,
-//! however many particles each holds. Densities of mass and momentum keep their sums in every cell;
-//! the stress is a plain fit. Velocities come back as in FLIP.
+//! Vuik 2019, IJNME 117): the internal force of a uniform stress is zero between any two full
+//! cells, however many particles each holds. Densities of mass and momentum keep their sums in
+//! every cell; the stress is a plain fit. Velocities come back as in FLIP.
 
 mod fit;
 mod quadrature_points;
 
 use self::{
     fit::Fit,
-    quadrature_points::{Spot, Spots},
+    quadrature_points::{QuadraturePoint, QuadraturePoints},
 };
 use super::contract::{Transfer, TransferKind};
 use crate::{
@@ -31,41 +31,41 @@ use crate::{
 /// FLIP with fields reconstructed in cells.
 #[derive(Debug, Clone, Default)]
 pub struct Tls<const D: usize> {
-    spots: Spots<D>,
-    /// The spots as particles, which is how the loops see them.
+    quadrature: QuadraturePoints<D>,
+    /// The quadrature points as particles, for the kernel.
     points: Option<Particles<D>>,
 }
 
-/// Fills a column of the spots: with what particles have where a spot is one, else by a fit.
+/// Fills a column of the quadrature points: the own values of particles, and fits at Gauss points.
 fn fill<const D: usize, T>(
-    spots: &Spots<D>,
+    quadrature: &QuadraturePoints<D>,
     column: &mut Vec<T>,
     own: impl Fn(usize) -> T,
-    fitted: impl Fn(usize, &Spot<D>, &Fit<'_, D>) -> T,
+    fitted: impl Fn(usize, &QuadraturePoint<D>, &Fit<'_, D>) -> T,
 ) {
     column.clear();
-    for (k, spot) in spots.all().iter().enumerate() {
-        column.push(if let Some(p) = spot.particle {
+    for (k, point) in quadrature.all().iter().enumerate() {
+        column.push(if let Some(p) = point.particle {
             own(p)
         } else {
-            fitted(k, spot, &Fit { x: spots.x(), members: spots.members(spot) })
+            fitted(k, point, &Fit { x: quadrature.x(), members: quadrature.members(point) })
         });
     }
 }
 
 impl<const D: usize> Tls<D> {
-    /// Where integrals are taken, with volumes and masses.
+    /// Updates the quadrature points, with volumes and masses.
     fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let Some(points) = &mut self.points else { return };
-        self.spots.place(grid, particles);
+        self.quadrature.place(grid, particles);
         points.x.clear();
-        points.x.extend(self.spots.all().iter().map(|spot| spot.x));
+        points.x.extend(self.quadrature.all().iter().map(|point| point.x));
         points.vol.clear();
-        points.vol.extend(self.spots.all().iter().map(|spot| spot.volume));
+        points.vol.extend(self.quadrature.all().iter().map(|point| point.volume));
         let own = |p: usize| particles.mass[p];
-        fill(&self.spots, &mut points.mass, own, |_, spot, fit| {
+        fill(&self.quadrature, &mut points.mass, own, |_, point, fit| {
             let sum = fit.members.iter().map(|&p| own(p)).sum();
-            fit.conserved(spot, sum, grid, |p| own(p) / particles.vol[p]) * spot.volume
+            fit.conserved(point, sum, grid, |p| own(p) / particles.vol[p]) * point.volume
         });
     }
 }
@@ -76,7 +76,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
-        let most = self.spots.start(grid, particles);
+        let most = self.quadrature.start(grid, particles);
         let mut points = particles.clone();
         points.x.reserve(most);
         points.vol.reserve(most);
@@ -89,7 +89,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
 
     fn columns(&self) -> Vec<Column> {
         let points = self.points.iter().flat_map(Particles::columns);
-        self.spots.columns().into_iter().chain(points).collect()
+        self.quadrature.columns().into_iter().chain(points).collect()
     }
 
     /// Each stage integrates other fields, by two passes.
@@ -108,11 +108,11 @@ impl<const D: usize> Transfer<D> for Tls<D> {
             kernel.p2g_mass(points, grid);
         }
         if stages.contains(&Stage::Momentum) {
-            p2g_momentum(&self.spots, points, kernel, particles, grid);
+            p2g_momentum(&self.quadrature, points, kernel, particles, grid);
         }
         if stages.contains(&Stage::Force) {
             let own = |p: usize| particles.sigma[p];
-            fill(&self.spots, &mut points.sigma, own, |_, spot, fit| fit.free(spot, own));
+            fill(&self.quadrature, &mut points.sigma, own, |_, point, fit| fit.free(point, own));
             kernel.p2g_internal_force(points, grid);
         }
         2 * stages.len() as u64
@@ -125,7 +125,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
 
 /// P2G of the momentum (kg m/s) that is integrated over the `points`, into `grid.velocity`.
 fn p2g_momentum<const D: usize>(
-    spots: &Spots<D>,
+    quadrature: &QuadraturePoints<D>,
     points: &mut Particles<D>,
     kernel: &dyn Kernel<D>,
     particles: &Particles<D>,
@@ -134,13 +134,13 @@ fn p2g_momentum<const D: usize>(
     let Particles { v, mass, .. } = points;
     let own = |p: usize| particles.v[p] * particles.mass[p];
     fill(
-        spots,
+        quadrature,
         v,
         |p| particles.v[p],
-        |k, spot, fit| {
+        |k, point, fit| {
             let sum = fit.members.iter().map(|&p| own(p)).sum::<Vector<D>>();
-            let density = fit.conserved(spot, sum, grid, |p| own(p) / particles.vol[p]);
-            density * (spot.volume / mass[k])
+            let density = fit.conserved(point, sum, grid, |p| own(p) / particles.vol[p]);
+            density * (point.volume / mass[k])
         },
     );
     let mut momentum = std::mem::take(&mut grid.velocity);
@@ -156,8 +156,8 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
-    /// Eight cells with three particles each under a uniform stress, of which the last of the fourth
-    /// cell has passed into the fifth.
+    /// Eight cells with three particles each under a uniform stress, of which the last of the
+    /// fourth cell has passed into the fifth.
     fn uneven() -> (Grid<1>, Particles<1>) {
         let grid = kernel::<1>(BasisName::Linear).grid(Vector::zeros(), 1.0, [8], [true]);
         let block = Block { from: Vector::<1>::new(0.0), to: Vector::<1>::new(8.0), density: 2.0 };
@@ -185,24 +185,26 @@ mod tests {
     #[rstest]
     fn linear_fields_are_exact(#[values(0.1, 0.5, 0.93)] at: f64) {
         let (grid, particles) = uneven();
-        let mut spots = Spots::default();
-        spots.start(&grid, &particles);
-        spots.place(&grid, &particles);
-        for spot in spots.all() {
-            let spot =
-                quadrature_points::Spot { x: spot.centre.add_scalar(at - 0.5), ..spot.clone() };
-            let fit = Fit { x: spots.x(), members: spots.members(&spot) };
+        let mut quadrature = QuadraturePoints::default();
+        quadrature.start(&grid, &particles);
+        quadrature.place(&grid, &particles);
+        for point in quadrature.all() {
+            let point = quadrature_points::QuadraturePoint {
+                x: point.centre.add_scalar(at - 0.5),
+                ..point.clone()
+            };
+            let fit = Fit { x: quadrature.x(), members: quadrature.members(&point) };
             let linear = |x: f64| 3.0 - 0.7 * x;
-            let free = fit.free(&spot, |p| linear(particles.x[p][0]));
-            assert_abs_diff_eq!(free, linear(spot.x[0]), epsilon = 1e-12);
-            let sum = linear(spot.centre[0]);
-            let kept = fit.conserved(&spot, sum, &grid, |p| linear(particles.x[p][0]));
-            assert_abs_diff_eq!(kept, linear(spot.x[0]), epsilon = 1e-12);
+            let free = fit.free(&point, |p| linear(particles.x[p][0]));
+            assert_abs_diff_eq!(free, linear(point.x[0]), epsilon = 1e-12);
+            let sum = linear(point.centre[0]);
+            let kept = fit.conserved(&point, sum, &grid, |p| linear(particles.x[p][0]));
+            assert_abs_diff_eq!(kept, linear(point.x[0]), epsilon = 1e-12);
         }
     }
 
-    /// Masses and velocities of nodes for a uniform velocity of 3 m/s, where a particle is alone in its
-    /// cell, near to the centre; the whole body starts `beyond` its place.
+    /// Masses and velocities of nodes for a uniform velocity of 3 m/s, where a particle is alone in
+    /// its cell, near to the centre; the whole body starts `beyond` its place.
     fn lone(beyond: f64) -> (Vec<f64>, Vec<f64>) {
         let (mut grid, mut particles) = uneven();
         particles.x[4][0] = 1.51;

@@ -1,4 +1,4 @@
-//! Where integrals are taken: the Gauss points of full cells, and the particles themselves in cells
+//! Quadrature points: the Gauss points of full cells, and the particles themselves in cells
 //! at the rim of the body, where no polynomial may reach beyond it.
 
 use crate::{
@@ -18,12 +18,12 @@ const SMALLEST: f64 = 1e-6;
 
 /// One point of quadrature.
 #[derive(Debug, Clone)]
-pub(in crate::mpm) struct Spot<const D: usize> {
-    /// Where it is (m).
+pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
+    /// Position (m).
     pub(in crate::mpm) x: Vector<D>,
-    /// Volume that it stands for (m^D).
+    /// Volume (m^D).
     pub(in crate::mpm) volume: f64,
-    /// The particle, where the spot is one.
+    /// The particle, where the point is one.
     pub(in crate::mpm) particle: Option<usize>,
     /// Centre of its cell (m).
     pub(in crate::mpm) centre: Vector<D>,
@@ -34,8 +34,8 @@ pub(in crate::mpm) struct Spot<const D: usize> {
 
 /// All points of quadrature, and the particles sorted by cell.
 #[derive(Debug, Clone, Default)]
-pub(in crate::mpm) struct Spots<const D: usize> {
-    all: Vec<Spot<D>>,
+pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
+    all: Vec<QuadraturePoint<D>>,
     /// Position of each particle (m), inside the grid on periodic axes.
     x: Vec<Vector<D>>,
     /// Cell of each particle.
@@ -46,8 +46,8 @@ pub(in crate::mpm) struct Spots<const D: usize> {
     first: Vec<usize>,
 }
 
-impl<const D: usize> Spots<D> {
-    /// What is kept: of these there are as many as cells have particles, or corners.
+impl<const D: usize> QuadraturePoints<D> {
+    /// Columns, with entries for points, particles and cells.
     pub(in crate::mpm) fn columns(&self) -> [Column; 5] {
         [
             Column::of_particles("spots", &self.all),
@@ -58,7 +58,7 @@ impl<const D: usize> Spots<D> {
         ]
     }
 
-    /// Makes room, and says for how many spots at most.
+    /// Allocates the columns; returns the greatest number of points.
     pub(in crate::mpm) fn start(&mut self, grid: &Grid<D>, particles: &Particles<D>) -> usize {
         let cells: usize = grid.cells.iter().product();
         let most = particles.len().min(cells) * RULE.len().pow(D as u32) + particles.len();
@@ -70,8 +70,8 @@ impl<const D: usize> Spots<D> {
         most
     }
 
-    /// The spots.
-    pub(in crate::mpm) fn all(&self) -> &[Spot<D>] {
+    /// All points.
+    pub(in crate::mpm) fn all(&self) -> &[QuadraturePoint<D>] {
         &self.all
     }
 
@@ -80,12 +80,12 @@ impl<const D: usize> Spots<D> {
         &self.x
     }
 
-    /// The particles in the cell of `spot`.
-    pub(in crate::mpm) fn members(&self, spot: &Spot<D>) -> &[usize] {
-        &self.order[spot.members.0..spot.members.1]
+    /// The particles in the cell of `point`.
+    pub(in crate::mpm) fn members(&self, point: &QuadraturePoint<D>) -> &[usize] {
+        &self.order[point.members.0..point.members.1]
     }
 
-    /// Finds the spots for particles that have moved.
+    /// Finds the points for particles that have moved.
     pub(in crate::mpm) fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         self.sort(grid, particles);
         self.all.clear();
@@ -99,19 +99,28 @@ impl<const D: usize> Spots<D> {
             let centre =
                 Vector::from_fn(|axis, _| grid.origin[axis] + (index[axis] as f64 + 0.5) * grid.h);
             let smallest = SMALLEST * grid.h * grid.h;
-            let spot = Spot { x: centre, volume: 0.0, particle: None, centre, smallest, members };
+            let point = QuadraturePoint {
+                x: centre,
+                volume: 0.0,
+                particle: None,
+                centre,
+                smallest,
+                members,
+            };
             if self.is_full(&index, grid) {
-                self.all.extend(gauss(grid.h).map(|(from_centre, volume)| Spot {
+                self.all.extend(gauss(grid.h).map(|(from_centre, volume)| QuadraturePoint {
                     x: centre + from_centre,
                     volume,
-                    ..spot.clone()
+                    ..point.clone()
                 }));
             } else {
-                self.all.extend(self.order[members.0..members.1].iter().map(|&p| Spot {
-                    x: particles.x[p],
-                    volume: particles.vol[p],
-                    particle: Some(p),
-                    ..spot.clone()
+                self.all.extend(self.order[members.0..members.1].iter().map(|&p| {
+                    QuadraturePoint {
+                        x: particles.x[p],
+                        volume: particles.vol[p],
+                        particle: Some(p),
+                        ..point.clone()
+                    }
                 }));
             }
         }
