@@ -1,9 +1,10 @@
 //! The loops against the yardstick: a textbook loop that is generic over nothing.
 //!
-//! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of the
-//! ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are what
-//! can be compared. `best` is the ratio of the shortest times of each, which others disturb least. `cargo bench --bench ratio -- 1e6` takes as many particles. Both are first checked
-//! to give the same numbers.
+//! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of
+//! the ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are
+//! what can be compared. `best` is the ratio of the shortest times of each, which others disturb
+//! least. `cargo bench --bench ratio -- 1e6` takes as many particles. Both are first checked to
+//! give the same numbers.
 
 #[path = "common/one_thread.rs"]
 mod one_thread;
@@ -27,7 +28,7 @@ const H: f64 = 0.5;
 /// Cells between the body and the walls: cubic B-splines are uniform there.
 const MARGIN: usize = 3;
 
-/// What both loops work on.
+/// Input of both loops.
 struct Scene<const D: usize> {
     kernel: Box<dyn Kernel<D>>,
     grid: Grid<D>,

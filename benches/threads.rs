@@ -1,10 +1,10 @@
-//! What a second thread brings to P2G and G2P, beside what it brings to loops that share nothing.
+//! Speedup of P2G and G2P on a second thread, beside that of loops that share nothing.
 //!
-//! `cargo bench --bench threads` runs each pass with 1e6 particles on one thread and on two in turn, and in
-//! the same turns two probes: products and sums in registers, and two columns of memory read and one
-//! written. On a machine that others use, a second thread may bring little to any of them; what
-//! counts is the pass beside the probe. `-- 1e5` takes as many particles. The bits are first checked to
-//! be the same.
+//! `cargo bench --bench threads` runs each pass with 1e6 particles on one thread and on two in
+//! turn, and in the same turns two probes: products and sums in registers, and two columns of
+//! memory read and one written. On a machine that others use, a second thread may bring little to
+//! any of them; what counts is the pass beside the probe. `-- 1e5` takes as many particles. The
+//! bits are first checked to be the same.
 
 #[path = "common/random.rs"]
 mod random;

@@ -1,4 +1,4 @@
-//! What is timed on one thread.
+//! Timing on one thread.
 
 /// From now on passes are not shared: all that would be is done by one thread.
 pub(crate) fn one_thread() {

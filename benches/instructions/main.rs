@@ -1,10 +1,10 @@
 //! Steps to be counted, not timed: `instructions SCENE STEPS` makes so many steps of a scene, and
 //! `ci/instructions` counts the instructions of a step from two such runs.
 //!
-//! `minimal` is the general solver on a bar without any effect; `by_hand` the same bar in a loop that
-//! can do nothing else. Both are checked to give the same motion before anything is counted. Other
-//! scenes are kernels, whose passes are repeated so many times; `kernels` lists them with their
-//! particles, and `processor` tells for which registers the loops are compiled.
+//! `minimal` is the general solver on a bar without any effect; `by_hand` the same bar in a loop
+//! that can do nothing else. Both are checked to give the same motion before anything is counted.
+//! Other scenes are kernels, whose passes are repeated so many times; `kernels` lists them with
+//! their particles, and `processor` tells for which registers the loops are compiled.
 
 mod by_hand;
 mod kernels;

@@ -1,4 +1,4 @@
-//! What a pass must do for a particle, whichever way it is done: lower bounds, counted from the formulas.
+//! Lower bounds of the work of a pass per particle, counted from the formulas.
 
 /// A pass over particles and nodes of products of K functions along each of D axes.
 #[derive(Debug, Clone, Copy)]
@@ -43,11 +43,12 @@ pub(crate) fn p2g((d, k): (f64, f64), is_affine: bool) -> Demand {
     }
 }
 
-/// G2P: velocity, its gradient and, of an affine field, its first moment; FLIP takes accelerations too.
+/// G2P: velocity, its gradient and, of an affine field, its first moment; FLIP takes accelerations
+/// too.
 pub(crate) fn g2p((d, k): (f64, f64), is_affine: bool) -> Demand {
     let (n, rows) = nodes(d, k);
-    // Sums along rows of two of value, slope and arm, with one product that both share; those across
-    // from the sums of rows.
+    // Sums along rows of two of value, slope and arm, with one product that both share; those
+    // across from the sums of rows.
     let along = 3.0;
     let across = if d > 1.0 { along + 2.0 * (d - 1.0) } else { 0.0 };
     let columns = 3.0 * d + d * d + if is_affine { d * d } else { d };

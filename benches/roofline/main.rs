@@ -1,9 +1,9 @@
-//! What this machine would allow the particle-node loops, and what they reach: the table of
+//! Limits of this machine for the particle-node loops, and what they reach: the table of
 //! `benches/ROOFLINE.md`.
 //!
-//! `cargo bench --bench roofline` measures the limits of one core (sums and products, memory, caches)
-//! and the passes in the same run, with 1e5 particles sorted by cell. Others on the machine make
-//! figures worse, never better, so the best of many counts.
+//! `cargo bench --bench roofline` measures the limits of one core (sums and products, memory,
+//! caches) and the passes in the same run, with 1e5 particles sorted by cell. Others on the machine
+//! make figures worse, never better, so the best of many counts.
 
 #[path = "../common/clock.rs"]
 mod clock;

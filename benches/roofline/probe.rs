@@ -1,4 +1,4 @@
-//! What one core of this machine can do at most.
+//! Peak rates of one core of this machine.
 
 use crate::clock::shortest;
 use fearless_simd::{Level, Simd, SimdBase, SimdInto, dispatch, f64x4};

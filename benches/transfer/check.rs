@@ -1,4 +1,4 @@
-//! What must hold before anything is timed.
+//! Checks before anything is timed.
 
 use crate::scene::{H, Method, PER_AXIS};
 use mpm_verify::{

@@ -1,4 +1,4 @@
-//! What is benched: a cube of particles in random motion, and the passes over them.
+//! The benched scene: a cube of particles in random motion, and the passes over them.
 
 use crate::random::Random;
 use mpm_verify::mpm::{
@@ -65,7 +65,7 @@ pub(crate) fn scene<const D: usize>(
     (grid, particles)
 }
 
-/// What meets in a bench: loops, and a transfer that knows the particles.
+/// Subject of a bench: loops, and a transfer that knows the particles.
 pub(crate) struct Method<const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<D>>,
     pub(crate) transfer: Box<dyn Transfer<D>>,

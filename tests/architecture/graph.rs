@@ -2,8 +2,8 @@
 //!
 //! What counts as an import of a file by another:
 //! - A path counts for the file that *defines* what it names. `crate::mpm::Grid` is an import of
-//!   `mpm/grid.rs`, found through the `pub use` in `mpm/mod.rs`, and not one of `mpm/mod.rs`. A name
-//!   that leads nowhere further is taken to be defined in the deepest module of its path.
+//!   `mpm/grid.rs`, found through the `pub use` in `mpm/mod.rs`, and not one of `mpm/mod.rs`. A
+//!   name that leads nowhere further is taken to be defined in the deepest module of its path.
 //! - `mod child;` is no import, and neither is a `pub use` of something below the same folder: a
 //!   `mod.rs` may show what its children make while they import each other through it.
 //! - `use super::child;` only gives the module a name: `child::thing` is the import.

@@ -42,8 +42,8 @@ pub(crate) const MATERIALS: [MaterialPlan; 5] = [
 /// Cell size (m).
 const H: f64 = 0.5;
 
-/// Two cells of matter on each axis, which move, shear and are about to stretch, a little beyond the
-/// first cell of the grid.
+/// Two cells of matter on each axis, which move, shear and are about to stretch, a little beyond
+/// the first cell of the grid.
 pub(crate) fn body<const D: usize>() -> Particles<D> {
     let (from, to) = (Vector::from_element(1.06 * H), Vector::from_element(3.06 * H));
     let block = Block { from, to, density: 1.0 };
@@ -71,8 +71,8 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// A solver for the body, under gravity and damping, held at the first face and, where it is not
-    /// periodic, at the last.
+    /// A solver for the body, under gravity and damping, held at the first face and, where it is
+    /// not periodic, at the last.
     ///
     /// # Errors
     /// Those of [`Solver::new`].
@@ -107,8 +107,8 @@ impl Scene {
         Solver::new(setup)
     }
 
-    /// Makes a solver and takes three steps; a state that is taken on is looked at each time, and so
-    /// is what a failure says.
+    /// Makes a solver and takes three steps; a state that is taken on is looked at each time, and
+    /// so is what a failure says.
     pub(crate) fn holds<const D: usize>(&self, what: &str, particles: Particles<D>) {
         let count = particles.len();
         self.predicts(what, particles.clone());

@@ -42,7 +42,7 @@ impl Bytes<'_> {
         all[self.byte() % all.len()]
     }
 
-    /// What is usual, a turn of arithmetic, a number up to 32 in steps of 1/1024, or any number.
+    /// A usual number, a turn of arithmetic, a number up to 32 in steps of 1/1024, or any number.
     fn number(&mut self, usual: f64) -> f64 {
         match self.byte() % 4 {
             0 => usual,

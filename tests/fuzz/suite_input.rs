@@ -8,8 +8,8 @@ use mpm_verify::{
     },
 };
 
-/// Loads what the bytes say; panics where loading does, where a complaint does not name the file, or
-/// where what was accepted cannot be stated.
+/// Loads what the bytes say; panics where loading does, where a complaint does not name the file,
+/// or where what was accepted cannot be stated.
 pub(crate) fn load(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let loaded = Source::from_text("suite.yaml", text).and_then(|source| Suite::load(&source));

@@ -103,8 +103,8 @@ fn heat<const D: usize>(
         .with_source(Box::new(move |t, _, into| forcing.at(t, into)))
 }
 
-/// A heated body under gravity and a manufactured force, pulled at its far end, with a force on some
-/// particles and others driven, between walls of every kind.
+/// A heated body under gravity and a manufactured force, pulled at its far end, with a force on
+/// some particles and others driven, between walls of every kind.
 fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
     for method in methods() {
         let mut setup = free_body::<D>(method, scheme);
@@ -204,8 +204,8 @@ fn a_material_allocates_in_the_first_step_only(#[case] plan: MaterialPlan) {
     holds_its_memory(plan.name(), &mut Solver::new(setup).unwrap(), DT);
 }
 
-/// What a solver of `particles` particles along the first axis keeps for particles: as it says
-/// (bytes), and as the heap says, which also holds the grid and what does not grow.
+/// Bytes that a solver of `particles` particles along the first axis keeps for particles: stated,
+/// and measured on the heap, which also holds the grid.
 fn kept<const D: usize>(
     method: (BasisName, TransferName),
     particles: usize,

@@ -44,7 +44,8 @@ fn the_oedometer_agrees_with_its_series(
     assert_abs_diff_eq!(images, series(9.81, 0.0, y, t, 20_000), epsilon = 1e-10);
 }
 
-/// The talk's series has 20 terms: good to 1e-5 of the largest displacement, as benchmark pages say.
+/// The talk's series has 20 terms: good to 1e-5 of the largest displacement, as benchmark pages
+/// say.
 #[test]
 fn twenty_terms_of_the_series_leave_an_error_of_one_part_in_ten_thousand_at_most() {
     let largest = 2.0 * 9.81 / 200.0;

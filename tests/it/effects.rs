@@ -27,7 +27,8 @@ fn viscosity(size: f64) -> ArtificialViscosity {
     ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }
 }
 
-/// Adds one of every effect, as strong as `size`, after those that it needs: with 0 it changes nothing.
+/// Adds one of every effect, as strong as `size`, after those that it needs: with 0 it changes
+/// nothing.
 fn add<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) {
     for needed in name.needs() {
         add(*needed, setup, size);
@@ -113,7 +114,7 @@ fn an_effect_of_no_strength_is_none_bit_for_bit(
     in_dimension!(dimension, is_absent_or_null(method, scheme));
 }
 
-/// What the second step of the free body takes, with linear functions, FLIP and MUSL.
+/// Profile of the second step of the free body, with linear functions, FLIP and MUSL.
 fn taken(add: impl FnOnce(&mut Setup<2>)) -> Profile {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
     add(&mut setup);
@@ -153,7 +154,7 @@ fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
     assert_eq!(empty.passes, passes.map(|name| (name, 36)));
 }
 
-/// What `all` has and `some` has not.
+/// Members of `all` that are not in `some`.
 fn added<T: PartialEq + Copy>(all: &[T], some: &[T]) -> Vec<T> {
     all.iter().filter(|one| !some.contains(one)).copied().collect()
 }
@@ -175,7 +176,7 @@ fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
 }
 
 /// The row of the README for a member of a scene, but for the suites that verify it.
-/// What it needs is in `before`.
+/// Row of an effect whose requirements are in `before`.
 fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Setup<2>)) -> String {
     row_of(name, &taken(before), &taken(with))
 }
@@ -265,7 +266,7 @@ fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
     are_in_the_readme(&rows, |suite, name| lists(suite, named(name)));
 }
 
-/// What the second step of two bodies takes that lie across each other.
+/// Profile of the second step of two bodies that overlap.
 fn taken_by_two(friction: Option<f64>) -> Profile {
     let tally = Arc::<Tally>::default();
     let setup = |shift: f64| {

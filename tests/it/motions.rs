@@ -102,8 +102,9 @@ fn the_force_of_the_generalized_vortex(
 }
 
 /// The nonlinear simple wave `F = F0(X - C(F) t)` needs no force and has no closed form; but along
-/// a characteristic `X = xi + C t` F is constant, and `x = x0(xi) + (v + F C) t`. Newton's iteration
-/// for xi, nested, is a formula like any other: it converges together with its derivatives.
+/// a characteristic `X = xi + C t` F is constant, and `x = x0(xi) + (v + F C) t`. Newton's
+/// iteration for xi, nested, is a formula like any other: it converges together with its
+/// derivatives.
 const WAVE: [(&str, &[&str], &str); 8] = [
     ("F0", &["q"], "1 + 0.1*sin(2*pi*q)"),
     ("slope", &["q"], "0.2*pi*cos(2*pi*q)"),

@@ -1,4 +1,4 @@
-//! What holds faces and acts on sets: words that mean nothing, and motions that do not obey them.
+//! Boundary conditions and loads on sets: unknown words, and motions that violate them.
 
 use super::{
     Edits, load, refused,

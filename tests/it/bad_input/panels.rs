@@ -1,5 +1,5 @@
-//! Bodies with four straight sides: corners that are none, faces that are no sides, and what asks for
-//! another body.
+//! Bodies with four straight sides: corners that are none, faces that are no sides, and what asks
+//! for another body.
 
 use super::{Edits, refused, samples::PLATE};
 use rstest::rstest;

@@ -1,4 +1,4 @@
-//! What is judged, and bounds on figures.
+//! Judged quantities, and bounds on figures.
 
 use super::{Edits, refused, samples::BAR};
 use rstest::rstest;

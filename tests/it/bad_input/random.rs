@@ -54,7 +54,7 @@ proptest! {
     }
 }
 
-/// What the fuzzer has found worth keeping, in `tests/fuzz/corpus/suite`, and what ever broke it.
+/// The corpus of the fuzzer, `tests/fuzz/corpus/suite`: inputs that reach new code or once failed.
 #[test]
 fn the_corpus_of_the_fuzzer_is_read_or_refused() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz/corpus/suite");

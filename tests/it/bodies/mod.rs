@@ -212,9 +212,9 @@ fn friction_is_a_share_of_the_pressure_and_none_without(
     }
 }
 
-/// Bars of length 1 with rho = c = 1 that run into each other with a velocity v0 each (V14). Until when they
-/// push each other with more than half of rho c v0, and what share of its velocity each has afterwards. The
-/// push is known by the momentum that one of them has.
+/// Bars of length 1 with rho = c = 1 that run into each other with a velocity v0 each (V14). Until
+/// when they push each other with more than half of rho c v0, and what share of its velocity each
+/// has afterwards. The push is known by the momentum that one of them has.
 fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     let (h, v0) = (1.0 / cells as f64, 1e-3);
     let bar = |from: f64, v: f64| {
@@ -241,9 +241,10 @@ fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     (last, -before / v0)
 }
 
-/// Contact ends when the wave has been to the free ends and back, after 2L/c. In any scheme of second
-/// order the front of that wave is as wide as h^(2/3) once it has gone a long way (Brenner & Thomee 1971), and
-/// so is the error of the contact time: within h/c on grids like these, and beyond it in the end.
+/// Contact ends when the wave has been to the free ends and back, after 2L/c. In any scheme of
+/// second order the front of that wave is as wide as h^(2/3) once it has gone a long way (Brenner &
+/// Thomee 1971), and so is the error of the contact time: within h/c on grids like these, and
+/// beyond it in the end.
 #[rstest]
 fn two_bars_part_when_the_wave_is_back(
     #[values(10, 20, 40)] cells: usize,

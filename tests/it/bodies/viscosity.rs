@@ -1,4 +1,4 @@
-//! What artificial viscosity does to the front of a shock.
+//! Artificial viscosity at the front of a shock.
 
 use crate::common::free_body;
 use mpm_verify::{
@@ -38,8 +38,8 @@ fn pressures(cells: usize, scheme: SchemeName, v0: f64, [linear, quadratic]: [f6
     [largest, pressure(body.len() * 3 / 4)]
 }
 
-/// Without viscosity a scheme of second order shoots over by a fifth to a quarter behind the front, on every
-/// grid; the linear term takes that, the more the larger it is.
+/// Without viscosity a scheme of second order shoots over by a fifth to a quarter behind the front,
+/// on every grid; the linear term takes that, the more the larger it is.
 #[rstest]
 fn the_linear_term_bounds_the_overshoot_of_a_weak_shock(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,

@@ -23,8 +23,8 @@ fn kept(folder: &Folder, kind: &str) -> Vec<PathBuf> {
     paths.filter(|path| path.extension().is_some_and(|end| end == kind)).collect()
 }
 
-/// Kills a run as soon as it has kept a state; it keeps one after each step, which takes far longer than
-/// the steps themselves.
+/// Kills a run as soon as it has kept a state; it keeps one after each step, which takes far longer
+/// than the steps themselves.
 fn killed(folder: &Folder) -> PathBuf {
     let every_step = ["--resume", "kept", "--checkpoint-every", "1e-6ms"];
     let mut command = folder.command(&[&["run", "bar.yaml"][..], &every_step].concat());
@@ -40,8 +40,8 @@ fn killed(folder: &Folder) -> PathBuf {
     kept(folder, "checkpoint").remove(0)
 }
 
-/// The run prints, writes and keeps the same bytes, and leaves nothing else. So it does if the state has
-/// been torn, or is that of another level; then it says so, and starts anew.
+/// The run prints, writes and keeps the same bytes, and leaves nothing else. So it does if the
+/// state has been torn, or is that of another level; then it says so, and starts anew.
 #[test]
 fn a_level_that_was_killed_goes_on_where_it_was() {
     let folder = Folder::new();

@@ -3,8 +3,8 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
 use rstest::rstest;
 
-/// A folder with the JSON of two runs: of a bar, and of the same bar with twice the particles and one method
-/// less.
+/// A folder with the JSON of two runs: of a bar, and of the same bar with twice the particles and
+/// one method less.
 fn two_runs() -> Folder {
     runs_of(
         &BAR.replace("ppc: 4", "ppc: 8").replace("  - fem: {element: linear, mass: lumped}\n", ""),

@@ -1,5 +1,5 @@
-//! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here is
-//! what does not.
+//! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
+//! is what does not.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
 use serde_json::Value;

@@ -10,7 +10,7 @@ use std::{
 /// A new, empty folder that goes when the test ends.
 pub(super) struct Folder(PathBuf);
 
-/// What a call has printed, and its exit status.
+/// Printed text of a call, and its exit status.
 pub(super) struct Answer {
     pub(super) code: i32,
     pub(super) out: String,

@@ -85,7 +85,7 @@ fn a_folder_of_suites_takes_the_place_of_the_ones_built_in() {
     assert_eq!(folder.call(&["list"]).out, wanted);
     assert_eq!(folder.call(&["list", "short-bar"]).out, wanted);
     assert_eq!(folder.call(&["list", "verification"]).out, wanted);
-    // What is built in can still be named.
+    // Built-in suites can still be named.
     assert!(folder.call(&["list", "oedometer"]).out.starts_with("oedometer: "));
 }
 

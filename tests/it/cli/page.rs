@@ -22,7 +22,7 @@ fn a_page_has_verdicts_figures_reports_and_the_suites() {
     ] {
         assert!(page.contains(words), "no `{words}`");
     }
-    // What is printed is as without a page, and each run writes the same bytes.
+    // The printed text is that without a page, and each run writes the same bytes.
     assert_eq!(found.out, folder.call(&arguments[..3]).out);
     folder.call(&["run", "bar.yaml", "grid-crossing", "--html", "again.html", "--jobs", "1"]);
     assert!(page == folder.read("again.html"), "the page depends on more than the run");

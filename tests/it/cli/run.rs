@@ -116,7 +116,7 @@ fn one_thread_and_two_give_the_same_bytes() {
     };
     assert_eq!(run("1"), run("2"));
     let files = folder.files("1");
-    // What `--format json` prints is one of them.
+    // The document of `--format json` is one of them.
     assert!(files.contains(&"report.json".to_owned()), "{files:?}");
     assert_eq!(files, folder.files("2"));
     for file in files {
@@ -186,8 +186,8 @@ fn a_reader_that_never_came_is_no_reason_either() {
     assert!(folder.path().is_dir());
 }
 
-/// The first two levels are there, one of them torn; the text, the JSON and the figures are the same as
-/// without. A folder that is none is bad input.
+/// The first two levels are there, one of them torn; the text, the JSON and the figures are the
+/// same as without. A folder that is none is bad input.
 #[test]
 fn a_resumed_run_prints_the_same_bytes() {
     let folder = Folder::new();
@@ -214,7 +214,7 @@ fn a_resumed_run_prints_the_same_bytes() {
     assert!(none.errors.contains("--resume bar.yaml"), "{}", none.errors);
 }
 
-/// What is kept is marked, and read back instead of being run again.
+/// Cached levels are marked, and read back instead of being run again.
 #[test]
 fn a_kept_level_is_taken_and_one_of_another_suite_is_not() {
     let folder = Folder::new();

@@ -1,4 +1,5 @@
-//! Every number that particles carry: a column that is added to them is missed here by the compiler.
+//! Every number that particles carry: a column that is added to them is missed here by the
+//! compiler.
 
 use mpm_verify::mpm::Particles;
 

@@ -1,4 +1,4 @@
-//! What the invariants tests share: a free body in motion, in any number of dimensions.
+//! Builders of scenes: bodies in any number of dimensions, and the methods to run them with.
 
 pub(crate) mod columns;
 pub(crate) mod interrupted;
@@ -14,8 +14,8 @@ use mpm_verify::{
 /// Cell size (m).
 pub(crate) const H: f64 = 0.25;
 
-/// A step (s) at a Courant number of about 0.01: the wave speed of the body is 1.16 m/s. At 0.1 (and
-/// not at 0.05) a body like this one is inverted by USL in 3-D, within 200 steps.
+/// A step (s) at a Courant number of about 0.01: the wave speed of the body is 1.16 m/s. At 0.1
+/// (and not at 0.05) a body like this one is inverted by USL in 3-D, within 200 steps.
 pub(crate) const DT: f64 = 2e-3;
 
 /// Calls a function that is generic in the dimension.
@@ -52,7 +52,7 @@ pub(crate) fn pairs() -> impl Iterator<Item = (BasisName, TransferName)> {
 /// A body of three cells a side in the middle of a grid of seven, no end of it on a node, with no
 /// fixed face and no effect. It moves, spins, stretches and is under stress.
 pub(crate) fn free_body<const D: usize>(
-    (basis, name): (BasisName, TransferName),
+    method: (BasisName, TransferName),
     scheme: SchemeName,
 ) -> Setup<D> {
     let (from, to) = (Vector::from_element(2.03 * H), Vector::from_element(5.03 * H));
@@ -63,9 +63,20 @@ pub(crate) fn free_body<const D: usize>(
         let stress = Matrix::<D>::from_fn(|i, j| libm::cos(k + (3 * i + j) as f64));
         particles.sigma[p] = (stress + stress.transpose()) * 0.005;
     }
+    body(method, scheme, particles, (H, 7))
+}
+
+/// `particles` on a grid of `cells` cells of size `h` (m) along every axis, with a lumped mass
+/// matrix and a linear elastic material of modulus 1 Pa; no boundary conditions, no effects.
+pub(crate) fn body<const D: usize>(
+    (basis, name): (BasisName, TransferName),
+    scheme: SchemeName,
+    particles: Particles<D>,
+    (h, cells): (f64, usize),
+) -> Setup<D> {
     let kernel = kernel::<D>(basis);
     Setup {
-        grid: kernel.grid(Vector::zeros(), H, [7; D], [false; D]),
+        grid: kernel.grid(Vector::zeros(), h, [cells; D], [false; D]),
         particles,
         kernel,
         transfer: transfer(name),

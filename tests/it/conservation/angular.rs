@@ -3,13 +3,13 @@
 //! A particle's share is `m x cross v`, and with an affine field the antisymmetric part of
 //! `m C D` besides.
 
-use crate::common::{H, pairs};
+use crate::common::{H, body, pairs};
 use mpm_verify::{
     mpm::{
         BasisName, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
-        Solver, Transfer, TransferName, Vector, combine, kernel, mass_matrix, transfer,
+        Solver, Transfer, TransferName, Vector, combine,
     },
-    subject::{Start, Subject},
+    subject::Subject,
 };
 use rstest::rstest;
 
@@ -56,21 +56,9 @@ fn angular<const D: usize>(particles: &Particles<D>, transfer: &dyn Transfer<D>)
 }
 
 fn setup<const D: usize>(basis: BasisName, name: TransferName, scheme: SchemeName) -> Setup<D> {
-    let kernel = kernel::<D>(basis);
-    Setup {
-        grid: kernel.grid(Vector::zeros(), H, [CELLS; D], [false; D]),
-        particles: turning(),
-        kernel,
-        transfer: transfer(name),
-        mass: mass_matrix(MassName::Lumped),
-        frame: FrameName::Updated,
-        // So soft that no force acts: the transfers are alone.
-        material: Box::new(LinearElastic::new(1e-300, 0.0)),
-        effects: Vec::new(),
-        boundary: Vec::new(),
-        scheme,
-        start: Start::AtZero,
-    }
+    // So soft that no force acts: the transfers are alone.
+    let material = Box::new(LinearElastic::new(1e-300, 0.0));
+    Setup { material, ..body((basis, name), scheme, turning(), (H, CELLS)) }
 }
 
 /// Largest change of the angular momentum in a run, relative to its start.

@@ -1,10 +1,10 @@
 //! A step that cannot go on says what broke and which particle, and never panics.
 
-use crate::common::{DT, free_body, in_dimension, methods};
+use crate::common::{DT, body, free_body, in_dimension, methods};
 use mpm_verify::{
     mpm::{
         BasisName, Block, Fixed, LinearElastic, Matrix, Particles, SchemeName, Setup, Side, Solver,
-        TransferName, Vector, kernel,
+        TransferName, Vector,
     },
     subject::{Failure, Samples, Site, Subject},
 };
@@ -15,7 +15,7 @@ const METHOD: (BasisName, TransferName) = (BasisName::Linear, TransferName::Flip
 const NAN: f64 = f64::NAN;
 const INF: f64 = f64::INFINITY;
 
-/// What comes of the particle in question.
+/// Outcome of a step for the particle in question.
 #[derive(Debug)]
 enum Fate {
     GoesOn,
@@ -39,14 +39,8 @@ fn scene<const D: usize>(scheme: SchemeName, x: f64, v: f64) -> Setup<D> {
     }
     particles.sigma = vec![Matrix::zeros(); 4];
     particles.grad_v = vec![Matrix::zeros(); 4];
-    let kernel = kernel::<D>(METHOD.0);
-    Setup {
-        grid: kernel.grid(Vector::zeros(), 1.0, [8; D], [false; D]),
-        particles,
-        material: Box::new(LinearElastic::new(1.0, 0.0)),
-        kernel,
-        ..free_body(METHOD, scheme)
-    }
+    let material = Box::new(LinearElastic::new(1.0, 0.0));
+    Setup { material, ..body(METHOD, scheme, particles, (1.0, 8)) }
 }
 
 fn meets<const D: usize>(x: f64, v: f64, dt: f64, fate: &Fate) {

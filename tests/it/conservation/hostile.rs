@@ -32,7 +32,7 @@ fn no_material_is_left_out() {
     }
 }
 
-/// What becomes of particle 1.
+/// A change that makes particle 1 unusable.
 type Spoil<const D: usize> = fn(&mut Particles<D>);
 
 /// Extreme states that are made of numbers.
@@ -220,7 +220,7 @@ proptest! {
     }
 }
 
-/// What the fuzzer has found worth keeping, in `tests/fuzz/corpus/step`, and what ever broke a step.
+/// The corpus of the fuzzer, `tests/fuzz/corpus/step`: inputs that reach new code or once failed.
 #[test]
 fn the_corpus_of_the_fuzzer_is_sound() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz/corpus/step");

@@ -1,4 +1,4 @@
-//! What a step keeps, what it gives exactly, and what it says when it cannot go on.
+//! Conserved sums of a step, its exact results, and its errors.
 
 mod angular;
 mod failure;
@@ -17,8 +17,9 @@ fn conservative(dimension: usize) -> impl Iterator<Item = (BasisName, TransferNa
     some(dimension).filter(|(_, transfer)| *transfer != TransferName::Tls)
 }
 
-/// The methods in one and two dimensions; in space, where a run costs ten times as much, every basis
-/// with FLIP and every transfer with linear functions or, where that means nothing, with GIMP.
+/// The methods in one and two dimensions; in space, where a run costs ten times as much, every
+/// basis with FLIP and every transfer with linear functions or, where that means nothing, with
+/// GIMP.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let in_space = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => true,

@@ -4,11 +4,11 @@
 //! grid velocities moves its stress. With the Courant number C = c dt / h one step of USL gives
 //! `sigma <- (1 - C^2 / (xi (1 - xi))) sigma`; under USF and MUSL the stress never changes.
 
-use crate::common::H;
+use crate::common::{H, body};
 use mpm_verify::{
     mpm::{
-        BasisName, Block, Fixed, FrameName, Hencky, LinearElastic, MassName, Particles, SchemeName,
-        Setup, Side, Solver, TransferName, Vector, kernel, mass_matrix, transfer,
+        BasisName, Block, Fixed, Hencky, LinearElastic, Particles, SchemeName, Setup, Side, Solver,
+        TransferName, Vector,
     },
     subject::{Start, Subject},
 };
@@ -23,21 +23,8 @@ fn particle(name: TransferName, scheme: SchemeName, xi: f64, sigma: f64) -> Solv
     let mut particles = Particles::fill(&Block { from, to, density: DENSITY }, H, 1);
     particles.x[0][0] = (1.0 + xi) * H;
     particles.sigma[0][(0, 0)] = sigma;
-    let kernel = kernel(BasisName::Linear);
-    let setup = Setup {
-        grid: kernel.grid(Vector::zeros(), H, [3], [false]),
-        particles,
-        kernel,
-        transfer: transfer(name),
-        mass: mass_matrix(MassName::Lumped),
-        frame: FrameName::Updated,
-        material: Box::new(LinearElastic::new(YOUNG, 0.0)),
-        effects: Vec::new(),
-        boundary: Vec::new(),
-        scheme,
-        start: Start::AtZero,
-    };
-    Solver::new(setup).unwrap()
+    let plain = body((BasisName::Linear, name), scheme, particles, (H, 3));
+    Solver::new(Setup { material: Box::new(LinearElastic::new(YOUNG, 0.0)), ..plain }).unwrap()
 }
 
 /// sigma after `steps` steps at the Courant number `courant`, relative to sigma before.
@@ -91,8 +78,8 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
 
     /// The affine field remembers what the force has done. With `s = C^2 / (xi (1 - xi))` and g the
-    /// velocity gradient times dt, over E: USL and MUSL `g <- g - s sigma`, `sigma <- sigma + g`; USF the
-    /// same in the other order. Leapfrogs, in a frame that does not move (sigma is tiny).
+    /// velocity gradient times dt, over E: USL and MUSL `g <- g - s sigma`, `sigma <- sigma + g`;
+    /// USF the same in the other order. Leapfrogs, in a frame that does not move (sigma is tiny).
     #[test]
     fn apic_follows_the_recursion_of_an_oscillator(
         xi in 0.05..0.95_f64,
@@ -186,21 +173,10 @@ fn swinging(scheme: SchemeName, start: Start, steps: u32) -> f64 {
         Block { from: Vector::<1>::zeros(), to: Vector::<1>::new(length), density: DENSITY };
     let mut particles = Particles::fill(&block, length, 1);
     particles.v[0][0] = speed;
-    let kernel = kernel(BasisName::Linear);
-    let grid = kernel.grid(Vector::zeros(), length, [1], [false]);
-    let setup = Setup {
-        boundary: vec![Box::new(Fixed::face(&grid, 0, Side::Low))],
-        grid,
-        particles,
-        kernel,
-        transfer: transfer(TransferName::Flip),
-        mass: mass_matrix(MassName::Lumped),
-        frame: FrameName::Updated,
-        material: Box::new(Hencky::new(YOUNG, 0.0)),
-        effects: Vec::new(),
-        scheme,
-        start,
-    };
+    let method = (BasisName::Linear, TransferName::Flip);
+    let mut setup = body(method, scheme, particles, (length, 1));
+    (setup.material, setup.start) = (Box::new(Hencky::new(YOUNG, 0.0)), start);
+    setup.boundary = vec![Box::new(Fixed::face(&setup.grid, 0, Side::Low))];
     let mut solver = Solver::new(setup).unwrap();
     (0..steps).for_each(|_| solver.step(until / f64::from(steps)).unwrap());
     let w = libm::sqrt(YOUNG / DENSITY) / length;
@@ -208,8 +184,8 @@ fn swinging(scheme: SchemeName, start: Start, steps: u32) -> f64 {
     solver.particles().x[0][0] - exact
 }
 
-/// F grows by `1 + dt v/L` where the solution grows by the exponential: order 1, and no start of the
-/// velocity mends that.
+/// F grows by `1 + dt v/L` where the solution grows by the exponential: order 1, and no start of
+/// the velocity mends that.
 #[test]
 fn a_particle_on_a_spring_of_one_cell_follows_the_closed_form_with_order_1() {
     for scheme in [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl] {

@@ -13,8 +13,8 @@ use rstest::rstest;
 
 const CELLS: usize = 4;
 
-/// A body that fills a grid of [`CELLS`] cells along every axis, moves and is under stress; only the
-/// last axis has walls, and that only if `walls`.
+/// A body that fills a grid of [`CELLS`] cells along every axis, moves and is under stress; only
+/// the last axis has walls, and that only if `walls`.
 fn full<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -99,7 +99,7 @@ fn swing<const D: usize>() -> VelocityField<D> {
     })
 }
 
-/// What [`swing`] adds up to over `steps` steps, each taken at its middle.
+/// Path under [`swing`] over `steps` steps, by the midpoint rule.
 fn path<const D: usize>(steps: usize) -> Vector<D> {
     (0..steps).map(|k| swing()(&Vector::zeros(), (k as f64 + 0.5) * DT) * DT).sum()
 }
@@ -147,8 +147,8 @@ fn a_layer_between_driven_walls_follows_them_in_every_scheme(
     in_dimension!(dimension, follows(scheme, start));
 }
 
-/// Gravity moves what is between the walls just as the walls move: nothing is strained, if the walls
-/// have the velocity of the right time.
+/// Gravity moves what is between the walls just as the walls move: nothing is strained, if the
+/// walls have the velocity of the right time.
 fn falls_with_its_walls<const D: usize>(scheme: SchemeName) {
     let g = Vector::<D>::from_fn(|i, _| if i == D - 1 { 0.0 } else { 2.0 });
     for method in some(D) {
