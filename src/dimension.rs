@@ -22,3 +22,15 @@ macro_rules! with_dimension {
     };
 }
 pub(crate) use with_dimension;
+
+/// Declares the trait `$every`, which all types have that have `$contract<D>` in every dimension: an
+/// object of it can be built in any of them.
+macro_rules! in_every_dimension {
+    ($(#[$meta:meta])* $every:ident: $contract:ident) => {
+        $(#[$meta])*
+        pub(crate) trait $every: $contract<1> + $contract<2> + $contract<3> {}
+
+        impl<T: $contract<1> + $contract<2> + $contract<3> + ?Sized> $every for T {}
+    };
+}
+pub(crate) use in_every_dimension;

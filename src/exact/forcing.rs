@@ -9,7 +9,7 @@ use super::{
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), where stated forces or temperatures depend on them.
+    /// The places (m), if a term depends on them.
     labels: Vec<Vec<f64>>,
 }
 
@@ -18,8 +18,7 @@ impl Forcing {
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
-        let needed = !(problem.regions.is_empty() && problem.body_force.is_empty())
-            || problem.expansion.is_some();
+        let needed = problem.terms.iter().any(|term| !term.is_uniform());
         let labels = if needed { labels } else { Vec::new() };
         Self { problem: problem.clone(), places, labels }
     }
@@ -27,17 +26,18 @@ impl Forcing {
     /// Fills in the force (m/s2) at each place at time `t` (s), as
     /// [`Problem::manufactured_force`] gives it for one. Allocates nothing.
     pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
-        let gravity: [f64; 3] = std::array::from_fn(|i| self.problem.gravity_at(i, t));
+        let uniform: [f64; 3] = std::array::from_fn(|i| self.problem.uniform(i, t));
         self.places.set_time(t);
         let mut now = Derivatives::default();
         for (place, force) in into.iter_mut().enumerate() {
             self.places.derivatives(place, &mut now);
             let label = self.labels.get(place);
             let whole = self.problem.balance(label.map_or(&[], Vec::as_slice), t, &now);
-            let given =
-                |i| gravity[i] + label.map_or(0.0, |label| self.problem.at_place(i, label, t));
-            let damped = |i| self.problem.damping(i, t, &now);
-            *force = make(std::array::from_fn(|i| whole[i] - given(i) - damped(i)));
+            let placed = |i| label.map_or(0.0, |label| self.problem.placed(i, label, t));
+            *force = make(std::array::from_fn(|i| {
+                let stated = uniform[i] + placed(i);
+                whole[i] - stated - self.problem.resistance(i, t, &now, stated)
+            }));
         }
     }
 }

@@ -17,20 +17,22 @@ mod random;
 mod region;
 mod round;
 mod tensor;
+mod term;
 mod truth;
 mod violation;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use check::interface::meets;
 pub use expansion::Expansion;
 pub use forcing::Forcing;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
-pub use motion::{Derivatives, Motion, Places};
+pub use motion::{Derivatives, Motion, Places, variables};
 pub use problem::{Condition, Face, Problem};
 pub use random::Random;
 pub use region::Region;
 pub use round::Round;
+pub use term::Term;
 pub use truth::Truth;
 pub use violation::Violation;

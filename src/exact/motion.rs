@@ -124,8 +124,8 @@ fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut De
     }
 }
 
-/// The coordinates followed by the time, in a fixed array.
-pub(super) fn variables(label: &[f64], t: f64) -> [f64; 4] {
+/// The coordinates followed by the time, as formulas take them: the first D + 1 numbers.
+pub fn variables(label: &[f64], t: f64) -> [f64; 4] {
     let mut all = [0.0; 4];
     all[..label.len()].copy_from_slice(label);
     all[label.len()] = t;

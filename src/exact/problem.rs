@@ -1,17 +1,18 @@
 //! The continuum problem that an exact solution is held to.
 
 use super::{
-    expansion::{Expansion, Swelling, swollen_cauchy, swollen_divergence, swollen_piola},
+    expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola},
     formula::Formula,
     heat::Conduction,
     law::Equation,
-    motion::{Derivatives, Motion, variables, write},
+    motion::{Derivatives, Motion, write},
     random::Random,
-    region::Region,
     round::Round,
     tensor::Tensor,
+    term::Term,
     truth::Truth,
 };
+use std::sync::Arc;
 
 /// A boundary condition on one face of the body.
 #[derive(Debug, Clone)]
@@ -66,15 +67,8 @@ pub struct Problem {
     pub density: f64,
     /// The equation of motion.
     pub equation: Equation,
-    /// Uniform body force per unit mass (m/s2), one formula of t for each component; or empty.
-    pub gravity: Vec<Formula>,
-    /// That which the problem states besides (m/s2), formulas of the coordinates and t; or empty.
-    pub body_force: Vec<Formula>,
-    /// Rate alpha(t) (1/s) of a body force `-alpha u_t`, a formula of t.
-    pub damping: Option<Formula>,
-    /// Share zeta of the force that is out of balance, `Div P + rho0 b`, with which a body force
-    /// opposes the motion, component by component (Cundall 1987).
-    pub local_damping: Option<f64>,
+    /// Terms of the loads on the body.
+    pub terms: Vec<Arc<dyn Term>>,
     /// Whether the motion is the state in which the body comes to rest: no function of t, held to
     /// the loads at the end of the run and to no initial condition.
     pub at_rest: bool,
@@ -82,12 +76,8 @@ pub struct Problem {
     pub manufactured: bool,
     /// The heat problem beside it, of a body in which heat flows.
     pub heat: Option<Conduction>,
-    /// What its temperature does to the body.
-    pub expansion: Option<Expansion>,
     /// Every face of the body.
     pub faces: Vec<Face>,
-    /// Parts of the body on which something acts.
-    pub regions: Vec<Region>,
     /// Whether the body starts as the motion does: then an initial condition that is not stated
     /// follows from the motion, and otherwise it is zero.
     pub follows_motion: bool,
@@ -137,12 +127,14 @@ impl Problem {
         self.loaded(random.between(0.0, self.until))
     }
 
-    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less what
-    /// the problem states.
+    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less the terms of the loads.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let now = self.motion.derivatives(label, t);
         let balance = self.balance(label, t, &now);
-        std::array::from_fn(|i| balance[i] - self.given(i, label, t) - self.damping(i, t, &now))
+        std::array::from_fn(|i| {
+            let stated = self.stated(i, label, t);
+            balance[i] - stated - self.resistance(i, t, &now, stated)
+        })
     }
 
     /// The whole body force (m/s2) at `label` and `t`, where the motion's derivatives are `now`.
@@ -150,19 +142,9 @@ impl Problem {
         if self.manufactured {
             return self.balance(label, t, now);
         }
-        let given = std::array::from_fn(|i| self.given(i, label, t));
-        let local = self.opposed(now, &given);
-        std::array::from_fn(|i| given[i] + self.damping(i, t, now) + local[i])
-    }
-
-    /// The force of local damping (m/s2): `-zeta |Div P / rho0 + b| sign(u_t)`.
-    fn opposed(&self, now: &Derivatives, given: &[f64; 3]) -> [f64; 3] {
-        let Some(share) = self.local_damping else { return [0.0; 3] };
-        let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
         std::array::from_fn(|i| {
-            let unbalanced = stress[i] / self.density + given[i];
-            let sign = if now.velocity[i] == 0.0 { 0.0 } else { now.velocity[i].signum() };
-            -share * unbalanced.abs() * sign
+            let stated = self.stated(i, label, t);
+            stated + self.resistance(i, t, now, stated)
         })
     }
 
@@ -172,10 +154,11 @@ impl Problem {
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
     }
 
-    /// What temperature makes of the body at one point and time, if it does.
-    fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
+    /// Stretch by temperature at one point and time.
+    pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
-        Some(self.expansion?.of(&heat.temperature.derivatives(label, t)))
+        let expansion = self.terms.iter().find_map(|term| term.expansion())?;
+        Some(expansion.of(&heat.temperature.derivatives(label, t)))
     }
 
     /// P (Pa), where the motion's derivatives are `now`.
@@ -199,28 +182,31 @@ impl Problem {
         }
     }
 
-    /// The body force (m/s2) that the problem states: gravity, and forces on parts of the body.
-    fn given(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        self.gravity_at(i, t) + self.at_place(i, label, t)
+    /// Component i of the stated forces (m/s2).
+    fn stated(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        self.uniform(i, t) + self.placed(i, label, t)
     }
 
-    /// Component i of gravity (m/s2).
-    pub(super) fn gravity_at(&self, i: usize, t: f64) -> f64 {
-        self.gravity.get(i).map_or(0.0, |formula| formula.eval(&[t]))
+    /// Component i of the stated forces that are the same everywhere (m/s2).
+    pub(super) fn uniform(&self, i: usize, t: f64) -> f64 {
+        let uniform = self.terms.iter().filter(|term| term.is_uniform());
+        uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t))
     }
 
-    /// Component i of the damping force (m/s2).
-    pub(super) fn damping(&self, i: usize, t: f64, now: &Derivatives) -> f64 {
-        self.damping.as_ref().map_or(0.0, |rate| -rate.eval(&[t]) * now.velocity[i])
+    /// Component i of the stated forces that depend on the place (m/s2).
+    pub(super) fn placed(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        let placed = self.terms.iter().filter(|term| !term.is_uniform());
+        placed.fold(0.0, |sum, term| sum + term.stated(i, label, t))
     }
 
-    /// Component i of the forces that depend on the place (m/s2): declared, and on parts of the body.
-    pub(super) fn at_place(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        let all = variables(label, t);
-        let declared = self.body_force.get(i).map_or(0.0, |b| b.eval(&all[..=label.len()]));
-        let body = (&self.from[..], &self.to[..]);
-        let on = |region: &Region| region.force_density(i, label, t, body);
-        declared + self.regions.iter().map(on).sum::<f64>() / self.density
+    /// Component i of the forces against the motion (m/s2), beside the stated force `stated`.
+    pub(super) fn resistance(&self, i: usize, t: f64, now: &Derivatives, stated: f64) -> f64 {
+        let unbalanced = || {
+            let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
+            stress[i] / self.density + stated
+        };
+        let all = self.terms.iter();
+        all.fold(0.0, |sum, term| sum + term.resistance(t, now.velocity[i], &unbalanced))
     }
 }
 

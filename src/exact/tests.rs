@@ -2,16 +2,56 @@
 //! manufactured.
 
 use super::{
-    Condition, Face, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw,
+    Condition, Face, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term,
     formula::{Expr, Formula, Scope},
     random::Random,
 };
 use rstest::rstest;
+use std::sync::Arc;
 
 const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
 
 fn bind(source: &str, variables: &[&str]) -> Formula {
     Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), variables).unwrap()
+}
+
+/// Gravity (m/s2), formulas of t.
+#[derive(Debug)]
+pub(super) struct Weight(pub(super) Vec<Formula>);
+
+impl Term for Weight {
+    fn stated(&self, i: usize, _: &[f64], t: f64) -> f64 {
+        self.0.get(i).map_or(0.0, |formula| formula.eval(&[t]))
+    }
+
+    fn is_uniform(&self) -> bool {
+        true
+    }
+}
+
+fn weight(sources: &[&str]) -> Vec<Arc<dyn Term>> {
+    vec![Arc::new(Weight(sources.iter().map(|source| bind(source, &["t"])).collect()))]
+}
+
+/// Damping in proportion to mass (1/s).
+#[derive(Debug)]
+struct Damped(f64);
+
+impl Term for Damped {
+    fn resistance(&self, _: f64, velocity: f64, _: &dyn Fn() -> f64) -> f64 {
+        -self.0 * velocity
+    }
+}
+
+/// Local damping, a share of the force out of balance.
+#[derive(Debug)]
+struct LocallyDamped(f64);
+
+impl Term for LocallyDamped {
+    fn resistance(&self, _: f64, velocity: f64, unbalanced: &dyn Fn() -> f64) -> f64 {
+        let sign = if velocity == 0.0 { 0.0 } else { velocity.signum() };
+        -self.0 * unbalanced().abs() * sign
+    }
 }
 
 fn held(dimension: usize) -> Problem {
@@ -30,14 +70,9 @@ fn held(dimension: usize) -> Problem {
         to: vec![1.0; dimension],
         density: 2.0,
         equation: NeoHookeanLaw::new(10.0, 0.3).into(),
-        gravity: vec![bind("-9.81*t", &["t"])],
-        regions: Vec::new(),
+        terms: weight(&["-9.81*t"]),
         round: None,
-        body_force: Vec::new(),
-        damping: None,
-        local_damping: None,
         heat: None,
-        expansion: None,
         at_rest: false,
         follows_motion: true,
         initial_displacement: Vec::new(),
@@ -84,7 +119,7 @@ fn bar(displacement: &str, right: Condition) -> Problem {
     let face = |name, high, condition| Face { name, axis: 0, high, condition };
     Problem {
         equation: SmallStrainLaw::new(2.0, 0.0).into(),
-        gravity: Vec::new(),
+        terms: Vec::new(),
         manufactured: false,
         faces: vec![face("left", false, Condition::Fixed), face("right", true, right)],
         motion: Motion::new(vec![bind(displacement, &["X", "t"])]),
@@ -100,7 +135,7 @@ fn sheared(top: Condition) -> Problem {
     let driven = || Condition::Velocity(vec![bind("0.2*Y", &names), bind("0.3*Y", &names)]);
     Problem {
         equation: NeoHookeanLaw::new(10.0, 0.0).into(),
-        gravity: Vec::new(),
+        terms: Vec::new(),
         faces: vec![face("bottom", 1, false, driven()), face("top", 1, true, top)],
         motion: Motion::new(vec![bind("0.2*Y*t", &names), bind("0.3*Y*t", &names)]),
         ..held(2)
@@ -136,7 +171,7 @@ fn a_pressure_acts_on_the_present_area() {
             condition: Condition::Pressure(bind(&p, &names)),
         };
         Problem {
-            gravity: Vec::new(),
+            terms: Vec::new(),
             faces: (0..3).flat_map(|axis| [face(axis, false), face(axis, true)]).collect(),
             motion: Motion::new(
                 ["X", "Y", "Z"].map(|x| bind(&format!("-0.1*t*{x}"), &names)).to_vec(),
@@ -153,9 +188,9 @@ fn a_pressure_acts_on_the_present_area() {
 #[test]
 fn damping_is_a_force_in_the_equation_of_motion() {
     let wave = "sin(pi*X)*exp(-t)*sin(sqrt(pi^2 - 1)*t)";
-    let damped = Problem { damping: Some(bind("2", &["t"])), ..bar(wave, Condition::Fixed) };
+    let damped = Problem { terms: vec![Arc::new(Damped(2.0))], ..bar(wave, Condition::Fixed) };
     damped.check().unwrap();
-    let undamped = Problem { damping: None, ..damped.clone() };
+    let undamped = Problem { terms: Vec::new(), ..damped.clone() };
     let found = undamped.check().unwrap_err();
     assert!(found.condition.starts_with("equation of motion"), "{found}");
     let made = Problem { manufactured: true, ..damped };
@@ -172,42 +207,42 @@ fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     };
     let half = "pi*sqrt(0.4)";
     let wave = swing("(2*pi*sqrt(0.4))", half);
-    let locally =
-        |share, wave: &str| Problem { local_damping: share, ..bar(wave, Condition::Fixed) };
-    locally(Some(0.6), &wave).check().unwrap();
-    for wrong in [
-        locally(None, &wave),
-        locally(Some(0.59), &wave),
-        locally(Some(0.6), &swing(half, "(2*pi*sqrt(0.4))")),
-    ] {
+    let locally = |share, wave: &str| Problem {
+        terms: vec![Arc::new(LocallyDamped(share))],
+        ..bar(wave, Condition::Fixed)
+    };
+    locally(0.6, &wave).check().unwrap();
+    for wrong in
+        [locally(0.0, &wave), locally(0.59, &wave), locally(0.6, &swing(half, "(2*pi*sqrt(0.4))"))]
+    {
         let found = wrong.check().unwrap_err();
         assert!(found.condition.starts_with("equation of motion"), "{found}");
     }
     // Gravity is part of what is out of balance.
-    let weighed = Problem { gravity: vec![bind("1", &["t"])], ..locally(Some(0.6), &wave) };
+    let mut weighed = locally(0.6, &wave);
+    weighed.terms.extend(weight(&["1"]));
     assert!(weighed.check().is_err());
 }
 
 /// A bar that hangs: it is in equilibrium with the load at the end only.
 #[test]
 fn an_equilibrium_is_one_with_the_loads_at_the_end() {
-    let load = |text: &str| vec![bind(text, &["t"])];
     let hanging = Problem {
         at_rest: true,
         follows_motion: false,
-        gravity: load("9*min(2*t, 1)"),
+        terms: weight(&["9*min(2*t, 1)"]),
         ..bar("9*(X - X^2/2)", Condition::Free)
     };
     hanging.check().unwrap();
     for wrong in [
-        Problem { gravity: load("9*min(t/2, 1)"), ..hanging.clone() },
+        Problem { terms: weight(&["9*min(t/2, 1)"]), ..hanging.clone() },
         Problem { at_rest: false, follows_motion: true, ..hanging.clone() },
     ] {
         let found = wrong.check().unwrap_err();
         assert!(found.condition.starts_with("equation of motion"), "{found}");
         assert!(!wrong.at_rest || found.t == wrong.until, "{found}");
     }
-    let weak = Problem { gravity: load("8*min(2*t, 1)"), ..hanging };
+    let weak = Problem { terms: weight(&["8*min(2*t, 1)"]), ..hanging };
     let found = super::check::weak::momentum(&weak).unwrap_err();
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }

@@ -47,7 +47,7 @@ impl<const D: usize> HeatSolver<D> {
         columns.extend(self.grid.columns());
         columns.retain(|column| column.entries > 0);
         Profile {
-            effects: self.effects.iter().map(|effect| effect.name().name()).collect(),
+            effects: self.effects.iter().map(|effect| effect.name()).collect(),
             particles: self.particles.len(),
             nodes: self.grid.nodes(),
             columns,

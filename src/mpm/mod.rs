@@ -47,9 +47,9 @@ pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_bodies};
 pub use effect::{
-    ArtificialViscosity, BodyForce, Damping, Effect, EffectName, ForceField, Gravity, Heat,
-    HeatSource, LocalDamping, Placement, PrescribedVelocity, Pressure, PressureField, ScalarField,
-    SetForce, Thermal, ThermalBoundary, ThermalExpansion, Traction, TractionField,
+    ArtificialViscosity, BodyForce, Damping, Effect, ForceField, Gravity, Heat, HeatSource,
+    LocalDamping, Placement, PrescribedVelocity, Pressure, PressureField, ScalarField, SetForce,
+    Thermal, ThermalBoundary, ThermalExpansion, Traction, TractionField,
 };
 pub use frame::FrameName;
 pub use grid::Grid;

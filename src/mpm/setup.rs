@@ -68,7 +68,7 @@ impl<const D: usize> Setup<D> {
         columns.extend(boundary.iter().flat_map(|condition| condition.columns()));
         columns.retain(|column| column.entries > 0);
         Profile {
-            effects: effects.iter().map(|effect| effect.name().name()).collect(),
+            effects: effects.iter().map(|effect| effect.name()).collect(),
             particles: particles.len(),
             nodes: grid.nodes(),
             columns,

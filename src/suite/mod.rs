@@ -15,14 +15,14 @@ pub(crate) mod grammar;
 pub(crate) mod model;
 pub mod yaml;
 
+pub use compile::load::EffectName;
 pub use grammar::{CrossingLevels, EquationName, NormName};
-pub use model::boundary::BoundaryCondition;
 pub use model::heat::SceneHeat;
 pub use model::method::Method;
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
 pub use model::stability::{StabilityCase, StabilityPlan};
 pub use model::study_plan::StudyPlan;
 pub use model::{
-    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,
-    SceneFace, Suite,
+    Against, BoundaryCondition, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan,
+    ReferencePlan, Scene, SceneFace, Suite,
 };

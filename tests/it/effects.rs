@@ -7,14 +7,13 @@ use crate::common::{
 use mpm_verify::{
     mpm::{
         ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Effect,
-        EffectName, Fixed, Friction, Gravity, Grid, Heat, HeatSolver, HeatSource, LocalDamping,
-        NeoHookean, Particles, Placement, Prescribed, PrescribedVelocity, Pressure, Roller,
-        SchemeName, SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName,
-        Vector,
+        Fixed, Friction, Gravity, Grid, Heat, HeatSolver, HeatSource, LocalDamping, NeoHookean,
+        Particles, Placement, Prescribed, PrescribedVelocity, Pressure, Roller, SchemeName,
+        SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
     },
     study,
     subject::{Column, Holder, Profile, Subject},
-    suite::{BoundaryCondition, ConvergencePlan, Suite, embedded},
+    suite::{BoundaryCondition, ConvergencePlan, EffectName, Suite, embedded},
 };
 use rstest::rstest;
 use std::sync::Arc;
@@ -400,9 +399,9 @@ fn the_passes_of_a_step_make_up_its_transfers() {
 }
 
 #[test]
-fn what_an_effect_needs_or_excludes_is_another() {
+fn an_effect_needs_others() {
     for &effect in EffectName::ALL {
-        assert!(!effect.needs().contains(&effect) && !effect.excludes().contains(&effect));
+        assert!(!effect.needs().contains(&effect));
         let alone = EffectName::combine(&[effect]).is_ok();
         assert_eq!(alone, effect.needs().is_empty(), "`{}` alone", effect.name());
     }

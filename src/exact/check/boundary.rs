@@ -147,8 +147,7 @@ fn periodic(
 pub(crate) fn driven(problem: &Problem) -> Result<(), Violation> {
     let speed = scale(problem, |_, d| largest(&d.velocity));
     let mut random = Random::new(7);
-    for region in &problem.regions {
-        let Some(velocity) = &region.velocity else { continue };
+    for (region, velocity) in problem.terms.iter().filter_map(|term| term.driven()) {
         let (from, to) = region.within((&problem.from, &problem.to));
         for _ in 0..POINTS {
             let label = random.point(&from, &to);

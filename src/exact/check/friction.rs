@@ -92,8 +92,10 @@ mod tests {
     use crate::exact::{
         Condition, Motion, SmallStrainLaw,
         formula::{Expr, Formula, Scope},
+        tests::Weight,
     };
     use rstest::rstest;
+    use std::sync::Arc;
 
     /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0,
     /// that the wall holds or slows by friction: shear and pressure grow towards it.
@@ -108,19 +110,14 @@ mod tests {
             round: None,
             density: 1.0,
             equation: SmallStrainLaw::new(200.0, 0.0).into(),
-            gravity: vec![bind("3", &["t"]), bind("-4", &["t"])],
-            body_force: Vec::new(),
-            damping: None,
+            terms: vec![Arc::new(Weight(vec![bind("3", &["t"]), bind("-4", &["t"])]))],
             heat: None,
-            expansion: None,
-            local_damping: None,
             at_rest: false,
             manufactured: false,
             faces: vec![
                 face("bottom", false, Condition::Friction(coefficient)),
                 face("top", true, Condition::Free),
             ],
-            regions: Vec::new(),
             follows_motion: true,
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),

@@ -96,7 +96,8 @@ pub(crate) fn presence(problem: &Problem) -> Result<(), Violation> {
         }
     }
     // A body that is held and heated has stress enough.
-    if problem.expansion.is_some() || points.iter().any(|(_, now)| largest(&now.u) > 0.0) {
+    let swells = |event: &Event| problem.swelling(&event.label, event.t).is_some();
+    if points.iter().any(|(event, now)| largest(&now.u) > 0.0 || swells(event)) {
         return Ok(());
     }
     let condition = "the demand that the displacement is not zero everywhere".to_owned();
@@ -162,7 +163,7 @@ pub(crate) fn equation(problem: &Problem) -> Result<(), Violation> {
             let (inertia, stress, force) = terms(event, d, i);
             let name = format!("equation of motion in {}, rho0 u_tt = Div P + rho0 b,", AXES[i]);
             let (allowed, rho0) = (problem.tolerance * size, problem.density);
-            if problem.body_force.is_empty() {
+            if !problem.terms.iter().any(|term| term.is_body_force()) {
                 event.judge(allowed, name, (stress + force, inertia), "N/m3")?;
             } else {
                 let (name, forces) =

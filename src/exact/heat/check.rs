@@ -3,7 +3,7 @@
 use super::{
     equation,
     field::Warmth,
-    problem::{Conduction, ThermalCondition, ThermalFace},
+    problem::{Conduction, HeatFace, ThermalCondition},
     weak,
 };
 use crate::exact::{
@@ -117,7 +117,7 @@ fn boundary(problem: &Conduction) -> Result<(), Violation> {
 
 fn on_face(
     problem: &Conduction,
-    face: &ThermalFace,
+    face: &HeatFace,
     event: &Event,
     sizes: &Sizes,
 ) -> Result<(), Violation> {

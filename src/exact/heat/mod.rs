@@ -11,4 +11,4 @@ mod weak;
 
 pub use field::{Temperature, Warmth};
 pub use forcing::HeatForcing;
-pub use problem::{Conduction, ThermalCondition, ThermalFace};
+pub use problem::{Conduction, HeatFace, ThermalCondition};

@@ -33,7 +33,7 @@ pub enum ThermalCondition {
 
 /// One face of a box-shaped body.
 #[derive(Debug, Clone)]
-pub struct ThermalFace {
+pub struct HeatFace {
     /// Name that a suite gives it.
     pub name: &'static str,
     /// Axis of its normal.
@@ -63,7 +63,7 @@ pub struct Conduction {
     /// Initial temperature (K), a formula of the coordinates; not stated, it is that of the claim.
     pub initial: Option<Formula>,
     /// Every face of the body.
-    pub faces: Vec<ThermalFace>,
+    pub faces: Vec<HeatFace>,
     /// The claimed solution.
     pub temperature: Temperature,
     /// How the body deforms; none where it is at rest, or strains count as none.

@@ -1,6 +1,6 @@
 //! Temperatures that solve the heat equation, and wrong ones that must be refused.
 
-use super::{Conduction, HeatForcing, Temperature, ThermalCondition, ThermalFace};
+use super::{Conduction, HeatFace, HeatForcing, Temperature, ThermalCondition};
 use crate::exact::{
     Motion, Violation,
     formula::{Expr, Formula, Scope},
@@ -17,7 +17,7 @@ fn bind(source: &str, dimension: usize) -> Formula {
 
 /// A box from 0 to 1 with rho0 c = 6 and k = 3, insulated all around.
 fn insulated(dimension: usize, temperature: &str) -> Conduction {
-    let face = |i: usize| ThermalFace {
+    let face = |i: usize| HeatFace {
         name: ["left", "right", "bottom", "top", "back", "front"][i],
         axis: i / 2,
         high: i % 2 == 1,

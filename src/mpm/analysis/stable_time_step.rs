@@ -16,7 +16,6 @@
 use crate::{
     mpm::{
         algebra::{Matrix, Vector},
-        effect::EffectName,
         schedule::passes_of,
         scheme::SchemeName,
         setup::Setup,
@@ -65,7 +64,7 @@ impl<const D: usize> Solver<D> {
     /// # Errors
     /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
     pub fn stable_time_step(mut self, longest: f64, rounds: u32) -> Result<f64, Failure> {
-        self.setup.effects.retain(|effect| makes_stress(effect.name()));
+        self.setup.effects.retain(|effect| effect.makes_stress());
         self.setup.boundary.retain(|condition| !condition.reads_velocity());
         self.run_all(&passes_of(&[Stage::Mass]), longest)?;
         let start = self.state_of_start();
@@ -178,13 +177,6 @@ impl<const D: usize> Solver<D> {
         particles.vol.copy_from_slice(&start.vol);
         self.velocity_time = start.velocity_time;
     }
-}
-
-/// Whether an effect meets the law. Given forces are the same whatever moves, and damping takes
-/// energy.
-fn makes_stress(effect: EffectName) -> bool {
-    use EffectName::{ArtificialViscosity, Heat, ThermalExpansion};
-    matches!(effect, ArtificialViscosity | Heat | ThermalExpansion)
 }
 
 /// A number from -1 to 1 without any pattern (splitmix64, Steele, Lea & Flood 2014).

@@ -9,7 +9,7 @@
 //! The pressure is a part of the stress only while forces are taken from it: before the material
 //! makes new stresses, which a law in rate form adds to the old ones, it is taken out again.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::{
     mpm::particles::Particles,
     subject::{Checkpoint, Column},
@@ -31,8 +31,12 @@ pub struct ArtificialViscosity {
 }
 
 impl<const D: usize> Effect<D> for ArtificialViscosity {
-    fn name(&self) -> EffectName {
-        EffectName::ArtificialViscosity
+    fn name(&self) -> &'static str {
+        "artificial_viscosity"
+    }
+
+    fn makes_stress(&self) -> bool {
+        true
     }
 
     fn columns(&self) -> Vec<Column> {

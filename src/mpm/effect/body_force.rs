@@ -2,7 +2,7 @@
 //!
 //! `f_ext_i = sum_p m_p b(X_p, t) N_i(x_p)`.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::{
     mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
     subject::Column,
@@ -36,8 +36,8 @@ impl<const D: usize> BodyForce<D> {
 }
 
 impl<const D: usize> Effect<D> for BodyForce<D> {
-    fn name(&self) -> EffectName {
-        EffectName::BodyForce
+    fn name(&self) -> &'static str {
+        "body_force"
     }
 
     fn columns(&self) -> Vec<Column> {

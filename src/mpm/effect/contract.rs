@@ -1,6 +1,5 @@
 //! Contract of an effect with the rest of the solver.
 
-use super::name::EffectName;
 use crate::{
     mpm::{grid::Grid, kernel::contract::Kernel, material::Material, particles::Particles},
     subject::{Checkpoint, Column, Failure},
@@ -9,7 +8,7 @@ use crate::{
 /// An addition to the equations of motion, by hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
     /// Name in suites.
-    fn name(&self) -> EffectName;
+    fn name(&self) -> &'static str;
 
     /// Columns for particles or nodes.
     fn columns(&self) -> Vec<Column> {
@@ -21,6 +20,11 @@ pub trait Effect<const D: usize>: Send {
 
     /// Whether it reads F: the column exists only then, or if a basis or a material asks for it.
     fn reads_deformation(&self) -> bool {
+        false
+    }
+
+    /// Whether it takes part in the stresses, so that a stable time step depends on it.
+    fn makes_stress(&self) -> bool {
         false
     }
 

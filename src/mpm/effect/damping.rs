@@ -10,15 +10,15 @@
 //! rest it is nothing. An affine state (APIC) is left as it came from the grid, which saw the
 //! damped velocities.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::mpm::particles::Particles;
 
 /// A rate of damping alpha(t) (1/s).
 pub struct Damping(pub Box<dyn Fn(f64) -> f64 + Send>);
 
 impl<const D: usize> Effect<D> for Damping {
-    fn name(&self) -> EffectName {
-        EffectName::Damping
+    fn name(&self) -> &'static str {
+        "damping"
     }
 
     fn modify_velocity(&self, t: f64, dt: f64, particles: &mut Particles<D>) {

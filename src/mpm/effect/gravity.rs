@@ -3,15 +3,15 @@
 //! `f_ext_i = sum_p m_p b N_i(x_p) = m_i b`: as b does not depend on the particle, the sum is the
 //! nodal mass, and no particle is visited.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles};
 
 /// Gravity, b(t) (m/s2).
 pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> Vector<D> + Send>);
 
 impl<const D: usize> Effect<D> for Gravity<D> {
-    fn name(&self) -> EffectName {
-        EffectName::Gravity
+    fn name(&self) -> &'static str {
+        "gravity"
     }
 
     fn add_force(

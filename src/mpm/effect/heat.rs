@@ -20,7 +20,7 @@
 //! Neglected: heat from plastic work, viscosity and compression; a conductivity that is not
 //! constant.
 
-use super::{contract::Effect, name::EffectName, thermal_face::ThermalBoundary};
+use super::{contract::Effect, thermal_face::ThermalBoundary};
 use crate::{
     mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
     subject::{Checkpoint, Column, Failure, Site},
@@ -120,8 +120,12 @@ impl<const D: usize> Heat<D> {
 }
 
 impl<const D: usize> Effect<D> for Heat<D> {
-    fn name(&self) -> EffectName {
-        EffectName::Heat
+    fn name(&self) -> &'static str {
+        "heat"
+    }
+
+    fn makes_stress(&self) -> bool {
+        true
     }
 
     fn columns(&self) -> Vec<Column> {

@@ -10,7 +10,7 @@
 //! forces, so where the motion turns the damping turns up to a step late: of first order in time.
 //! As it acts on nodes, what no node sees of FLIP's velocities is left as it is.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::mpm::grid::Grid;
 
 /// The share zeta, 0 <= zeta < 1, of the unbalanced force.
@@ -18,8 +18,8 @@ use crate::mpm::grid::Grid;
 pub struct LocalDamping(pub f64);
 
 impl<const D: usize> Effect<D> for LocalDamping {
-    fn name(&self) -> EffectName {
-        EffectName::LocalDamping
+    fn name(&self) -> &'static str {
+        "local_damping"
     }
 
     fn reads_grid_velocity(&self) -> bool {

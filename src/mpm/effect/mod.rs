@@ -1,6 +1,5 @@
-//! Effects: the family. A member is one file, one line in [`name`](EffectName), and its export
-//! below; a scene lists the effects it wants, and what it does not list costs nothing: no call, no
-//! column, no branch.
+//! Effects: the family. A member is one file and its export below. A solver has a list of effects,
+//! and one that it does not list costs nothing: no call, no column, no branch.
 
 mod artificial_viscosity;
 mod body_force;
@@ -10,7 +9,6 @@ mod gravity;
 mod heat;
 mod local_damping;
 mod mapped_face;
-mod name;
 mod prescribed_velocity;
 mod pressure;
 mod set_force;
@@ -27,7 +25,6 @@ pub use damping::Damping;
 pub use gravity::Gravity;
 pub use heat::{Heat, HeatSource};
 pub use local_damping::LocalDamping;
-pub use name::EffectName;
 pub use prescribed_velocity::PrescribedVelocity;
 pub use pressure::{Pressure, PressureField};
 pub use set_force::SetForce;

@@ -4,7 +4,7 @@
 //! grid. It reaches the rest of the body with the next P2G of velocities: in MUSL within the same
 //! step, in USF and USL in the next.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::{
     mpm::{
         algebra::Vector,
@@ -29,8 +29,8 @@ impl<const D: usize> PrescribedVelocity<D> {
 }
 
 impl<const D: usize> Effect<D> for PrescribedVelocity<D> {
-    fn name(&self) -> EffectName {
-        EffectName::PrescribedVelocity
+    fn name(&self) -> &'static str {
+        "velocity"
     }
 
     fn columns(&self) -> Vec<Column> {

@@ -7,7 +7,6 @@
 
 use super::{
     contract::Effect,
-    name::EffectName,
     surface::{Placement, Surface},
 };
 use crate::{
@@ -44,8 +43,8 @@ impl<const D: usize> Pressure<D> {
 }
 
 impl<const D: usize> Effect<D> for Pressure<D> {
-    fn name(&self) -> EffectName {
-        EffectName::Pressure
+    fn name(&self) -> &'static str {
+        "pressure"
     }
 
     fn columns(&self) -> Vec<Column> {

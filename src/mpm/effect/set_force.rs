@@ -3,7 +3,7 @@
 //! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, V0 being its whole volume: a body force
 //! that is uniform in the reference configuration, and follows the particles.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::{
     mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
     subject::Column,
@@ -29,8 +29,8 @@ impl<const D: usize> SetForce<D> {
 }
 
 impl<const D: usize> Effect<D> for SetForce<D> {
-    fn name(&self) -> EffectName {
-        EffectName::SetForce
+    fn name(&self) -> &'static str {
+        "force"
     }
 
     fn columns(&self) -> Vec<Column> {

@@ -10,7 +10,7 @@
 //! The split lives in the D dimensions of the scene: with Poisson's ratio zero the axes that a
 //! scene leaves out have no part in it. Neglected: heat absorbed by the expansion.
 
-use super::{contract::Effect, name::EffectName};
+use super::contract::Effect;
 use crate::{
     mpm::{algebra::Matrix, material::Material, particles::Particles},
     subject::{Checkpoint, Column},
@@ -51,8 +51,12 @@ impl<const D: usize> ThermalExpansion<D> {
 }
 
 impl<const D: usize> Effect<D> for ThermalExpansion<D> {
-    fn name(&self) -> EffectName {
-        EffectName::ThermalExpansion
+    fn name(&self) -> &'static str {
+        "thermal_expansion"
+    }
+
+    fn makes_stress(&self) -> bool {
+        true
     }
 
     fn columns(&self) -> Vec<Column> {

@@ -7,7 +7,6 @@
 
 use super::{
     contract::Effect,
-    name::EffectName,
     surface::{Placement, Surface},
 };
 use crate::{
@@ -51,8 +50,8 @@ impl<const D: usize> Traction<D> {
 }
 
 impl<const D: usize> Effect<D> for Traction<D> {
-    fn name(&self) -> EffectName {
-        EffectName::Traction
+    fn name(&self) -> &'static str {
+        "traction"
     }
 
     fn columns(&self) -> Vec<Column> {

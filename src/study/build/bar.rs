@@ -2,7 +2,7 @@
 
 use super::initial_state::Initial;
 use crate::{
-    exact::{Forcing, Problem, Region},
+    exact::{Condition, Forcing, Problem},
     fem,
     fem::{Bar, BarLaw, Sampling},
     mpm::MaterialPlan,
@@ -10,10 +10,14 @@ use crate::{
     suite::{
         grammar::EquationName,
         model::{
-            ConvergencePlan, ReferencePlan, Scene, SceneFace, grid_size::cell_size, method::Method,
+            ConvergencePlan, ReferencePlan, Scene,
+            grid_size::cell_size,
+            load::{SceneLoad, Target},
+            method::Method,
         },
     },
 };
+use std::sync::Arc;
 
 /// The FEM bar of `method`; also what references are made of.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {
@@ -34,7 +38,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         law: piola(law, &scene.material)?,
         fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
         body_force: body_force(scene, plan.manufactured().cloned()),
-        traction: [(&scene.faces[0], from), (&scene.faces[1], to)].map(end_traction),
+        traction: [0, 1].map(|end| end_traction(scene, end)),
         initial_displacement: Box::new(move |x| deformed.at(&[x]).u[0]),
         initial_velocity: Box::new(move |x| moving.at(&[x]).velocity[0]),
         start,
@@ -43,11 +47,11 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     Bar::new(setup).map_err(|error| error.to_string())
 }
 
-/// Gravity, declared and manufactured force and forces on sets of a bar, if it has any.
+/// Stated and manufactured forces of a bar, if it has any.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
-    let scene = scene.clone();
-    let stated = scene.gravity.is_some() || scene.body_force.is_some() || !scene.sets.is_empty();
-    if !stated && made.is_none() {
+    let on_face = |load: &&Arc<dyn SceneLoad>| matches!(load.target(), Target::Face(_));
+    let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
+    if stated.is_empty() && made.is_none() {
         return None;
     }
     let mut forcing = None;
@@ -60,33 +64,36 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
                 forcing.at(t, values, |force| force[0]);
             }
         }
-        if stated {
-            add_stated(&scene, t, places, values);
-        }
+        add_stated(&stated, t, places, values);
     }))
 }
 
-/// Adds what the scene states (m/s2) at each place; gravity, the same everywhere, is computed once.
-fn add_stated(scene: &Scene, t: f64, places: &[f64], values: &mut [f64]) {
-    let gravity = scene.gravity.as_ref().map_or(0.0, |b| b[0].eval(&[t]));
-    let body = (&scene.from[..], &scene.to[..]);
-    for (value, x) in values.iter_mut().zip(places) {
-        let on = |set: &Region| set.force_density(0, &[*x], t, body) / scene.density;
-        let sets: f64 = scene.sets.iter().map(on).sum();
-        let declared = scene.body_force.as_ref().map_or(0.0, |b| b[0].eval(&[*x, t]));
-        *value += declared + gravity + sets;
+/// Adds the stated forces (m/s2) at each place; those that are uniform are computed once.
+fn add_stated(loads: &[Arc<dyn SceneLoad>], t: f64, places: &[f64], values: &mut [f64]) {
+    for load in loads.iter().filter(|load| load.is_uniform()) {
+        let everywhere = load.stated(0, &[], t);
+        values.iter_mut().for_each(|value| *value += everywhere);
+    }
+    for load in loads.iter().filter(|load| !load.is_uniform()) {
+        for (value, x) in values.iter_mut().zip(places) {
+            *value += load.stated(0, &[*x], t);
+        }
     }
 }
 
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
-fn end_traction((face, x): (&SceneFace, f64)) -> Option<fem::History> {
-    let outwards = if face.high { 1.0 } else { -1.0 };
-    // In uniaxial strain a face keeps its area, so a pressure is a traction.
-    if let Some(pressure) = face.pressure.clone() {
-        return Some(Box::new(move |t| -pressure.eval(&[x, t])));
+fn end_traction(scene: &Scene, end: usize) -> Option<fem::History> {
+    let x = if end == 0 { scene.from[0] } else { scene.to[0] };
+    match scene.loads_on(Target::Face(end)).find_map(|load| load.condition())? {
+        // In uniaxial strain a face keeps its area, so a pressure is a traction.
+        Condition::Pressure(value) => Some(Box::new(move |t| -value.eval(&[x, t]))),
+        Condition::Traction(value) => {
+            let outwards = if end == 0 { -1.0 } else { 1.0 };
+            let formula = value.into_iter().next()?;
+            Some(Box::new(move |t| outwards * formula.eval(&[x, t])))
+        }
+        _ => None,
     }
-    let formula = face.traction.as_ref()?.first()?.clone();
-    Some(Box::new(move |t| outwards * formula.eval(&[x, t])))
 }
 
 /// P(F) (Pa) of a bar in uniaxial strain.

@@ -6,4 +6,3 @@ pub(crate) mod dispatch;
 pub(crate) mod initial_state;
 pub(crate) mod seeding;
 pub(crate) mod setup;
-pub(crate) mod thermal;

@@ -1,34 +1,25 @@
 //! From the model to what the solver of one body is made of, in any number of dimensions.
 
 use super::{
-    conditions::{boundary, of_place_and_time, of_time, on_sets, periodic},
+    conditions::{boundary, periodic},
     initial_state::Initial,
-    seeding, thermal,
+    seeding,
 };
 use crate::{
-    exact::{
-        Forcing, Problem,
-        formula::{Formula, Hoisted},
-        heat::Conduction,
-    },
+    exact::{Forcing, Problem, heat::Conduction},
     mpm::{
-        BasisName, BodyForce, Damping, Effect, Gravity, Grid, HeatSolver, Kernel, LocalDamping,
-        Particles, Setup, Vector, kernel,
+        BasisName, BodyForce, Effect, Grid, HeatSolver, Kernel, Particles, Setup, Vector, kernel,
     },
-    suite::{
-        compile::load::{expansion, surface, viscosity},
-        model::{
-            ConvergencePlan, Scene,
-            grid_size::{cell_size, grid_axis, per_axis},
-            method::Method,
-            refine_plan::LevelPlan,
-            stability::LatticeEdits,
-        },
+    suite::model::{
+        ConvergencePlan, Scene,
+        grid_size::{cell_size, grid_axis, per_axis},
+        load::{self, BodySite, SceneLoad, Target},
+        method::Method,
+        refine_plan::LevelPlan,
+        stability::LatticeEdits,
     },
 };
-
-/// Longest formula that is taken apart for its places, with its sums written out.
-const MOST_OPERATIONS: u64 = 5000;
+use std::sync::Arc;
 
 /// What a body is at the start.
 pub(crate) struct Body<'a> {
@@ -85,15 +76,7 @@ pub(crate) fn setup<const D: usize>(
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
-    let mut effects = effects(body.own, &particles, h);
-    if let Some(heat) = thermal::heat((body.own, body.heat), (&grid, basis), &mut particles) {
-        effects.push(Box::new(heat));
-    }
-    if let Some(expansion) = expansion::effect(body.own) {
-        effects.push(Box::new(expansion));
-    }
-    effects.extend(body.manufactured.map(|made| manufactured_force(made, &particles)));
-    effects.extend(on_sets(scene, &particles)?);
+    let effects = effects(body, (&grid, basis), &mut particles)?;
     Ok(Setup {
         kernel,
         transfer: transfer.build(),
@@ -121,8 +104,9 @@ pub(crate) fn conductor<const D: usize>(
     let kernel = with(kernel::<D>(basis));
     let grid = grid(&plan.scene, h, kernel.as_ref());
     let mut particles = seeding::particles(&plan.scene, &grid.origin, h, per_axis);
-    let heat = thermal::heat((&plan.scene, plan.heat_problem()), (&grid, basis), &mut particles);
-    let effects = heat.map(|heat| Box::new(heat) as Box<dyn Effect<D>>).into_iter().collect();
+    let site =
+        BodySite { grid: &grid, basis, heat: plan.heat_problem(), particles: &mut particles };
+    let effects = built(&plan.scene.loads, site)?;
     HeatSolver::new(kernel, grid, particles, effects).map_err(|failure| failure.to_string())
 }
 
@@ -140,30 +124,6 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
-/// A force that the suite states. The formula of a force may be too long to be taken apart.
-fn stated_force<const D: usize>(formulas: &[Formula]) -> BodyForce<D> {
-    if formulas.iter().any(|formula| formula.operations() > MOST_OPERATIONS) {
-        return BodyForce::pointwise(of_place_and_time(formulas));
-    }
-    let formulas = formulas.to_vec();
-    let mut places = None;
-    BodyForce::new(Box::new(move |t, labels: &[Vector<D>], b| {
-        let places = places.get_or_insert_with(|| {
-            let mut places = Hoisted::new(&formulas, D + 1);
-            for label in labels {
-                places.add(label.as_slice());
-            }
-            places
-        });
-        places.set_time(t);
-        for (place, b) in b.iter_mut().enumerate() {
-            for (b, value) in b.iter_mut().zip(places.eval(place)) {
-                *b = value;
-            }
-        }
-    }))
-}
-
 /// The grid that the suite asks for, or the body's box with room beyond its free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
@@ -172,27 +132,25 @@ fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D
     kernel.grid(origin, h, cells, std::array::from_fn(|axis| periodic(scene, axis)))
 }
 
+/// The loads of the body as effects; a manufactured force comes before those on sets.
 fn effects<const D: usize>(
-    scene: &Scene,
-    particles: &Particles<D>,
-    h: f64,
-) -> Vec<Box<dyn Effect<D>>> {
-    let mut effects: Vec<Box<dyn Effect<D>>> = Vec::new();
-    if let Some(formulas) = &scene.gravity {
-        effects.push(Box::new(Gravity(of_time(formulas))));
-    }
-    if let Some(formulas) = &scene.body_force {
-        effects.push(Box::new(stated_force(formulas)));
-    }
-    if let Some(rate) = scene.damping.clone() {
-        effects.push(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))));
-    }
-    effects.extend(
-        scene.local_damping.map(|share| -> Box<dyn Effect<D>> { Box::new(LocalDamping(share)) }),
-    );
-    if let Some(effect) = viscosity::on(scene, h) {
-        effects.push(Box::new(effect));
-    }
-    effects.extend(surface::on_faces(scene, particles));
-    effects
+    body: &Body<'_>,
+    (grid, basis): (&Grid<D>, BasisName),
+    particles: &mut Particles<D>,
+) -> Result<Vec<Box<dyn Effect<D>>>, String> {
+    let on_set = |load: &Arc<dyn SceneLoad>| matches!(load.target(), Target::Set(_));
+    let loads = &body.own.loads;
+    let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
+    let site = BodySite { grid, basis, heat: body.heat, particles };
+    let mut effects = built(whole, site)?;
+    effects.extend(body.manufactured.map(|made| manufactured_force(made, particles)));
+    effects.extend(built(sets, BodySite { grid, basis, heat: body.heat, particles })?);
+    Ok(effects)
+}
+
+fn built<const D: usize>(
+    loads: &[Arc<dyn SceneLoad>],
+    mut site: BodySite<'_, D>,
+) -> Result<Vec<Box<dyn Effect<D>>>, String> {
+    loads.iter().map(|load| load::build(load, &mut site)).collect()
 }

@@ -1,13 +1,15 @@
 //! What a step of a case takes, with all that its scene lists and without one effect of it.
 
 use crate::{
-    mpm::EffectName,
     study::build::dispatch,
     subject::Profile,
-    suite::model::{Case, ConvergencePlan, Scene},
+    suite::{
+        EffectName,
+        model::{Case, ConvergencePlan, Scene},
+    },
 };
 
-/// What a scene may do without.
+/// A part that a scene may do without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dispensable {
     /// An effect.
@@ -46,29 +48,15 @@ pub(crate) fn lacking(plan: &ConvergencePlan, without: Dispensable) -> Convergen
     if let (EffectName::BodyForce, Some(problem)) = (effect, &mut plan.exact) {
         problem.manufactured = false;
     }
-    plan.scene.remove(effect);
+    remove(&mut plan.scene, effect);
     plan
 }
 
-impl Scene {
-    /// Takes an effect out of the scene, if it is there.
-    fn remove(&mut self, effect: EffectName) {
-        self.bodies.iter_mut().for_each(|body| body.remove(effect));
-        match effect {
-            EffectName::Gravity => self.gravity = None,
-            // What needs heat goes with it.
-            EffectName::Heat => (self.heat, self.expansion) = (None, None),
-            EffectName::ThermalExpansion => self.expansion = None,
-            EffectName::BodyForce => self.body_force = None,
-            EffectName::Damping => self.damping = None,
-            EffectName::LocalDamping => self.local_damping = None,
-            EffectName::ArtificialViscosity => self.viscosity = None,
-            EffectName::Traction => self.faces.iter_mut().for_each(|face| face.traction = None),
-            EffectName::Pressure => self.faces.iter_mut().for_each(|face| face.pressure = None),
-            EffectName::SetForce => self.sets.iter_mut().for_each(|set| set.force = None),
-            EffectName::PrescribedVelocity => {
-                self.sets.iter_mut().for_each(|set| set.velocity = None)
-            }
-        }
-    }
+/// Takes an effect out of a scene, with those that need it.
+fn remove(scene: &mut Scene, effect: EffectName) {
+    let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
+    let gone: Vec<&str> =
+        EffectName::ALL.iter().filter(|other| goes(other)).map(|other| other.name()).collect();
+    scene.loads.retain(|load| !gone.contains(&load.name()));
+    scene.bodies.iter_mut().for_each(|body| remove(body, effect));
 }

@@ -1,12 +1,10 @@
 //! What a suite computes, in rows of name and value, for reports and `explain`.
 
-use super::heat;
 use crate::{
-    exact::formula::Formula,
     mpm::{MaterialPlan, Parameter},
     suite::{
-        compile::{load::surface, wording::shown},
-        model::{Scene, Suite, boundary::BoundaryCondition},
+        compile::load::fields::sources,
+        model::{BoundaryCondition, Scene, Suite, load::Target},
     },
 };
 
@@ -84,51 +82,33 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     if one {
         push(rows, "material", &material(&scene.material));
     }
-    for face in &scene.faces {
-        let state = match (surface::described(face), &face.hold) {
-            (Some(load), _) => load,
-            (None, BoundaryCondition::Velocity(value)) => {
-                format!("velocity {} m/s", sources(value))
-            }
-            (None, BoundaryCondition::Friction(coefficient)) => {
-                format!("wall that does not pull, coefficient of friction {coefficient}")
-            }
-            (None, BoundaryCondition::Free) => "free".to_owned(),
-            (None, BoundaryCondition::Fixed) => "fixed".to_owned(),
-            (None, BoundaryCondition::Roller) => "roller".to_owned(),
-            (None, BoundaryCondition::Periodic) => "periodic".to_owned(),
-            (None, BoundaryCondition::AtRest) => String::new(),
-        };
-        push(rows, face.name, &state);
+    for (number, face) in scene.faces.iter().enumerate() {
+        rows.extend(scene.loads_on(Target::Face(number)).flat_map(|load| load.rows()));
+        let is_loaded = scene.loads_on(Target::Face(number)).next().is_some();
+        push(rows, face.name, &if is_loaded { String::new() } else { held(&face.hold) });
     }
-    for set in &scene.sets {
-        let (from, to) = (corner(&set.from), corner(&set.to));
-        let force = set.force.iter().map(|value| format!("force {} N in all", sources(value)));
-        let speed = set.velocity.iter().map(|value| format!("velocity {} m/s", sources(value)));
-        let what: Vec<String> = force.chain(speed).collect();
-        let text = format!("({from}) to ({to}) m, {}", what.join(", "));
-        push(rows, &format!("set {}", set.name), &text);
-    }
-    if let Some(gravity) = &scene.gravity {
-        push(rows, "gravity", &format!("{} m/s2", sources(gravity)));
-    }
-    if let Some(force) = &scene.body_force {
-        push(rows, "body force", &format!("{} m/s2", sources(force)));
-    }
-    if let Some(damping) = &scene.damping {
-        push(rows, "damping", &format!("{} 1/s", damping.source()));
-    }
-    if let Some([linear, quadratic]) = scene.viscosity {
-        push(rows, "viscosity", &format!("artificial, linear {linear}, quadratic {quadratic}"));
-    }
-    if let Some(share) = scene.local_damping {
-        push(rows, "local damping", &format!("{} of the force out of balance", shown(share)));
-    }
-    rows.extend(scene.heat.iter().flat_map(heat::scene));
-    rows.extend(scene.expansion.iter().map(heat::expansion));
+    let (on_body, on_parts): (Vec<_>, Vec<_>) =
+        scene.loads.iter().partition(|load| load.target() == Target::Body);
+    let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), Target::Set(_)));
+    rows.extend(on_sets.chain(on_body).flat_map(|load| load.rows()));
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
     if one {
         push(rows, "initial velocity", &sources(&scene.initial_velocity));
+    }
+}
+
+/// The condition on a face that carries no load.
+fn held(condition: &BoundaryCondition) -> String {
+    match condition {
+        BoundaryCondition::Velocity(value) => format!("velocity {} m/s", sources(value)),
+        BoundaryCondition::Friction(coefficient) => {
+            format!("wall that does not pull, coefficient of friction {coefficient}")
+        }
+        BoundaryCondition::Free => "free".to_owned(),
+        BoundaryCondition::Fixed => "fixed".to_owned(),
+        BoundaryCondition::Roller => "roller".to_owned(),
+        BoundaryCondition::Periodic => "periodic".to_owned(),
+        BoundaryCondition::AtRest => String::new(),
     }
 }
 
@@ -139,8 +119,4 @@ fn material(plan: &MaterialPlan) -> String {
     };
     let parameters: String = plan.parameters().into_iter().map(written).collect();
     plan.name().replace('_', " ") + &parameters
-}
-
-fn sources(formulas: &[Formula]) -> String {
-    formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }

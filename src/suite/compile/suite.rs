@@ -4,7 +4,7 @@ use super::{
     check::{fem_support, size, subject_support},
     evaluator::{Evaluator, Parameter},
     internal_force,
-    load::{damping, viscosity},
+    load::{LoadEntry, StudyFacts},
     path::Path,
     run::{cases, refine, steps},
     scene::{rest, scene},
@@ -70,8 +70,7 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     let reference = reference.transpose()?.flatten();
     let same_method_dt = steps::same_method(&evaluator, &words, &refine, &until, instants)?;
     law::check(&evaluator, &words, &scene)?;
-    viscosity::check(&evaluator, &words, &scene)?;
-    damping::check(&evaluator, &words, &scene, latest)?;
+    loads(&evaluator, &words, &scene, latest)?;
     if exact.is_none() && conduction.is_none() && reference.is_none() {
         conservation_only::check(&evaluator, &words)?;
     }
@@ -101,6 +100,24 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     evaluator.refuse_unused(&words.parameters, &words.functions)?;
     let head = [words.suite, words.title, words.source, words.about];
     Ok(assemble(head, parameters, &words.functions, plan))
+}
+
+/// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.
+fn loads(
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
+    scene: &Scene,
+    until: f64,
+) -> Result<(), Diagnostic> {
+    let study = StudyFacts { manufactured: words.manufactured.is_some(), until };
+    for (i, load) in words.scene.loads.iter().enumerate() {
+        let path = Path::top("scene").then("loads").then(i).then(load.effect().name());
+        load.words().check(&LoadEntry { evaluator, path, scene }, &study)?;
+        if let Some(lacked) = load.words().lacked_by_fem() {
+            subject_support::fem_lacks(evaluator, words, lacked)?;
+        }
+    }
+    Ok(())
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {

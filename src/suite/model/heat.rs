@@ -1,6 +1,6 @@
 //! Conduction of heat in a scene.
 
-use crate::exact::{formula::Formula, heat::ThermalFace};
+use crate::exact::{formula::Formula, heat::HeatFace};
 
 /// Conduction of heat, with every number computed.
 #[derive(Debug, Clone)]
@@ -14,5 +14,5 @@ pub struct SceneHeat {
     /// Initial temperature (K), a formula of the coordinates and t; not stated, that of the truth.
     pub initial: Option<Formula>,
     /// Every face of the body.
-    pub faces: Vec<ThermalFace>,
+    pub faces: Vec<HeatFace>,
 }

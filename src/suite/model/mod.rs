@@ -6,22 +6,22 @@ pub(crate) mod grid_size;
 pub(crate) mod heat;
 pub(crate) mod internal_force;
 pub(crate) mod lattice;
+pub(crate) mod load;
 pub(crate) mod method;
 pub(crate) mod refine_plan;
+pub(crate) mod scene;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
+pub use boundary::BoundaryCondition;
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
+pub use scene::{Scene, SceneFace};
 
-use self::{
-    boundary::BoundaryCondition, heat::SceneHeat, method::Method, refine_plan::RefinePlan,
-    study_plan::StudyPlan,
-};
+use self::{method::Method, refine_plan::RefinePlan, study_plan::StudyPlan};
 use super::grammar::{CrossingLevels, EquationName, NormName};
 use crate::{
-    exact::{Expansion, Problem, Region, Round, formula::Formula, heat::Conduction},
+    exact::{Problem, formula::Formula, heat::Conduction},
     fem::{Element, Mass},
-    mpm::{MaterialPlan, Placement, Quadrilateral},
     verify::{Expectation, Quantity},
 };
 use std::{any::Any, sync::Arc};
@@ -106,73 +106,6 @@ pub enum Against {
     SameMethod,
     /// None: only what a run keeps is bound.
     Nothing,
-}
-
-/// The body and what acts on it.
-#[derive(Debug, Clone)]
-pub struct Scene {
-    /// Lowest corner of the body, or of the box around it (m); its length is the number of dimensions.
-    pub from: Vec<f64>,
-    /// Highest corner (m).
-    pub to: Vec<f64>,
-    /// The body, if it is round.
-    pub round: Option<Round>,
-    /// The same, if it is a panel with four sides.
-    pub quadrilateral: Option<Quadrilateral>,
-    /// Grid that the suite asks for, lowest and highest corner (m).
-    pub grid: Option<(Vec<f64>, Vec<f64>)>,
-    /// The material, but for its density.
-    pub material: MaterialPlan,
-    /// Reference density (kg/m^D).
-    pub density: f64,
-    /// The 2 D faces of a box: low and high, axis by axis. A round body has none.
-    pub faces: Vec<SceneFace>,
-    /// Sets of particles, each with what acts on it.
-    pub sets: Vec<Region>,
-    /// Uniform acceleration (m/s2), formulas of t.
-    pub gravity: Option<Vec<Formula>>,
-    /// Force per unit mass (m/s2), formulas of the coordinates and t.
-    pub body_force: Option<Vec<Formula>>,
-    /// Rate (1/s) at which velocities decay, a formula of t.
-    pub damping: Option<Formula>,
-    /// Share of the force out of balance that opposes the motion.
-    pub local_damping: Option<f64>,
-    /// Artificial viscosity: coefficients of the linear and of the quadratic term.
-    pub viscosity: Option<[f64; 2]>,
-    /// Several bodies, each a scene of its own with the grid, the faces and the loads of this one;
-    /// empty where there is one. Then this is the box around all of them, with the first one's
-    /// material.
-    pub bodies: Vec<Self>,
-    /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
-    /// field.
-    pub contact: Option<f64>,
-    /// Conduction of heat.
-    pub heat: Option<SceneHeat>,
-    /// What temperature does to the body.
-    pub expansion: Option<Expansion>,
-    /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
-    pub initial_displacement: Vec<Formula>,
-    /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.
-    pub initial_velocity: Vec<Formula>,
-}
-
-/// One face of the body.
-#[derive(Debug, Clone)]
-pub struct SceneFace {
-    /// What suites call it.
-    pub name: &'static str,
-    /// Axis of its normal.
-    pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
-    pub high: bool,
-    /// What holds it.
-    pub hold: BoundaryCondition,
-    /// Traction (Pa, per reference area), formulas of the coordinates and t.
-    pub traction: Option<Vec<Formula>>,
-    /// Pressure (Pa, per present area), a formula of the coordinates and t.
-    pub pressure: Option<Formula>,
-    /// Where such a load is put.
-    pub placement: Placement,
 }
 
 /// A fine FEM computation that serves as truth where no formula is known.

@@ -3,7 +3,7 @@
 use crate::suite::{
     compile::{evaluator::Evaluator, path::Path},
     grammar::ConvergenceSpec,
-    model::{Scene, boundary::BoundaryCondition},
+    model::{BoundaryCondition, Scene},
     yaml::Diagnostic,
 };
 
@@ -34,9 +34,9 @@ pub(crate) fn check(
             return Err(evaluator.diagnostic(&at, &message).with_help(help));
         }
     }
-    if let Some(set) = scene.sets.iter().find(|set| set.velocity.is_some()) {
-        let message = format!("the set `{}` is driven, which the FEM cannot do", set.name);
-        let at = path.then("sets").then(set.name.as_str());
+    if let Some(set) = scene.driven_set() {
+        let message = format!("the set `{set}` is driven, which the FEM cannot do");
+        let at = path.then("sets").then(set);
         return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
     }
     Ok(())

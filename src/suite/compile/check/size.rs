@@ -4,8 +4,7 @@ use crate::suite::{
     compile::{evaluator::Evaluator, path::Path, run::refine::Place, wording::shown},
     grammar::{ConvergenceSpec, MethodSpec},
     model::{
-        ConvergencePlan, Scene,
-        boundary::BoundaryCondition,
+        BoundaryCondition, ConvergencePlan, Scene,
         grid_size::{cell_size, grid_axis, per_axis},
         lattice::is_vacant,
         refine_plan::LevelPlan,

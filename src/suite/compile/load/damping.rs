@@ -1,77 +1,77 @@
-//! Damping, and what it asks of a suite.
+//! Damping in proportion to mass: velocities decay at a rate.
 
+use super::contract::{LoadEntry, LoadWords, StudyFacts};
 use crate::{
-    exact::formula::Formula,
+    exact::{Term, formula::Formula},
+    mpm::{Damping, Effect},
     suite::{
-        compile::{
-            check::subject_support::fem_lacks, evaluator::Evaluator, path::Path, wording::shown,
-        },
-        grammar::{ConvergenceSpec, LoadSpec},
-        model::Scene,
+        compile::wording::shown,
+        model::load::{BodySite, BuildEffect, SceneLoad},
         yaml::{Diagnostic, NumberText},
     },
 };
+use std::sync::Arc;
 
-/// Times of a run at which the rate is looked at.
+/// Times of a run at which the sign of the rate is checked.
 const TIMES: u32 = 1000;
 
-/// Refuses a rate that is negative at some time up to `until` (s), the FEM, which has no damping,
-/// and a manufactured force beside a local damping, which would oppose it too.
-pub(crate) fn check(
-    evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
-    scene: &Scene,
-    until: f64,
-) -> Result<(), Diagnostic> {
-    if scene.local_damping.is_some() && words.manufactured.is_some() {
-        let message = "local damping opposes the whole force, and a part of it is manufactured";
-        let diagnostic = evaluator.diagnostic_at_key(&Path::top("manufactured"), message);
-        return Err(diagnostic.with_help("state the motion under `exact`, or use `damping`"));
-    }
-    if let Some(rate) = &scene.damping {
-        never_negative(evaluator, words, rate, until)?;
-    } else if scene.local_damping.is_none() {
-        return Ok(());
-    }
-    fem_lacks(evaluator, words, "damping")
-}
+/// Rate (1/s) at which velocities decay, a formula of t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(transparent)]
+pub(crate) struct DampingSpec(NumberText);
 
-fn never_negative(
-    evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
-    rate: &Formula,
-    until: f64,
-) -> Result<(), Diagnostic> {
-    let load = words.scene.loads.iter().position(|load| matches!(load, LoadSpec::Damping(_)));
-    let path = Path::top("scene").then("loads").then(load.unwrap_or(0)).then("damping");
-    for k in 0..=TIMES {
-        let t = until * f64::from(k) / f64::from(TIMES);
-        let alpha = rate.eval(&[t]);
-        if !(alpha >= 0.0 && alpha.is_finite()) {
-            let message = format!("the rate of damping is {} at t = {}", shown(alpha), shown(t));
-            let label = "expected zero or a positive number (1/s)";
-            return Err(evaluator.diagnostic(&path, &message).with_label(label));
+impl LoadWords for DampingSpec {
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        entry.refuse_second("damping", "damping")?;
+        Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
+    }
+
+    /// The rate is never negative.
+    fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
+        let LoadEntry { evaluator, path, .. } = entry;
+        let rate = evaluator.formula(path, &self.0, &["t"])?;
+        for k in 0..=TIMES {
+            let t = study.until * f64::from(k) / f64::from(TIMES);
+            let alpha = rate.eval(&[t]);
+            if !(alpha >= 0.0 && alpha.is_finite()) {
+                let message =
+                    format!("the rate of damping is {} at t = {}", shown(alpha), shown(t));
+                let label = "expected zero or a positive number (1/s)";
+                return Err(evaluator.diagnostic(path, &message).with_label(label));
+            }
         }
+        Ok(())
     }
-    Ok(())
+
+    fn lacked_by_fem(&self) -> Option<&'static str> {
+        Some("damping")
+    }
 }
 
-/// Gives the scene a local damping, a share of the force out of balance.
-pub(crate) fn add_local(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: &NumberText,
-    scene: &mut Scene,
-) -> Result<(), Diagnostic> {
-    if scene.local_damping.is_some() {
-        return Err(evaluator.diagnostic(path, "local damping appears twice"));
+/// The rate alpha(t) (1/s).
+#[derive(Debug)]
+struct DampingLoad(Formula);
+
+/// `-alpha u_t`.
+impl Term for DampingLoad {
+    fn resistance(&self, t: f64, velocity: f64, _: &dyn Fn() -> f64) -> f64 {
+        -self.0.eval(&[t]) * velocity
     }
-    let share = evaluator.number(path, text)?;
-    if !(0.0..1.0).contains(&share) {
-        let message = format!("the share of local damping is {}", shown(share));
-        let label = "expected zero or a number below 1";
-        return Err(evaluator.diagnostic(path, &message).with_label(label));
+}
+
+impl SceneLoad for DampingLoad {
+    fn name(&self) -> &'static str {
+        "damping"
     }
-    scene.local_damping = Some(share);
-    Ok(())
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![("damping".to_owned(), format!("{} 1/s", self.0.source()))]
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for DampingLoad {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let rate = self.0.clone();
+        Ok(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))))
+    }
 }

@@ -1,239 +1,144 @@
-//! Conduction of heat in a scene, from words; and the heat problem that a temperature is to solve.
+//! Conduction of heat.
 
+use super::{
+    contract::{LoadEntry, LoadWords},
+    fields::scalar,
+    thermal_face::{self, ThermalSpec},
+};
 use crate::{
     exact::{
-        Motion, Round,
-        heat::{Conduction, Temperature, ThermalCondition, ThermalFace},
+        Round, Term,
+        formula::Formula,
+        heat::{Conduction, HeatForcing, Temperature, Warmth},
     },
-    mpm::{FrameName, TransferKind},
+    mpm::{Effect, Heat, HeatSource, Particles, Vector},
     suite::{
-        compile::{
-            coordinates::coordinates_and_time, evaluator::Evaluator, path::Path,
-            scene::boundary::face,
+        model::{
+            heat::SceneHeat,
+            load::{BodySite, BuildEffect, SceneLoad},
         },
-        grammar::{ConvergenceSpec, HeatSpec, MethodSpec, ThermalSpec},
-        model::{Scene, SceneFace, boundary::BoundaryCondition, heat::SceneHeat},
-        yaml::{Diagnostic, NumberText, OneOrMany},
+        yaml::{Diagnostic, NumberText, Ordered},
     },
 };
+use std::sync::Arc;
 
-/// The conduction that `words` at `path` give to a scene.
-pub(crate) fn heat(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    words: &HeatSpec,
-    scene: &Scene,
-) -> Result<SceneHeat, Diagnostic> {
-    let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");
-    if let Some(kind) = scene.round.as_ref().map(Round::name).or(panel) {
-        let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
-        return Err(evaluator.diagnostic_at_key(path, &message));
+/// Conduction of heat, and the conditions on the faces.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HeatSpec {
+    conductivity: NumberText,
+    capacity: NumberText,
+    /// Source (W/kg), a formula of the coordinates and t.
+    source: Option<NumberText>,
+    /// Initial temperature (K), a formula of the coordinates.
+    initial: Option<NumberText>,
+    #[serde(default)]
+    boundary: Ordered<ThermalSpec>,
+}
+
+impl LoadWords for HeatSpec {
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        let LoadEntry { evaluator, path, scene } = entry;
+        let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");
+        if let Some(kind) = scene.round.as_ref().map(Round::name).or(panel) {
+            let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
+            return Err(evaluator.diagnostic_at_key(path, &message));
+        }
+        if scene.heat().is_some() {
+            return Err(evaluator.diagnostic_at_key(path, "heat appears twice"));
+        }
+        let formula = |key: &str, text: &Option<NumberText>| {
+            text.as_ref().map(|text| entry.scalar(&path.then(key), text)).transpose()
+        };
+        let number =
+            |key: &str, text: &NumberText, what| evaluator.positive(&path.then(key), text, what);
+        Ok(Arc::new(SceneHeat {
+            conductivity: number("conductivity", &self.conductivity, "the conductivity")?,
+            capacity: number("capacity", &self.capacity, "the heat capacity")?,
+            source: formula("source", &self.source)?,
+            initial: formula("initial", &self.initial)?,
+            faces: thermal_face::faces(entry, &self.boundary)?,
+        }))
     }
-    if scene.heat.is_some() {
-        return Err(evaluator.diagnostic_at_key(path, "heat appears twice"));
+
+    fn is_of_one_body(&self) -> bool {
+        true
     }
-    let variables = coordinates_and_time(scene.dimension());
-    let formula = |key: &str, text: &Option<NumberText>| {
-        text.as_ref().map(|text| evaluator.formula(&path.then(key), text, &variables)).transpose()
-    };
-    let number =
-        |key: &str, text: &NumberText, what| evaluator.positive(&path.then(key), text, what);
-    Ok(SceneHeat {
-        conductivity: number("conductivity", &words.conductivity, "the conductivity")?,
-        capacity: number("capacity", &words.capacity, "the heat capacity")?,
-        source: formula("source", &words.source)?,
-        initial: formula("initial", &words.initial)?,
-        faces: faces(evaluator, &path.then("boundary"), words, scene)?,
+
+    fn acts_at_rest(&self) -> bool {
+        true
+    }
+}
+
+/// No force.
+impl Term for SceneHeat {}
+
+impl SceneLoad for SceneHeat {
+    fn name(&self) -> &'static str {
+        "heat"
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        let (k, c) = (self.conductivity, self.capacity);
+        let mut texts = vec![format!("conductivity {k} W/(m K), capacity {c} J/(kg K)")];
+        texts.extend(self.source.iter().map(|source| format!("source {} W/kg", source.source())));
+        texts.extend(self.initial.iter().map(|initial| format!("from {} K on", initial.source())));
+        let faces = self.faces.iter().filter_map(|face| {
+            Some((format!("heat {}", face.name), thermal_face::described(&face.condition)?))
+        });
+        [("heat".to_owned(), texts.join(", "))].into_iter().chain(faces).collect()
+    }
+
+    fn heat(&self) -> Option<&SceneHeat> {
+        Some(self)
+    }
+
+    fn disturbs_rest(&self) -> bool {
+        false
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for SceneHeat {
+    /// The particles get their temperature here.
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let start = initial::<D>(site.heat, self.initial.as_ref());
+        let heat = Heat::new((self.conductivity, self.capacity), site.particles, |x0| {
+            let Warmth { value, grad, .. } = start(x0.as_slice());
+            (value, Vector::from_fn(|axis, _| grad[axis]))
+        });
+        let heat = heat.with_faces(thermal_face::build(&self.faces, site));
+        let made = site.heat.filter(|problem| problem.manufactured);
+        let source = match (made, &self.source) {
+            (Some(made), _) => manufactured(made, site.particles),
+            (None, Some(formula)) => stated(formula),
+            (None, None) => return Ok(Box::new(heat)),
+        };
+        Ok(Box::new(heat.with_source(source)))
+    }
+}
+
+/// The temperature at the start: what the scene states, or else that of the truth.
+fn initial<const D: usize>(
+    problem: Option<&Conduction>,
+    stated: Option<&Formula>,
+) -> impl Fn(&[f64]) -> Warmth + use<D> {
+    let stated = stated.map(|formula| Temperature::new(formula.clone(), D));
+    let field = stated.or_else(|| Some(problem?.temperature.clone()));
+    move |label| field.as_ref().map_or_else(Warmth::default, |field| field.derivatives(label, 0.0))
+}
+
+/// The source as the scene states it.
+fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
+    let source = scalar(formula);
+    Box::new(move |t, labels, into| {
+        for (into, label) in into.iter_mut().zip(labels) {
+            *into = source(label, t);
+        }
     })
 }
 
-fn faces(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    words: &HeatSpec,
-    scene: &Scene,
-) -> Result<Vec<ThermalFace>, Diagnostic> {
-    let ends = |face: &SceneFace| ThermalFace {
-        name: face.name,
-        axis: face.axis,
-        high: face.high,
-        condition: match face.hold {
-            BoundaryCondition::Periodic => ThermalCondition::Periodic,
-            _ => ThermalCondition::Insulated,
-        },
-    };
-    let mut faces: Vec<ThermalFace> = scene.faces.iter().map(ends).collect();
-    for (name, words) in words.boundary.as_slice() {
-        let at = path.then(name.as_str());
-        let i = face(evaluator, &at, name, scene.dimension(), true)?;
-        on_grid(evaluator, &at, words, &scene.faces[i])?;
-        faces[i].condition = condition(evaluator, &at, words, scene.dimension())?;
-    }
-    Ok(faces)
-}
-
-/// Temperatures are held, and heat enters, at the nodes of the grid's face: the body must end there,
-/// and stay.
-fn on_grid(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    words: &ThermalSpec,
-    face: &SceneFace,
-) -> Result<(), Diagnostic> {
-    let (name, verb) = (face.name, face.hold.verb());
-    if matches!(face.hold, BoundaryCondition::Periodic) {
-        let message = format!("the {name} face {verb}, and has no temperature of its own");
-        return Err(evaluator.diagnostic_at_key(path, &message));
-    }
-    let stays = matches!(
-        face.hold,
-        BoundaryCondition::Fixed | BoundaryCondition::Roller | BoundaryCondition::AtRest
-    );
-    if stays || matches!(words, ThermalSpec::Insulated) {
-        return Ok(());
-    }
-    let message = format!("the {name} face {verb}, and heat enters at the face of the grid");
-    let diagnostic = evaluator.diagnostic_at_key(path, &message);
-    Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
-}
-
-fn condition(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    words: &ThermalSpec,
-    dimension: usize,
-) -> Result<ThermalCondition, Diagnostic> {
-    let variables = coordinates_and_time(dimension);
-    let formula = |path: &Path, text| evaluator.formula(path, text, &variables);
-    Ok(match words {
-        ThermalSpec::Insulated => ThermalCondition::Insulated,
-        ThermalSpec::Temperature(text) => {
-            ThermalCondition::Temperature(formula(&path.then("temperature"), text)?)
-        }
-        ThermalSpec::Flux(text) => ThermalCondition::Flux(formula(&path.then("flux"), text)?),
-        ThermalSpec::Convection { coefficient, ambient } => {
-            let path = path.then("convection");
-            let at = path.then("coefficient");
-            let coefficient =
-                evaluator.positive(&at, coefficient, "the coefficient of convection")?;
-            let ambient = formula(&path.then("ambient"), ambient)?;
-            ThermalCondition::Convection { coefficient, ambient }
-        }
-    })
-}
-
-/// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
-/// none where neither is there.
-pub(crate) fn problem(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    temperature: Option<&NumberText>,
-    scene: &Scene,
-    rest: Rest,
-) -> Result<Option<Conduction>, Diagnostic> {
-    let path = path.then("temperature");
-    let (heat, text) = match (&scene.heat, temperature) {
-        (Some(heat), Some(text)) => (heat, text),
-        (None, None) => return Ok(None),
-        (None, Some(_)) => {
-            let diagnostic =
-                evaluator.diagnostic_at_key(&path, "a temperature, and the scene has no heat");
-            return Err(diagnostic.with_help("add `heat` to `loads`"));
-        }
-        (Some(_), None) => {
-            let at = Path::top("scene").then("loads");
-            let diagnostic =
-                evaluator.diagnostic_at_key(&at, "heat flows, and no temperature is stated");
-            return Err(diagnostic.with_help("state `temperature` under `exact` or `manufactured`"));
-        }
-    };
-    let dimension = scene.dimension();
-    let formula = evaluator.formula(&path, text, &coordinates_and_time(dimension))?;
-    let Rest { motion, manufactured, until, tolerance } = rest;
-    if manufactured && heat.source.is_some() {
-        let message = "the source follows from the temperature, and the scene states one besides";
-        let help = "remove the `source`, or state the temperature under `exact` to have it checked";
-        return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
-    }
-    Ok(Some(Conduction {
-        from: scene.from.clone(),
-        to: scene.to.clone(),
-        density: scene.density,
-        conductivity: heat.conductivity,
-        capacity: heat.capacity,
-        source: heat.source.clone(),
-        initial: heat.initial.clone(),
-        faces: heat.faces.clone(),
-        temperature: Temperature::new(formula, dimension),
-        motion,
-        manufactured,
-        until,
-        tolerance,
-    }))
-}
-
-/// Refuses methods that know nothing of heat.
-pub(crate) fn methods(
-    evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
-    if scene.heat.is_none() {
-        return Ok(());
-    }
-    if words.reference.is_some() {
-        let message = "a reference knows nothing of heat, which flows in the scene";
-        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), message));
-    }
-    for (i, method) in words.methods.iter().enumerate() {
-        let path = Path::top("methods").then(i);
-        match method {
-            MethodSpec::Heat { .. } => {}
-            MethodSpec::Fem { .. } => {
-                let message = "the reference FEM knows nothing of heat, which flows in the scene";
-                return Err(evaluator.diagnostic(&path, message));
-            }
-            MethodSpec::Mpm { transfer, frame, .. } => {
-                let frames = frame.as_ref().map_or(&[][..], OneOrMany::as_slice);
-                if frames.contains(&FrameName::Total) {
-                    let message = "heat flows in the body as it is now, which a total-Lagrangian \
-                                   grid does not see";
-                    return Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message));
-                }
-                if transfer.as_slice().iter().any(|transfer| transfer.kind() == TransferKind::Cells)
-                {
-                    let message = "heat is summed over particles, and a transfer that integrates \
-                                   over cells has other nodal masses";
-                    return Err(evaluator.diagnostic(&path.then("mpm").then("transfer"), message));
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// What a heat problem takes from the suite besides its scene.
-pub(crate) struct Rest {
-    /// How the body deforms.
-    pub(crate) motion: Option<Motion>,
-    /// Whether the source follows from the temperature.
-    pub(crate) manufactured: bool,
-    /// End of the run (s).
-    pub(crate) until: f64,
-    /// Largest relative residual.
-    pub(crate) tolerance: f64,
-}
-
-/// Holds the temperature that is stated at `path` against its problem.
-pub(crate) fn check(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    problem: &Conduction,
-) -> Result<(), Diagnostic> {
-    problem.check().map_err(|violation| {
-        let diagnostic = evaluator.diagnostic(&path.then("temperature"), &violation.to_string());
-        diagnostic
-            .with_label("this is not a solution of the problem that the scene states")
-            .with_help("correct the formula, or `heat`: numbers, source, boundary, initial state")
-    })
+/// The source that follows from the temperature.
+fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> HeatSource<D> {
+    let mut forcing = HeatForcing::new(made, particles.x0.iter().map(Vector::as_slice));
+    Box::new(move |t, _, into| forcing.at(t, into))
 }

@@ -12,9 +12,7 @@ use crate::{
             wording::shown,
         },
         grammar::{ConvergenceSpec, EquationName, MethodSpec},
-        model::{
-            Against, Case, ConvergencePlan, SceneFace, boundary::BoundaryCondition, method::Method,
-        },
+        model::{Against, BoundaryCondition, Case, ConvergencePlan, SceneFace, method::Method},
         yaml::{Diagnostic, NumberText, OneOrMany},
     },
     verify::Axis,

@@ -7,18 +7,11 @@ use crate::{
     mpm::MaterialSpec,
     suite::{
         compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::{BodySpec, LoadSpec, OneBodySpec, SceneSpec},
-        model::{Scene, boundary::BoundaryCondition},
+        grammar::{BodySpec, OneBodySpec, SceneSpec},
+        model::{BoundaryCondition, Scene},
         yaml::{Diagnostic, NumberText},
     },
 };
-
-impl Scene {
-    /// The bodies: this one, or several.
-    pub fn each(&self) -> &[Self] {
-        if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
-    }
-}
 
 /// Most bodies of a scene.
 const MOST: usize = 100;
@@ -82,10 +75,10 @@ fn refuse_beside(
     }
     for (i, load) in words.loads.iter().enumerate() {
         let name = load.effect().name();
-        let acts = match load {
-            LoadSpec::Traction { .. } | LoadSpec::Pressure { .. } => "acts on a face of",
-            LoadSpec::Heat { .. } | LoadSpec::ThermalExpansion { .. } => "is that of",
-            _ => continue,
+        let acts = match load.words().face() {
+            Some(_) => "acts on a face of",
+            None if load.words().is_of_one_body() => "is that of",
+            None => continue,
         };
         let message = format!("`{name}` {acts} one body, and the scene has several");
         return Err(evaluator.diagnostic_at_key(&path.then("loads").then(i).then(name), &message));

@@ -9,8 +9,8 @@ use crate::{
     mpm::Quadrilateral,
     suite::{
         compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::{AnnulusSpec, BodySpec, BoxSpec, LoadSpec, RoundSpec, SceneSpec},
-        model::{Scene, SceneFace, boundary::BoundaryCondition},
+        grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec},
+        model::{BoundaryCondition, Scene, SceneFace},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -146,13 +146,12 @@ pub(crate) fn rims_are_free(
         evaluator.diagnostic_at_key(&path.then("boundary").then(face.as_str()), &message)
     });
     let loaded = words.loads.iter().enumerate().find_map(|(i, load)| {
-        let (key, on) = match load {
-            LoadSpec::Traction { on, .. } => ("traction", on),
-            LoadSpec::Pressure { on, .. } => ("pressure", on),
-            _ => return None,
-        };
+        let on = load.words().face()?;
         let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
-        Some(evaluator.diagnostic(&path.then("loads").then(i).then(key).then("on"), &message))
+        Some(evaluator.diagnostic(
+            &path.then("loads").then(i).then(load.effect().name()).then("on"),
+            &message,
+        ))
     });
     match held.or(loaded) {
         Some(diagnostic) => {

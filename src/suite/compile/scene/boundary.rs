@@ -1,18 +1,11 @@
 //! Boundary conditions of the faces, from `boundary`.
 
 use crate::suite::{
-    compile::{
-        evaluator::Evaluator,
-        path::Path,
-        wording::{shown, suggestion},
-    },
+    compile::{evaluator::Evaluator, path::Path, scene::face::face, wording::shown},
     grammar::{BoundarySpec, SceneSpec},
-    model::boundary::BoundaryCondition,
+    model::{BoundaryCondition, scene::FACES},
     yaml::{Diagnostic, NumberText},
 };
-
-/// Names of the faces: low and high, axis by axis.
-pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
 
 /// Boundary conditions of the faces, in their order; `variables` are the coordinates and t.
 pub(crate) fn holds(
@@ -73,24 +66,4 @@ fn both_ends(
         }
     }
     Ok(())
-}
-
-/// Number of the face that a suite calls `name`; the name is a key or a value of the file.
-pub(crate) fn face(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    name: &str,
-    dimension: usize,
-    is_key: bool,
-) -> Result<usize, Diagnostic> {
-    let known = &FACES[..2 * dimension];
-    known.iter().position(|face| *face == name).ok_or_else(|| {
-        let message = format!("a body of dimension {dimension} has no face `{name}`");
-        let diagnostic = if is_key {
-            evaluator.diagnostic_at_key(path, &message)
-        } else {
-            evaluator.diagnostic(path, &message)
-        };
-        diagnostic.with_help(&suggestion("faces", name, known))
-    })
 }

@@ -1,14 +1,12 @@
 //! Panels with four straight sides, from words.
 
-use super::{
-    boundary::FACES,
-    lengths::{LONGEST, SHORTEST},
-};
+use super::lengths::{LONGEST, SHORTEST};
 use crate::{
     mpm::{Quadrilateral, Vector},
     suite::{
         compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::{BoundarySpec, ConvergenceSpec, LoadSpec, QuadrilateralSpec, SceneSpec},
+        grammar::{BoundarySpec, ConvergenceSpec, QuadrilateralSpec, SceneSpec},
+        model::scene::FACES,
         yaml::Diagnostic,
     },
 };
@@ -85,13 +83,13 @@ pub(crate) fn faces_are_sides(
         }
     }
     for (i, load) in words.loads.iter().enumerate() {
-        let (key, on) = match load {
-            LoadSpec::Traction { on, .. } => ("traction", on),
-            LoadSpec::Pressure { on, .. } => ("pressure", on),
-            _ => continue,
-        };
+        let Some(on) = load.words().face() else { continue };
         if !is_side(on) {
-            return Err(no_side(&path.then("loads").then(i).then(key).then("on"), on, false));
+            return Err(no_side(
+                &path.then("loads").then(i).then(load.effect().name()).then("on"),
+                on,
+                false,
+            ));
         }
     }
     Ok(())

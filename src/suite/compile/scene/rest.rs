@@ -8,12 +8,15 @@ use crate::{
     suite::{
         compile::{
             evaluator::Evaluator,
-            load::{heat, heat::Rest},
+            load::LoadSpec,
             path::Path,
-            truth::exact,
+            truth::{
+                conduction::{self, Rest},
+                exact,
+            },
         },
-        grammar::{ConvergenceSpec, ExactSpec, LoadSpec, MethodSpec, SceneSpec},
-        model::{Scene, SceneFace, boundary::BoundaryCondition},
+        grammar::{ConvergenceSpec, ExactSpec, MethodSpec, SceneSpec},
+        model::{BoundaryCondition, Scene, SceneFace},
         yaml::Diagnostic,
     },
 };
@@ -49,7 +52,7 @@ pub(crate) fn settle(
             return idle(&path.then(key), &format!("`{key}` of a body that does not move"));
         }
     }
-    let moves = |load: &LoadSpec| !matches!(load, LoadSpec::Heat(_));
+    let moves = |load: &LoadSpec| !load.words().acts_at_rest();
     match words.loads.iter().position(moves) {
         Some(i) => idle(&path.then("loads").then(i), "a load on a body that does not move"),
         None => Ok(()),
@@ -64,7 +67,7 @@ pub(crate) fn conduction(
     until: f64,
 ) -> Result<Option<Conduction>, Diagnostic> {
     methods(evaluator, words, scene)?;
-    heat::methods(evaluator, words, scene)?;
+    conduction::methods(evaluator, words, scene)?;
     if !scene.is_at_rest() {
         return Ok(None);
     }
@@ -83,13 +86,13 @@ pub(crate) fn conduction(
     let path = Path::top(path);
     let tolerance = exact::tolerance(evaluator, &path, tolerance)?;
     let rest = Rest { motion: None, manufactured, until, tolerance };
-    let problem = heat::problem(evaluator, &path, temperature, scene, rest)?;
+    let problem = conduction::problem(evaluator, &path, temperature, scene, rest)?;
     let Some(found) = &problem else {
         let at = Path::top("scene").then("material");
         let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");
         return Err(diagnostic.with_help("add `heat` to `loads`, or choose a material"));
     };
-    heat::check(evaluator, &path, found)?;
+    conduction::check(evaluator, &path, found)?;
     Ok(problem)
 }
 

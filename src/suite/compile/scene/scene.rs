@@ -1,22 +1,22 @@
 //! The body and what acts on it, from words.
 
 use super::{
-    bodies, bodies::Listed, body, body::Shape, boundary, boundary::FACES, material::material,
+    bodies, bodies::Listed, body, body::Shape, boundary, material::material,
     quadrilateral::faces_are_sides, rest, sets,
 };
 use crate::{
     exact::{Region, formula::Formula},
-    mpm::{EffectName, MaterialPlan, Placement},
+    mpm::MaterialPlan,
     suite::{
         compile::{
             coordinates::coordinates_and_time,
             evaluator::Evaluator,
-            load::{damping, expansion::expansion, heat::heat, surface, viscosity},
+            load::{EffectName, LoadEntry, LoadSpec},
             path::Path,
             wording::shown,
         },
-        grammar::{LoadSpec, SceneSpec, SetSpec},
-        model::{Scene, SceneFace},
+        grammar::{SceneSpec, SetSpec},
+        model::{Scene, SceneFace, scene::FACES},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -29,7 +29,7 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, words: &SceneSpec) -> Result<Scen
     let each = listed.iter().map(|listed| body(evaluator, listed, words));
     let each = each.collect::<Result<Vec<Scene>, _>>()?;
     let scene = bodies::together(evaluator, &path, each, words.bodies.is_some(), contact)?;
-    sets::refuse_idle(evaluator, &path, &scene.sets)?;
+    sets::refuse_idle(evaluator, &path, &scene)?;
     body::on_grid(evaluator, &path, &scene)?;
     for round in scene.each().iter().filter_map(|body| body.round.as_ref()) {
         body::fits(evaluator, &path, round, scene.grid.as_ref())?;
@@ -82,24 +82,17 @@ fn body(
         round,
         quadrilateral,
         sets,
-        gravity: None,
-        body_force: None,
-        damping: None,
-        local_damping: None,
-        viscosity: None,
-        heat: None,
-        expansion: None,
+        loads: Vec::new(),
         initial_velocity: initial_velocity(evaluator, own, dimension)?,
         bodies: Vec::new(),
         contact: None,
     };
-    combined(evaluator, &path.then("loads"), &words.loads)?;
+    let loads = path.then("loads");
+    combined(evaluator, &loads, &words.loads)?;
     if scene.is_at_rest() {
         rest::settle(evaluator, &path, words, &mut scene.faces)?;
     }
-    for (i, load) in words.loads.iter().enumerate() {
-        add_load(evaluator, &path.then("loads").then(i), load, &mut scene)?;
-    }
+    add_loads(evaluator, &loads, &words.loads, &mut scene)?;
     Ok(scene)
 }
 
@@ -125,15 +118,7 @@ fn faces(
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Diagnostic> {
     let holds = boundary::holds(evaluator, path, words, &coordinates_and_time(dimension))?;
-    let build = |(i, hold)| SceneFace {
-        name: FACES[i],
-        axis: i / 2,
-        high: i % 2 == 1,
-        hold,
-        traction: None,
-        pressure: None,
-        placement: Placement::default(),
-    };
+    let build = |(i, hold)| SceneFace { name: FACES[i], axis: i / 2, high: i % 2 == 1, hold };
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
@@ -149,7 +134,7 @@ fn declared_sets(
         sets::refuse_face_name(evaluator, &at, name)?;
         let at = at.then("box");
         let (from, to) = body::corners(evaluator, &at, words, corners.0.len())?;
-        let set = Region { name: name.clone(), from, to, force: None, velocity: None };
+        let set = Region { name: name.clone(), from, to };
         sets::refuse_outside(evaluator, &at, &set, corners)?;
         Ok(set)
     };
@@ -185,71 +170,28 @@ fn initial_velocity(
         .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
 }
 
-/// Effects that need each other or exclude each other.
+/// Adds the loads to a scene that has none, in the order in which solvers apply them.
+fn add_loads(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    words: &[LoadSpec],
+    scene: &mut Scene,
+) -> Result<(), Diagnostic> {
+    for (i, load) in words.iter().enumerate() {
+        let path = path.then(i).then(load.effect().name());
+        let entry = LoadEntry { evaluator, path, scene };
+        let compiled = load.words().compile(&entry)?;
+        scene.loads.push(compiled);
+    }
+    scene.loads.sort_by_key(|load| (load.target(), EffectName::rank(load.name())));
+    Ok(())
+}
+
+/// Refuses effects without those that they need.
 fn combined(evaluator: &Evaluator<'_>, path: &Path, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {
         let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
         evaluator.diagnostic_at_key(&path.then(at).then(effect.name()), &message)
     })
-}
-
-fn add_load(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    load: &LoadSpec,
-    scene: &mut Scene,
-) -> Result<(), Diagnostic> {
-    let d = scene.dimension();
-    match load {
-        LoadSpec::Gravity(texts) => {
-            let path = path.then("gravity");
-            if scene.gravity.is_some() {
-                return Err(evaluator.diagnostic(&path, "gravity appears twice"));
-            }
-            scene.gravity = Some(evaluator.vector(&path, texts, d, &["t"])?);
-        }
-        LoadSpec::Damping(text) => {
-            let path = path.then("damping");
-            if scene.damping.is_some() {
-                return Err(evaluator.diagnostic(&path, "damping appears twice"));
-            }
-            scene.damping = Some(evaluator.formula(&path, text, &["t"])?);
-        }
-        LoadSpec::ArtificialViscosity(words) => {
-            viscosity::add(evaluator, &path.then("artificial_viscosity"), words, scene)?;
-        }
-        LoadSpec::LocalDamping(text) => {
-            damping::add_local(evaluator, &path.then("local_damping"), text, scene)?;
-        }
-        LoadSpec::BodyForce(texts) => {
-            let path = path.then("body_force");
-            if scene.body_force.is_some() {
-                return Err(evaluator.diagnostic(&path, "a body force appears twice"));
-            }
-            scene.body_force = Some(evaluator.vector(&path, texts, d, &coordinates_and_time(d))?);
-        }
-        LoadSpec::Traction { .. } | LoadSpec::Pressure { .. } => {
-            surface::add(evaluator, path, load, &coordinates_and_time(d), scene)?;
-        }
-        LoadSpec::Force { on, value } => {
-            let path = path.then("force");
-            let set = sets::free(evaluator, &path.then("on"), on, &mut scene.sets)?;
-            set.force = Some(evaluator.vector(&path.then("value"), value, d, &["t"])?);
-        }
-        LoadSpec::Heat(words) => {
-            scene.heat = Some(heat(evaluator, &path.then("heat"), words, scene)?);
-        }
-        LoadSpec::ThermalExpansion(words) => {
-            let path = path.then("thermal_expansion");
-            scene.expansion = Some(expansion(evaluator, &path, words, scene)?);
-        }
-        LoadSpec::Velocity { on, value } => {
-            let path = path.then("velocity");
-            let set = sets::free(evaluator, &path.then("on"), on, &mut scene.sets)?;
-            let variables = coordinates_and_time(d);
-            set.velocity = Some(evaluator.vector(&path.then("value"), value, d, &variables)?);
-        }
-    }
-    Ok(())
 }

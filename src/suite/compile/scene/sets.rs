@@ -1,6 +1,5 @@
 //! Sets of particles, and what acts on them.
 
-use super::boundary::FACES;
 use crate::{
     exact::Region,
     suite::{
@@ -8,6 +7,10 @@ use crate::{
             evaluator::Evaluator,
             path::Path,
             wording::{shown, suggestion},
+        },
+        model::{
+            load::Target,
+            scene::{FACES, Scene},
         },
         yaml::Diagnostic,
     },
@@ -63,39 +66,32 @@ pub(crate) fn refuse_surface_load(
     Err(evaluator.diagnostic(path, &message).with_help(&help))
 }
 
-/// The set that a suite calls `name`, on which nothing acts yet.
-pub(crate) fn free<'s>(
+/// Number of the set that a suite calls `name`.
+pub(crate) fn number(
     evaluator: &Evaluator<'_>,
     path: &Path,
     name: &str,
-    sets: &'s mut [Region],
-) -> Result<&'s mut Region, Diagnostic> {
-    let known: Vec<String> = sets.iter().map(|set| set.name.clone()).collect();
-    let Some(set) = sets.iter_mut().find(|set| set.name == name) else {
+    sets: &[Region],
+) -> Result<usize, Diagnostic> {
+    sets.iter().position(|set| set.name == name).ok_or_else(|| {
         let diagnostic = evaluator.diagnostic(path, &format!("there is no set `{name}`"));
-        let known: Vec<&str> = known.iter().map(String::as_str).collect();
-        return Err(diagnostic.with_help(&match known[..] {
+        let known: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
+        diagnostic.with_help(&match known[..] {
             [] => format!("declare it: `sets: {{{name}: {{box: {{from: [...], to: [...]}}}}}}`"),
             _ => suggestion("sets", name, &known),
-        }));
-    };
-    let has = match (&set.force, &set.velocity) {
-        (None, None) => return Ok(set),
-        (Some(_), _) => "force",
-        (None, Some(_)) => "velocity",
-    };
-    Err(evaluator.diagnostic(path, &format!("the set `{name}` has a {has} already")))
+        })
+    })
 }
 
 /// A set that nothing acts on is a slip of the pen.
 pub(crate) fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    sets: &[Region],
+    scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    let idle = |set: &&Region| set.force.is_none() && set.velocity.is_none();
-    let Some(set) = sets.iter().find(idle) else { return Ok(()) };
-    let name = &set.name;
+    let idle = |i: &usize| scene.loads_on(Target::Set(*i)).next().is_none();
+    let Some(i) = (0..scene.sets.len()).find(idle) else { return Ok(()) };
+    let name = &scene.sets[i].name;
     let path = path.then("sets").then(name.as_str());
     let diagnostic = evaluator.diagnostic_at_key(&path, &format!("the set `{name}` is never used"));
     Err(diagnostic.with_help("remove it, or let a load act on it"))

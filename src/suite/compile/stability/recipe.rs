@@ -12,8 +12,7 @@ use crate::{
         },
         grammar::StabilitySpec,
         model::{
-            Scene,
-            boundary::BoundaryCondition,
+            BoundaryCondition, Scene,
             grid_size::{cell_size, grid_axis, per_axis},
             refine_plan::LevelPlan,
             stability::{LatticeEdits, Recipe},
@@ -192,12 +191,8 @@ fn perturbation(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<f64,
 
 /// A frozen body is one that rests: nothing acts on it.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
-    let loaded = scene.gravity.is_some()
-        || scene.body_force.is_some()
-        || scene.damping.is_some()
-        || scene.faces.iter().any(|face| face.traction.is_some())
-        || !scene.sets.is_empty();
-    let driven = scene.faces.iter().any(|f| matches!(f.hold, BoundaryCondition::Velocity(_)));
+    let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
+    let driven = scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Velocity(_)));
     let moves = scene
         .each()
         .iter()

@@ -6,7 +6,7 @@
 use crate::suite::{
     compile::{coordinates::COORDINATES, evaluator::Evaluator, path::Path},
     grammar::{ConvergenceSpec, ExactSpec, NormName},
-    model::{Scene, boundary::BoundaryCondition},
+    model::{BoundaryCondition, Scene},
     yaml::Diagnostic,
 };
 
@@ -32,7 +32,7 @@ pub(crate) fn refuse(
     if let Some(texts) = &state.displacement {
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
     }
-    if scene.heat.is_some() {
+    if scene.heat().is_some() {
         let message = "a body in which heat flows is not at rest: state a motion under `exact`";
         return Err(evaluator.diagnostic_at_key(&path, message));
     }
@@ -67,9 +67,9 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
             evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)
         );
     }
-    if let Some(set) = scene.sets.iter().find(|set| set.velocity.is_some()) {
-        let message = format!("the set `{}` is driven, and the body comes to rest", set.name);
-        let at = scene_path.then("sets").then(set.name.as_str());
+    if let Some(set) = scene.driven_set() {
+        let message = format!("the set `{set}` is driven, and the body comes to rest");
+        let at = scene_path.then("sets").then(set);
         return Err(evaluator.diagnostic_at_key(&at, &message));
     }
     Ok(())

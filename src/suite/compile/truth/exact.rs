@@ -1,18 +1,18 @@
 //! The exact solution of a suite, checked before it is used.
 
-use super::{equilibrium, interface, law};
+use super::{
+    conduction::{self, Rest},
+    equilibrium, interface, law,
+};
 use crate::{
     exact::{Condition, Equation, Face, Motion, Problem, Violation},
     suite::{
         compile::{
-            coordinates::coordinates_and_time,
-            evaluator::Evaluator,
-            load::{heat, heat::Rest},
-            path::Path,
+            coordinates::coordinates_and_time, evaluator::Evaluator, path::Path,
             scene::quadrilateral::refuse_truth,
         },
         grammar::{ConvergenceSpec, EquationName, ExactSpec},
-        model::{Scene, SceneFace, boundary::BoundaryCondition},
+        model::{BoundaryCondition, Scene, load::Target},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -92,7 +92,7 @@ fn solution(
     let motion = motion(evaluator, path, texts, scene.dimension())?;
     let motion_in_heat = equation.is_finite().then(|| motion.clone());
     let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
-    let heat = heat::problem(evaluator, path, words.temperature.as_ref(), scene, rest)?;
+    let heat = conduction::problem(evaluator, path, words.temperature.as_ref(), scene, rest)?;
     Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
 }
 
@@ -151,7 +151,7 @@ fn manufactured(
             return Err(evaluator.diagnostic_at_key(&at, &message).with_help("remove it"));
         }
     }
-    if scene.body_force.is_some() {
+    if scene.lists("body_force") {
         let message = "the body force follows from the motion, and the scene states one besides";
         let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
                     have the force checked";
@@ -164,7 +164,7 @@ fn manufactured(
     let motion = motion(evaluator, &path, texts, scene.dimension())?;
     let rest =
         Rest { motion: Some(motion.clone()), manufactured: true, until, tolerance: TOLERANCE };
-    let heat = heat::problem(evaluator, &path, made.temperature.as_ref(), scene, rest)?;
+    let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, rest)?;
     let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
     check(evaluator, &path, &problem)?;
     Ok(Some(problem))
@@ -178,16 +178,11 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         round: scene.round.clone(),
         density: scene.density,
         equation,
-        gravity: scene.gravity.clone().unwrap_or_default(),
-        body_force: scene.body_force.clone().unwrap_or_default(),
-        damping: scene.damping.clone(),
-        local_damping: scene.local_damping,
+        terms: scene.terms(),
         heat: None,
-        expansion: scene.expansion,
         at_rest: false,
         manufactured: false,
-        faces: scene.faces.iter().map(|words| face(scene, words)).collect(),
-        regions: scene.sets.clone(),
+        faces: (0..scene.faces.len()).map(|number| face(scene, number)).collect(),
         follows_motion: scene.material.properties().depends_on_deformation_alone().is_ok(),
         initial_displacement: scene.initial_displacement.clone(),
         initial_velocity: scene.initial_velocity.clone(),
@@ -199,7 +194,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
 
 fn check(evaluator: &Evaluator<'_>, path: &Path, problem: &Problem) -> Result<(), Diagnostic> {
     if let Some(problem) = &problem.heat {
-        heat::check(evaluator, path, problem)?;
+        conduction::check(evaluator, path, problem)?;
     }
     problem.check().map_err(|violation| no_solution(evaluator, path, &violation))
 }
@@ -247,16 +242,18 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
-fn face(scene: &Scene, face: &SceneFace) -> Face {
-    let condition = match (&face.hold, &face.traction, &face.pressure) {
-        (BoundaryCondition::Fixed | BoundaryCondition::AtRest, ..) => Condition::Fixed,
-        (BoundaryCondition::Roller, ..) => Condition::Roller,
-        (BoundaryCondition::Friction(coefficient), ..) => Condition::Friction(*coefficient),
-        (BoundaryCondition::Velocity(value), ..) => Condition::Velocity(value.clone()),
-        (BoundaryCondition::Periodic, ..) => Condition::Periodic(scene.period(face.axis)),
-        (BoundaryCondition::Free, Some(value), _) => Condition::Traction(value.clone()),
-        (BoundaryCondition::Free, None, Some(value)) => Condition::Pressure(value.clone()),
-        (BoundaryCondition::Free, None, None) => Condition::Free,
+fn face(scene: &Scene, number: usize) -> Face {
+    let face = &scene.faces[number];
+    let condition = match &face.hold {
+        BoundaryCondition::Fixed | BoundaryCondition::AtRest => Condition::Fixed,
+        BoundaryCondition::Roller => Condition::Roller,
+        BoundaryCondition::Friction(coefficient) => Condition::Friction(*coefficient),
+        BoundaryCondition::Velocity(value) => Condition::Velocity(value.clone()),
+        BoundaryCondition::Periodic => Condition::Periodic(scene.period(face.axis)),
+        BoundaryCondition::Free => {
+            let mut loads = scene.loads_on(Target::Face(number));
+            loads.find_map(|load| load.condition()).unwrap_or(Condition::Free)
+        }
     };
     Face { name: face.name, axis: face.axis, high: face.high, condition }
 }

@@ -1,5 +1,6 @@
 //! The truth: exact solutions, references, and what is conserved.
 
+pub(crate) mod conduction;
 pub(crate) mod conservation_only;
 pub(crate) mod equilibrium;
 pub(crate) mod exact;

@@ -1,0 +1,40 @@
+//! Terms of loads in the equation of motion.
+
+use super::{expansion::Expansion, formula::Formula, region::Region};
+use std::fmt::Debug;
+
+/// The part of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in what the
+/// motion is held to. A load implements the methods that concern it.
+pub trait Term: Debug + Send + Sync {
+    /// Component i of the stated force per unit mass (m/s2) at the place `label` (m) and time `t`.
+    fn stated(&self, _i: usize, _label: &[f64], _t: f64) -> f64 {
+        0.0
+    }
+
+    /// Whether that force is the same at every place; it is then asked for once per time.
+    fn is_uniform(&self) -> bool {
+        false
+    }
+
+    /// Whether the equation is checked as one for the force: a stated b is held against the b that
+    /// the motion needs.
+    fn is_body_force(&self) -> bool {
+        false
+    }
+
+    /// One component of a force against the motion (m/s2), from the same component of the velocity
+    /// (m/s) and of the force out of balance, `Div P/rho0 + b` (m/s2).
+    fn resistance(&self, _t: f64, _velocity: f64, _unbalanced: &dyn Fn() -> f64) -> f64 {
+        0.0
+    }
+
+    /// Expansion by temperature.
+    fn expansion(&self) -> Option<Expansion> {
+        None
+    }
+
+    /// A region and its prescribed velocity (m/s): formulas of the coordinates and t.
+    fn driven(&self) -> Option<(&Region, &[Formula])> {
+        None
+    }
+}

@@ -1,0 +1,74 @@
+//! A pressure on a face of a box, which follows the face.
+
+use super::{
+    contract::{LoadEntry, LoadWords, LoadedFace},
+    fields::scalar,
+};
+use crate::{
+    exact::{Condition, Term, formula::Formula},
+    mpm::{Effect, Placement, Pressure},
+    suite::{
+        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        yaml::{Diagnostic, NumberText},
+    },
+};
+use std::sync::Arc;
+
+/// Pressure that follows one face (Pa), a formula of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PressureSpec {
+    on: String,
+    value: NumberText,
+    at: Option<Placement>,
+}
+
+impl LoadWords for PressureSpec {
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        Ok(Arc::new(PressureLoad {
+            face: entry.free_face("pressure", &self.on)?,
+            value: entry.scalar(&entry.path.then("value"), &self.value)?,
+            placement: self.at.unwrap_or_default(),
+        }))
+    }
+
+    fn face(&self) -> Option<&str> {
+        Some(&self.on)
+    }
+}
+
+/// A pressure (Pa, per present area), a formula of the coordinates and t.
+#[derive(Debug)]
+struct PressureLoad {
+    face: LoadedFace,
+    value: Formula,
+    placement: Placement,
+}
+
+impl Term for PressureLoad {}
+
+impl SceneLoad for PressureLoad {
+    fn name(&self) -> &'static str {
+        "pressure"
+    }
+
+    fn target(&self) -> Target {
+        Target::Face(self.face.number)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        let text = format!("pressure {} Pa, which follows the face", self.value.source());
+        vec![self.face.row(&text, self.placement)]
+    }
+
+    fn condition(&self) -> Option<Condition> {
+        Some(Condition::Pressure(self.value.clone()))
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for PressureLoad {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let ((axis, side), value) = (self.face.place(), scalar(&self.value));
+        Ok(Box::new(Pressure::at(site.particles, axis, side, self.placement, value)))
+    }
+}

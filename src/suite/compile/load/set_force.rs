@@ -1,0 +1,78 @@
+//! A total force on a set of particles.
+
+use super::{
+    contract::{LoadEntry, LoadWords, LoadedSet},
+    fields::{of_time, sources},
+};
+use crate::{
+    exact::{Term, formula::Formula},
+    mpm::{Effect, SetForce},
+    suite::{
+        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        yaml::{Diagnostic, NumberText},
+    },
+};
+use std::sync::Arc;
+
+/// Total force on a set (N), formulas of t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SetForceSpec {
+    on: String,
+    value: Vec<NumberText>,
+}
+
+impl LoadWords for SetForceSpec {
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        let (set, scene) = (entry.free_set(&self.on)?, entry.scene);
+        let (from, to) = set.region.within((&scene.from, &scene.to));
+        Ok(Arc::new(SetForceLoad {
+            value: entry.of_time(&entry.path.then("value"), &self.value)?,
+            volume: from.iter().zip(&to).map(|(from, to)| to - from).product(),
+            density: scene.density,
+            set,
+        }))
+    }
+}
+
+/// A total force (N, per m^(3-D) of thickness), one formula of t for each component.
+#[derive(Debug)]
+struct SetForceLoad {
+    set: LoadedSet,
+    value: Vec<Formula>,
+    /// Of the set in the body (m^D).
+    volume: f64,
+    /// Of the body (kg/m^D).
+    density: f64,
+}
+
+/// A force f on a part of volume V is a body force `f/(rho0 V)` inside and none outside.
+impl Term for SetForceLoad {
+    fn stated(&self, i: usize, label: &[f64], t: f64) -> f64 {
+        if !self.set.region.holds(label) {
+            return 0.0;
+        }
+        self.value.get(i).map_or(0.0, |formula| formula.eval(&[t])) / self.volume / self.density
+    }
+}
+
+impl SceneLoad for SetForceLoad {
+    fn name(&self) -> &'static str {
+        "force"
+    }
+
+    fn target(&self) -> Target {
+        Target::Set(self.set.number)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![self.set.row(&format!("force {} N in all", sources(&self.value)))]
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for SetForceLoad {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let members = self.set.members(site.particles)?;
+        Ok(Box::new(SetForce::on(site.particles, &members, of_time(&self.value))))
+    }
+}

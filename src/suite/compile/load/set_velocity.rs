@@ -1,0 +1,70 @@
+//! A prescribed velocity of a set of particles.
+
+use super::{
+    contract::{LoadEntry, LoadWords, LoadedSet},
+    fields::{of_place_and_time, sources},
+};
+use crate::{
+    exact::{Region, Term, formula::Formula},
+    mpm::{Effect, PrescribedVelocity},
+    suite::{
+        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        yaml::{Diagnostic, NumberText},
+    },
+};
+use std::sync::Arc;
+
+/// Velocity of a set (m/s), formulas of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SetVelocitySpec {
+    on: String,
+    value: Vec<NumberText>,
+}
+
+impl LoadWords for SetVelocitySpec {
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        Ok(Arc::new(SetVelocityLoad {
+            set: entry.free_set(&self.on)?,
+            value: entry.of_place_and_time(&entry.path.then("value"), &self.value)?,
+        }))
+    }
+}
+
+/// A velocity (m/s), one formula of the coordinates and t for each component.
+#[derive(Debug)]
+struct SetVelocityLoad {
+    set: LoadedSet,
+    value: Vec<Formula>,
+}
+
+impl Term for SetVelocityLoad {
+    fn driven(&self) -> Option<(&Region, &[Formula])> {
+        Some((&self.set.region, &self.value))
+    }
+}
+
+impl SceneLoad for SetVelocityLoad {
+    fn name(&self) -> &'static str {
+        "velocity"
+    }
+
+    fn target(&self) -> Target {
+        Target::Set(self.set.number)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![self.set.row(&format!("velocity {} m/s", sources(&self.value)))]
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for SetVelocityLoad {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let members = self.set.members(site.particles)?;
+        Ok(Box::new(PrescribedVelocity::on(
+            site.particles,
+            &members,
+            of_place_and_time(&self.value),
+        )))
+    }
+}

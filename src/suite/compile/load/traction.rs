@@ -1,0 +1,73 @@
+//! A traction on a face of a box.
+
+use super::{
+    contract::{LoadEntry, LoadWords, LoadedFace},
+    fields::{of_place_and_time, sources},
+};
+use crate::{
+    exact::{Condition, Term, formula::Formula},
+    mpm::{Effect, Placement, Traction},
+    suite::{
+        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        yaml::{Diagnostic, NumberText},
+    },
+};
+use std::sync::Arc;
+
+/// Force per reference area on one face (Pa), formulas of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TractionSpec {
+    on: String,
+    value: Vec<NumberText>,
+    at: Option<Placement>,
+}
+
+impl LoadWords for TractionSpec {
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        Ok(Arc::new(TractionLoad {
+            face: entry.free_face("traction", &self.on)?,
+            value: entry.of_place_and_time(&entry.path.then("value"), &self.value)?,
+            placement: self.at.unwrap_or_default(),
+        }))
+    }
+
+    fn face(&self) -> Option<&str> {
+        Some(&self.on)
+    }
+}
+
+/// A traction (Pa, per reference area), one formula of the coordinates and t for each component.
+#[derive(Debug)]
+struct TractionLoad {
+    face: LoadedFace,
+    value: Vec<Formula>,
+    placement: Placement,
+}
+
+impl Term for TractionLoad {}
+
+impl SceneLoad for TractionLoad {
+    fn name(&self) -> &'static str {
+        "traction"
+    }
+
+    fn target(&self) -> Target {
+        Target::Face(self.face.number)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![self.face.row(&format!("traction {} Pa", sources(&self.value)), self.placement)]
+    }
+
+    fn condition(&self) -> Option<Condition> {
+        Some(Condition::Traction(self.value.clone()))
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for TractionLoad {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let ((axis, side), value) = (self.face.place(), of_place_and_time(&self.value));
+        Ok(Box::new(Traction::at(site.particles, axis, side, self.placement, value)))
+    }
+}

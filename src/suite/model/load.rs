@@ -1,0 +1,89 @@
+//! Loads of a scene: the contract of the family, whose members stand in `suite/compile/load`.
+
+use super::heat::SceneHeat;
+use crate::{
+    dimension::{in_every_dimension, with_dimension},
+    exact::{Condition, Term, heat::Conduction},
+    mpm::{BasisName, Effect, Grid, Particles},
+};
+use std::{any::Any, sync::Arc};
+
+/// Part of the scene that a load acts on. Solvers apply loads in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Target {
+    /// The whole body.
+    Body,
+    /// A face, by its number.
+    Face(usize),
+    /// A set of particles, by its number.
+    Set(usize),
+}
+
+/// A body in D dimensions that gets its effects.
+pub(crate) struct BodySite<'a, const D: usize> {
+    pub(crate) grid: &'a Grid<D>,
+    pub(crate) basis: BasisName,
+    /// The heat problem that the temperature solves.
+    pub(crate) heat: Option<&'a Conduction>,
+    pub(crate) particles: &'a mut Particles<D>,
+}
+
+/// A load as an effect of the solver.
+pub(crate) trait BuildEffect<const D: usize> {
+    /// The effect on the body at `site`.
+    ///
+    /// # Errors
+    /// One line that says why there is none.
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String>;
+}
+
+in_every_dimension! {
+    /// A load as an effect of the solver in any dimension.
+    BuildEffects: BuildEffect
+}
+
+/// A load or effect that a scene lists, with every number computed.
+pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
+    /// Its name, as suites write it.
+    fn name(&self) -> &'static str;
+
+    /// Where it acts.
+    fn target(&self) -> Target {
+        Target::Body
+    }
+
+    /// Rows of name and value for reports.
+    fn rows(&self) -> Vec<(String, String)>;
+
+    /// The boundary condition of the truth on the face that the load acts on.
+    fn condition(&self) -> Option<Condition> {
+        None
+    }
+
+    /// The conduction, if the load is one.
+    fn heat(&self) -> Option<&SceneHeat> {
+        None
+    }
+
+    /// Whether it sets a body in motion that rests without stress, or changes how such a body moves.
+    fn disturbs_rest(&self) -> bool {
+        true
+    }
+}
+
+/// The effect of `load` in D dimensions.
+///
+/// # Errors
+/// One line that says why there is none.
+pub(crate) fn build<const D: usize>(
+    load: &Arc<dyn SceneLoad>,
+    site: &mut BodySite<'_, D>,
+) -> Result<Box<dyn Effect<D>>, String> {
+    let built = with_dimension!(D, N => {
+        let load: Arc<dyn BuildEffect<N>> = load.clone();
+        // N is D, which the compiler does not know.
+        let load: &dyn Any = &load;
+        load.downcast_ref::<Arc<dyn BuildEffect<D>>>().map(|load| load.build(site))
+    });
+    built.unwrap_or_else(|| Err(format!("there is no MPM in {D} dimensions")))
+}

@@ -1,0 +1,96 @@
+//! The body, what holds it and what acts on it.
+
+use super::{
+    boundary::BoundaryCondition,
+    heat::SceneHeat,
+    load::{SceneLoad, Target},
+};
+use crate::{
+    exact::{Region, Round, Term, formula::Formula},
+    mpm::{MaterialPlan, Quadrilateral},
+};
+use std::sync::Arc;
+
+/// The body and what acts on it.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Lowest corner of the body, or of the box around it (m); its length is the dimension.
+    pub from: Vec<f64>,
+    /// Highest corner (m).
+    pub to: Vec<f64>,
+    /// The body, if it is round.
+    pub round: Option<Round>,
+    /// The body, if it is a panel with four sides.
+    pub quadrilateral: Option<Quadrilateral>,
+    /// Grid that the suite asks for, lowest and highest corner (m).
+    pub grid: Option<(Vec<f64>, Vec<f64>)>,
+    /// The material, but for its density.
+    pub material: MaterialPlan,
+    /// Reference density (kg/m^D).
+    pub density: f64,
+    /// The 2 D faces of a box: low and high, axis by axis. A round body has none.
+    pub faces: Vec<SceneFace>,
+    /// Sets of particles, on each of which one load acts.
+    pub sets: Vec<Region>,
+    /// Loads and effects, in the order in which solvers apply them.
+    pub(crate) loads: Vec<Arc<dyn SceneLoad>>,
+    /// Several bodies, each a scene of its own with the grid, the faces and the loads of this one;
+    /// empty where there is one. Then this is the box around all of them, with the first one's
+    /// material.
+    pub bodies: Vec<Self>,
+    /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
+    /// field.
+    pub contact: Option<f64>,
+    /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
+    pub initial_displacement: Vec<Formula>,
+    /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.
+    pub initial_velocity: Vec<Formula>,
+}
+
+/// One face of the body.
+#[derive(Debug, Clone)]
+pub struct SceneFace {
+    /// What suites call it.
+    pub name: &'static str,
+    /// Axis of its normal.
+    pub axis: usize,
+    /// Whether it is the face with the larger coordinate.
+    pub high: bool,
+    /// What holds it.
+    pub hold: BoundaryCondition,
+}
+
+/// Names of the faces: low and high, axis by axis.
+pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+
+impl Scene {
+    /// The bodies: this one, or several.
+    pub fn each(&self) -> &[Self] {
+        if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
+    }
+
+    /// Whether the scene lists the load called `name`.
+    pub(crate) fn lists(&self, name: &str) -> bool {
+        self.loads.iter().any(|load| load.name() == name)
+    }
+
+    /// The loads on one part of the scene.
+    pub(crate) fn loads_on(&self, target: Target) -> impl Iterator<Item = &Arc<dyn SceneLoad>> {
+        self.loads.iter().filter(move |load| load.target() == target)
+    }
+
+    /// The conduction that the scene lists.
+    pub(crate) fn heat(&self) -> Option<&SceneHeat> {
+        self.loads.iter().find_map(|load| load.heat())
+    }
+
+    /// Terms of the loads in the equation of motion.
+    pub(crate) fn terms(&self) -> Vec<Arc<dyn Term>> {
+        self.loads.iter().map(|load| load.clone() as Arc<dyn Term>).collect()
+    }
+
+    /// The name of the first set that is driven.
+    pub(crate) fn driven_set(&self) -> Option<&str> {
+        self.loads.iter().find_map(|load| Some(load.driven()?.0.name.as_str()))
+    }
+}
