@@ -79,10 +79,10 @@ impl RunContext<'_> {
 }
 
 /// The plan as a study, if it is of one kind.
-type Kind = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
+type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// Every kind of study.
-const KINDS: [Kind; 3] = [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>];
+const KINDS: [AsStudy; 3] = [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>];
 
 fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study> {
     let plan: &dyn Any = plan;

@@ -1,13 +1,13 @@
-//! The words: what a YAML file says, checked, and turned into cases that can run.
+//! Suites: the text of a YAML file, read, checked, and turned into plans of studies.
 //!
 //! ```text
-//! yaml      the front door: text -> words, every complaint with file:line:column
-//! words     the grammar of a suite
-//! load      words -> Suite: numbers computed, names resolved, the truth checked
-//! cases     the product of the lists, with what is expected of each case
-//! dispatch  names become types: the only place that mentions every family
-//! execute   every level of every case, judged -> SuiteOutcome
+//! yaml      text -> located values, every diagnostic with file:line:column
+//! grammar   the keys and values that a file may hold
+//! model     checked values: scenes, methods, plans
+//! compile   grammar -> model: numbers computed, names resolved, the truth checked
 //! ```
+//!
+//! Each of these imports only those above it.
 
 pub(crate) mod compile;
 pub mod embedded;

@@ -75,7 +75,7 @@ pub struct Convergence {
     /// What it was divided by, if anything.
     pub scale: Option<f64>,
     /// What makes its errors and its work comparable with those of other cases.
-    pub yardstick: ErrorScale,
+    pub error_scale: ErrorScale,
     /// Whether there is a truth that errors are taken against.
     pub compared: bool,
     /// Whether bounds on figures are all that binds the case: then no order is asked for, and

@@ -26,7 +26,7 @@ pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = Time
     let levels = outcome
         .convergence()
         .into_iter()
-        .flat_map(|study| study.levels.iter().map(|level| (level, study.yardstick.size)));
+        .flat_map(|study| study.levels.iter().map(|level| (level, study.error_scale.size)));
     levels.zip(&suite.levels[case]).map(move |((level, size), (load, timing))| TimedLevel {
         case: outcome,
         level,

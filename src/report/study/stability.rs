@@ -4,7 +4,7 @@ use super::kind::{StudyReport, members};
 use crate::{
     report::{
         figure::{drawing::Figure, sweep},
-        json,
+        json::stability::study,
         text::stability,
     },
     verify::{CaseOutcome, SuiteOutcome},
@@ -20,13 +20,13 @@ impl StudyReport for StabilityReport {
     }
 
     fn tables(&self, lines: &mut Vec<String>, case: &CaseOutcome) {
-        if let Some(study) = case.results() {
-            stability::tables(lines, study);
+        if let Some(results) = case.results() {
+            stability::tables(lines, results);
         }
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        members(json!({"stability": case.results().map(json::stability::study)}))
+        members(json!({"stability": case.results().map(study)}))
     }
 
     fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {

@@ -1,8 +1,9 @@
-//! The state of a level in the middle of its run, in a file: an interrupted level goes on from there.
+//! State of a level in the middle of its run, in a file from which an interrupted level goes on.
 //!
-//! The file begins with the key of the level, which names all that its bits depend on, and ends with a
-//! fingerprint of all before. Whatever is of another level or torn is not taken, and the level starts
-//! anew. The file is written to another name first, and gone when the level has ended.
+//! The file begins with the key of the level, which names all that its bits depend on, and ends
+//! with a fingerprint of all before. A file of another level, or a torn one, is rejected, and the
+//! level starts anew. The file is written under another name first, and removed when the level has
+//! ended.
 
 use super::log::CacheLog;
 use crate::{suite::model::fingerprint::fingerprint, verify::CheckpointStore};
@@ -24,7 +25,7 @@ pub(crate) struct LevelKeeper<'a> {
 }
 
 impl<'a> LevelKeeper<'a> {
-    /// For the level that is kept as `path` under `key`; `notes` call it `what`.
+    /// For the level that is stored as `path` under `key`; messages call it `what`.
     pub(crate) fn new(
         log: &'a CacheLog,
         every: Duration,
@@ -36,7 +37,7 @@ impl<'a> LevelKeeper<'a> {
         Self { log, every, last: Instant::now(), path, key, what }
     }
 
-    /// The level has ended and is kept itself.
+    /// The level has ended and is stored itself.
     pub(crate) fn forget(&self) {
         match fs::remove_file(&self.path) {
             Err(error) if error.kind() != ErrorKind::NotFound => self.log.record_error(&error),
@@ -104,7 +105,7 @@ fn sealed(state: &[u8], key: &str) -> Vec<u8> {
     bytes
 }
 
-/// What was [`sealed`], or why it is not taken.
+/// The state in a [`sealed`] file, or the reason for rejecting it.
 fn state(mut bytes: Vec<u8>, key: &str) -> Result<Vec<u8>, &'static str> {
     let Some((rest, seal)) = bytes.split_last_chunk::<SEAL>() else { return Err("is torn") };
     if fingerprint(rest).to_le_bytes() != *seal {
@@ -122,11 +123,11 @@ fn state(mut bytes: Vec<u8>, key: &str) -> Result<Vec<u8>, &'static str> {
 #[cfg(test)]
 #[derive(Default)]
 pub(crate) struct Interruption {
-    /// The step whose state is kept, and the steps that there have been.
+    /// The step whose state is stored, and the steps that there have been.
     at: u64,
     asked: u64,
     state: Option<Vec<u8>>,
-    told: Vec<Option<u64>>,
+    reported: Vec<Option<u64>>,
 }
 
 #[cfg(test)]
@@ -136,7 +137,7 @@ impl CheckpointStore for Interruption {
     }
 
     fn taken(&mut self, steps: Option<u64>) {
-        self.told.push(steps);
+        self.reported.push(steps);
     }
 
     fn is_due(&mut self) -> bool {
@@ -151,8 +152,8 @@ impl CheckpointStore for Interruption {
 
 #[cfg(test)]
 impl Interruption {
-    /// A run of so many steps shows the same whether it is interrupted or not. Returns what it shows, and
-    /// the state that was left.
+    /// Checks that a run of so many steps gives the same result whether it is interrupted or not.
+    /// Returns the result and the state that was left.
     pub(crate) fn holds(
         steps: u64,
         run: impl Fn(&mut dyn CheckpointStore) -> String,
@@ -161,11 +162,11 @@ impl Interruption {
         let at = (steps / 3).max(1);
         let mut first = Self { at, ..Self::default() };
         let whole = run(&mut first);
-        assert_eq!(first.told, [], "{what}: nothing was left");
+        assert_eq!(first.reported, [], "{what}: nothing was left");
         let state = first.state.expect(what);
         let mut second = Self { state: Some(state.clone()), ..Self::default() };
         assert_eq!(run(&mut second), whole, "{what}");
-        assert_eq!(second.told, [Some(at)], "{what}");
+        assert_eq!(second.reported, [Some(at)], "{what}");
         (whole, state)
     }
 
@@ -177,7 +178,7 @@ impl Interruption {
     ) {
         let mut third = Self { state: Some(state), ..Self::default() };
         assert_eq!(run(&mut third), whole);
-        assert_eq!(third.told, [None], "no such state");
+        assert_eq!(third.reported, [None], "no such state");
     }
 }
 

@@ -1,10 +1,11 @@
-//! Finished levels of a long run, kept on disk: an interrupted run goes on where it was. Of levels that
-//! have not ended, see [`checkpoints`](super::checkpoints).
+//! Finished levels of a long run, kept on disk, so that an interrupted run goes on where it was.
+//! For levels that have not ended see [`checkpoints`](super::checkpoints).
 //!
-//! What a level has shown is written as soon as it has ended, under a name made of all that it depends
-//! on: the program itself, bit by bit, the text of the suite, the case and the level. So nothing that
-//! was computed otherwise is ever taken for it, and a run that goes on prints what it would have printed
-//! uninterrupted, byte by byte. A file is written whole or not at all: to another name first.
+//! The result of a level is written as soon as it has ended, under a name made of all that it
+//! depends on: the program itself, bit by bit, the text of the suite, the case and the level. No
+//! result of another program or text is ever taken for it, and a resumed run prints what an
+//! uninterrupted one prints, byte by byte. A file is written whole or not at all: under another
+//! name first.
 
 use super::{checkpoints::LevelKeeper, log::CacheLog};
 use crate::{
@@ -50,8 +51,8 @@ impl ResultCache {
         Self { every, ..self }
     }
 
-    /// What a level has shown: from the folder, or else by running it, with who keeps its state on the
-    /// way. `key` says all that it depends on, besides the program; messages call it `what`.
+    /// The result of a level: from the folder, or from `run`, whose state is stored on the way.
+    /// `key` names all that it depends on besides the program; messages call it `name`.
     pub(crate) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -79,7 +80,7 @@ impl ResultCache {
         Some(format!("{}: {}", self.folder.display(), self.log.first_error()?))
     }
 
-    /// What became of states that were left by an interrupted run: one line for each, told once.
+    /// One line for each state that an interrupted run left, returned once.
     pub fn take_lines(&self) -> Vec<String> {
         self.log.take_lines()
     }

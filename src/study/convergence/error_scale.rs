@@ -1,4 +1,4 @@
-//! What the errors and the work of a case are measured by.
+//! Scales of the errors and of the work of a case.
 
 use crate::{
     exact::Truth,
@@ -6,13 +6,13 @@ use crate::{
     verify::{Axis, ErrorScale},
 };
 
-/// Intervals of the raster of places along each axis, and of times, in 1-D and 2-D, and in 3-D, where
-/// places are many. Even numbers, so that the middle is among them.
+/// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D, and in 3-D, where
+/// it has many points. Even numbers, so that the middle is a point.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// The yardstick of `case`, whose errors are taken against `truth`.
-pub(crate) fn yardstick(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
+/// The error_scale of `case`, whose errors are taken against `truth`.
+pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     let against = match case.against {
         Against::Exact => "the exact solution",
         Against::Reference => "the reference",
@@ -58,8 +58,8 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
 }
 
-/// Powers of one over the spacing by which work grows in theory. The rule of the time step is read off
-/// the levels, so that it may be any formula.
+/// Powers of one over the spacing by which work grows in theory. The rule of the time step is read
+/// off the levels, so that it may be any formula.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;

@@ -8,14 +8,14 @@ use crate::{
     verify::Axis,
 };
 
-/// The midpoint rule's order. Particles are the quadrature points of the weak form, but theory gives no
-/// order for them in general: integrands jump where a basis does, and the midpoint rule holds only as
-/// long as particles stay in the middle of what they stand for (Steffen, Kirby & Berzins 2008, Int. J.
-/// Numer. Meth. Engng 76, 922). The judge uses it to tell floors, and as the middle of what it expects
-/// of a suite that gives no `order`.
+/// Order of the midpoint rule. Particles are the quadrature points of the weak form, but theory
+/// gives no order for them in general: integrands jump where a basis does, and the midpoint rule
+/// holds only as long as particles stay in the middle of their parts of the body (Steffen, Kirby &
+/// Berzins 2008, Int. J. Numer. Meth. Engng 76, 922). The judge uses it to tell floors, and as the
+/// centre of the expected interval of a suite that gives no `order`.
 const MIDPOINT: f64 = 2.0;
 
-/// A motion starts with a velocity (or an acceleration) if it has more than this share of its largest.
+/// Share of the largest velocity (or acceleration) above which a motion starts with one.
 const AT_REST: f64 = 1e-9;
 
 /// The order of the displacement error.
@@ -27,10 +27,11 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     }
 }
 
-/// Euler-Cromer is a leapfrog, of order 2, if it starts as one: with `v(-dt/2)`. `v(0)` in its place is
-/// a push of `dt/2 a(0)`, and order 1 unless a(0) = 0. USF adds `dt grad v` of the first velocity to F
-/// before anything has moved: order 1 unless v(0) = 0. (That USL and USF keep terms of first order, of
-/// h^2 and of the strain squared, is for suites to say: temporal-order.) Where no formula tells, neither is taken as zero.
+/// Euler-Cromer is a leapfrog, of order 2, if it starts as one: with `v(-dt/2)`. `v(0)` in its
+/// place is a push of `dt/2 a(0)`, and order 1 unless a(0) = 0. USF adds `dt grad v` of the first
+/// velocity to F before anything has moved: order 1 unless v(0) = 0. (That USL and USF keep terms
+/// of first order, of h^2 and of the strain squared, is for suites to say: temporal-order.) Where
+/// no formula tells, neither is taken as zero.
 fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),

@@ -39,7 +39,7 @@ pub(crate) fn judged(
     mut levels: Vec<LevelOutcome>,
     judgement: Judgement,
     floor: Option<Floor>,
-    yardstick: ErrorScale,
+    error_scale: ErrorScale,
 ) -> CaseOutcome {
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
@@ -70,7 +70,7 @@ pub(crate) fn judged(
             norm: plan.norm.name(),
             of: plan.of,
             scale: plan.scale,
-            yardstick,
+            error_scale,
             compared: case.against != Against::Nothing,
             bounded: expectation.verdict.is_none(),
             drifts: expectation.limits.drifts(),
@@ -109,7 +109,8 @@ pub(crate) fn judge_levels(
     judge(&judged, &claim)
 }
 
-/// What limits speak of: the worst of the levels that count, and the observed place on the finest.
+/// Figures that limits apply to: the worst of the levels that count, and the observed place on the
+/// finest.
 fn measured(levels: &[LevelOutcome]) -> Measured {
     let counted = || levels.iter().filter(|level| level.usable);
     let errors = counted().map(|level| (level.error, level.error));
@@ -133,8 +134,8 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// The verdict in words, and why. Where limits alone bind a case, what they say comes first, and
-/// the judge is heard if the levels are enough for a judgement.
+/// The verdict and its reason. Where limits alone bind a case, their finding comes first, and that
+/// of the judge follows if the levels are enough for a judgement.
 fn headline(
     expectation: &Expectation,
     judgement: &Judgement,
@@ -182,7 +183,7 @@ fn richardson(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardso
     (0..levels.len()).filter_map(triple).collect()
 }
 
-/// What is known of a case before it runs.
+/// The part of an outcome that is known before the case runs.
 fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> CaseOutcome {
     CaseOutcome {
         case: case.name.clone(),

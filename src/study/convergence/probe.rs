@@ -9,9 +9,9 @@ use crate::{
 };
 use rayon::prelude::*;
 
-/// What halving the axes that are not refined does to the error of the finest level that counts; `None`
-/// if nobody asks: the error has not stopped falling, and the suite expects no floor. Nor is there an
-/// answer where the truth is the same method on the same grid.
+/// Effect of halving the axes that are not refined on the error of the finest level that counts.
+/// `None` if it is not needed: the error has not stopped falling, and the suite expects no floor;
+/// and where the truth is the same method on the same grid.
 ///
 /// `run` runs a level. One to three runs, in parallel; the outcome keeps the order of the axes.
 pub(crate) fn floor(

@@ -16,7 +16,7 @@ pub(crate) struct Reference {
     from: f64,
     spacing: f64,
     /// Nodal displacements and velocities at each instant, the start first.
-    kept: Vec<(Vec<f64>, Vec<f64>)>,
+    states: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Reference {
@@ -30,15 +30,15 @@ impl Reference {
         let mut bar = bar(plan, method, fine.cells)?;
         let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
         let clock = Clock::new(until, dt, plan.instants).ok_or("dt makes no sense")?;
-        let mut kept = vec![state(&bar)];
+        let mut states = vec![state(&bar)];
         for step in 1..=clock.steps {
             bar.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;
             if clock.is_instant(step) {
-                kept.push(state(&bar));
+                states.push(state(&bar));
             }
         }
         let nodes = bar.nodes();
-        Ok(Self { until, from: nodes[0], spacing: nodes[1] - nodes[0], kept })
+        Ok(Self { until, from: nodes[0], spacing: nodes[1] - nodes[0], states })
     }
 
     /// Linear interpolation between nodes at the instant nearest to `t`.
@@ -48,9 +48,9 @@ impl Reference {
         x: f64,
         t: f64,
     ) -> f64 {
-        let last = self.kept.len() - 1;
+        let last = self.states.len() - 1;
         let instant = libm::round(t / self.until * last as f64).clamp(0.0, last as f64) as usize;
-        let nodal = field(&self.kept[instant]);
+        let nodal = field(&self.states[instant]);
         let place = ((x - self.from) / self.spacing).clamp(0.0, (nodal.len() - 1) as f64);
         let left = (place as usize).min(nodal.len() - 2);
         let share = place - left as f64;
@@ -64,10 +64,10 @@ fn state(bar: &Bar) -> (Vec<f64>, Vec<f64>) {
 
 impl Truth for Reference {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
-        into[0] = self.interpolate(|kept| &kept.0, label[0], t);
+        into[0] = self.interpolate(|states| &states.0, label[0], t);
     }
 
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
-        into[0] = self.interpolate(|kept| &kept.1, label[0], t);
+        into[0] = self.interpolate(|states| &states.1, label[0], t);
     }
 }

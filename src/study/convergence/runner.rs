@@ -1,7 +1,7 @@
 //! Running a convergence study: every level of every case, judged.
 
 use super::{
-    error_scale::yardstick,
+    error_scale::error_scale,
     outcome::{error_of, judge_levels, judged, refused},
     probe,
     reference::Reference,
@@ -123,8 +123,8 @@ impl<'a> ConvergenceRunner<'a> {
         let judgement = judge_levels(plan, case, expectation, &levels);
         let again = |level| self.level(case, truth, level);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
-        let yardstick = yardstick(plan, case, truth);
-        Ok(judged(plan, case, expectation, levels, judgement, floor, yardstick))
+        let error_scale = error_scale(plan, case, truth);
+        Ok(judged(plan, case, expectation, levels, judgement, floor, error_scale))
     }
 
     /// One level of a case against `truth`.
@@ -209,8 +209,9 @@ mod tests {
         Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap()
     }
 
-    /// Every kind of subject and all that a judge gathers: histories, the totals of a run, a state of rest,
-    /// temperatures, F and stress; bodies in contact, walls with friction and driven ones, plastic flow.
+    /// Every kind of subject and all that a judge gathers: histories, the totals of a run, a state
+    /// of rest, temperatures, F and stress; bodies in contact, walls with friction and driven ones,
+    /// plastic flow.
     #[rstest]
     #[case("vibrating-bar")]
     #[case("vibrating-bar-long")]

@@ -1,10 +1,9 @@
-//! A truth for studies in time: the same method on the same grid, with steps so short that what is left
+//! Truth for studies in time: the same method on the same grid, with steps so short that the result
 //! is the limit dt -> 0 of the equations that are discrete in space.
 //!
-//! It separates the error of the time step from that of the grid, which for a body at its Courant limit
-//! is the larger one and would hide it. It says nothing of whether the limit is right: that is the
-//! matter of the exact solution. Methods that filter the velocity in every step (PIC and its kin) have
-//! no such limit.
+//! It separates the error of the time step from that of the grid, which for a body at its Courant
+//! limit is the larger one and would hide it. Whether the limit is right is left to the exact
+//! solution. Methods that filter the velocity in every step (PIC and its kin) have no such limit.
 
 use crate::{
     exact::Truth,
@@ -15,14 +14,14 @@ use crate::{
 };
 use std::cmp::Ordering;
 
-/// What every label of a method did at every instant.
+/// Displacement and velocity of every label of a method at every instant.
 pub(crate) struct FineSteps {
     until: f64,
     dimension: usize,
     /// Indices of the labels, sorted by position.
     order: Vec<usize>,
     /// The start, and every instant.
-    kept: Vec<Samples>,
+    states: Vec<Samples>,
 }
 
 impl FineSteps {
@@ -36,25 +35,25 @@ impl FineSteps {
         let clock = Clock::new(case.until, dt, plan.instants).ok_or("dt makes no sense")?;
         let mut now = Samples::default();
         subject.sample(&mut now);
-        let mut kept = vec![now.clone()];
+        let mut states = vec![now.clone()];
         for step in 1..=clock.steps {
             subject.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;
             if clock.is_instant(step) {
                 subject.sample(&mut now);
-                kept.push(now.clone());
+                states.push(now.clone());
             }
         }
         let mut order: Vec<usize> = (0..now.len()).collect();
         order.sort_by(|a, b| compare(label(&now, *a), label(&now, *b)));
-        Ok(Self { until: case.until, dimension: now.dimension, order, kept })
+        Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
     /// The numbers of `field` at `wanted` at the instant nearest to `t`; NaN where there is no such
     /// label.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
-        let last = self.kept.len() - 1;
+        let last = self.states.len() - 1;
         let instant = libm::round(t / self.until * last as f64).clamp(0.0, last as f64) as usize;
-        let samples = &self.kept[instant];
+        let samples = &self.states[instant];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
             Ok(found) => {
                 into.copy_from_slice(row(field(samples), self.dimension, self.order[found]));

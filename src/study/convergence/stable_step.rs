@@ -24,11 +24,12 @@ use std::{
 /// Rounds of the prediction that a rule takes its step from.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Rounds of the one that a stated step is held against first: as dear as so many steps.
+/// Rounds of the prediction that a stated step is held against first: as expensive as so many
+/// steps.
 const FEW: u32 = 6;
 
-/// Share of what the few rounds give from which on it is looked at more closely: they give up to half
-/// as much again as there is.
+/// Share of the limit from few rounds above which a step is held against more rounds: few rounds
+/// overestimate the limit by up to one half.
 const NEAR: f64 = 0.6;
 
 /// A level with the step that is taken on it, and the longest safe one (s) where that is known.
@@ -56,7 +57,7 @@ impl StableSteps {
         found
     }
 
-    /// What is to be said of the levels that run, in their order.
+    /// Warnings about the levels that run, in their order.
     pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<String> {
         let levels = plan.refine.levels(extent);
         let each = |case| levels.iter().map(move |level| (case, *level));
@@ -86,7 +87,7 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     Clock::new(case.until, level.dt, plan.instants).map_or(level.dt, |clock| clock.dt())
 }
 
-/// What is said of a step that is longer than the longest safe one.
+/// Warning about a step that is longer than the longest safe one.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<String> {
     let (dt, limit) = (taken(plan, case, level), limit?);
     (dt > limit).then(|| {

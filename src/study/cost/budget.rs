@@ -1,9 +1,9 @@
 //! The most accurate setting that is done within a budget of seconds.
 //!
-//! Every method is asked how fine a grid the budget buys, by the seconds of its finest level, and what
-//! error its order makes of that; only a method that still converges there is taken beyond the levels
-//! that the suite lists. The best one is then measured on ever finer grids, until one takes a
-//! twentieth of the budget; a cost model is fitted, the grid chosen, and run.
+//! For every method the seconds of its finest level predict the finest grid within the budget, and
+//! its order the error there; only a method that still converges is taken beyond the levels that
+//! the suite lists. The best one is then measured on ever finer grids, until one takes a twentieth
+//! of the budget; a cost model is fitted, the grid chosen, and run.
 
 use super::{
     candidate::{Candidate, candidate},

@@ -49,8 +49,8 @@ impl Candidate<'_> {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
 
-    /// A level with so many cells: its time step follows the rule of the two finest levels that the suite
-    /// lists.
+    /// A level with so many cells: its time step follows the rule of the two finest levels that the
+    /// suite lists.
     pub(crate) fn level(&self, cells: u64) -> LevelPlan {
         let levels = &self.plan.refine.levels;
         if let Some(known) = levels.iter().find(|level| level.cells == cells) {
@@ -66,7 +66,7 @@ impl Candidate<'_> {
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }
 
-    /// What a level will have to do, by the finest one that has run.
+    /// Predicted load of a level, from the finest one that has run.
     pub(crate) fn load(&self, level: LevelPlan) -> Option<Load> {
         let clock = Clock::new(self.case.until, level.dt, self.plan.instants)?;
         let finest = self.finest();
@@ -116,8 +116,8 @@ impl Candidate<'_> {
         last.then_some(why)
     }
 
-    /// The finest level that is predicted to be done in time. Beyond the levels that have run only where
-    /// the method converges on all of them.
+    /// The finest level that is predicted to be done in time. Beyond the levels that have run only
+    /// where the method converges on all of them.
     pub(crate) fn finest_within(&self, model: &Model, budget: f64) -> Option<LevelPlan> {
         let most = self.most_cells();
         let first = self.study.levels[self.ranked.part.levels.start].cells;
@@ -143,8 +143,8 @@ impl Candidate<'_> {
         Some(self.level(low * self.stride))
     }
 
-    /// The error at a spacing: between levels straight on logarithmic axes, beyond the finest by the
-    /// observed order.
+    /// The error at a spacing: between levels straight on logarithmic axes, beyond the finest by
+    /// the observed order.
     pub(crate) fn error(&self, h: f64) -> Option<f64> {
         let Ranked { contender: MethodCost { tried, formal_order, growth, .. }, part, .. } =
             self.ranked;

@@ -16,9 +16,9 @@ pub struct Goal<'a> {
     error: f64,
 }
 
-/// For every method of the suite's first problem the cheapest level that it lists, of those over which
-/// the method converges, whose error over the size of the solution is at most `target`; the cheapest
-/// method first. Methods that do not reach it are left out.
+/// For every method of the suite's first problem the cheapest level that it lists, of those over
+/// which the method converges, whose error over the size of the solution is at most `target`; the
+/// cheapest method first. Methods that do not reach it are left out.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let transfers =

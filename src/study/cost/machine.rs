@@ -1,4 +1,4 @@
-//! What of the machine can be seen in seconds: cores, load, and a loop that always does the same.
+//! The machine, as far as it affects seconds: cores, load, and a loop of constant work.
 
 use crate::verify::{Machine, Timing};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -27,8 +27,8 @@ pub(crate) struct Observed {
     waited: Option<f64>,
 }
 
-/// Time of a piece of work (s): all that passed, and how much of it this thread waited for a core that
-/// ran something else, where the system tells.
+/// Time of a piece of work (s): wall time, and the part in which this thread waited for a core that
+/// ran something else, where the system reports it.
 pub(crate) struct LoadMonitor {
     start: Instant,
     waited: Option<f64>,
@@ -44,7 +44,7 @@ impl LoadMonitor {
     pub(crate) fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
-        // What is not positive has not been told rightly.
+        // A value that is not positive is not to be trusted.
         if idle > 0.0 && idle < passed { passed - idle } else { passed }
     }
 }
@@ -75,7 +75,7 @@ impl Observed {
         self.loops.push(watch.stop());
     }
 
-    /// What was seen.
+    /// The machine as observed.
     pub(crate) fn seen(self) -> Machine {
         Machine {
             cores: std::thread::available_parallelism().map_or(1, usize::from),

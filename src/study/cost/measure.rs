@@ -1,9 +1,9 @@
 //! Seconds of every level of every case.
 //!
-//! A level is run once to warm up and then at least five times, or for a second, whichever comes first;
-//! short ones more often, for fifty milliseconds in all. Repeats go round all levels rather than one
-//! after the other: a machine that slows down slows all of them. Time for which other processes had the
-//! core does not count, where the system tells it.
+//! A level is run once to warm up and then at least five times, or for a second, whichever comes
+//! first; short ones more often, for fifty milliseconds in all. Repeats go round all levels rather
+//! than one after the other: a machine that slows down slows all of them. Time for which other
+//! processes had the core does not count, where the system tells it.
 
 use super::machine::{LoadMonitor, Observed, alone};
 use crate::{
@@ -27,7 +27,7 @@ const LONGEST: f64 = 1.0;
 const MOST: usize = 200;
 
 /// One level that is timed.
-struct Job<'a> {
+struct TimingJob<'a> {
     plan: &'a ConvergencePlan,
     case: &'a Case,
     level: LevelPlan,
@@ -36,7 +36,7 @@ struct Job<'a> {
     seconds: Vec<f64>,
 }
 
-impl Job<'_> {
+impl TimingJob<'_> {
     fn is_done(&self) -> bool {
         let (spent, repeats) = (self.seconds.iter().sum::<f64>(), self.seconds.len());
         (repeats >= FEWEST && spent >= LEAST) || spent >= LONGEST || repeats >= MOST
@@ -66,9 +66,9 @@ pub(crate) fn seconds(
     })
 }
 
-/// Runs `suite` and its `variants`, whose cases are taken for cases of the suite, and times every level;
-/// `progress` is told after each level that ran and after each that was timed. A suite that is no
-/// convergence study has nothing to be timed.
+/// Runs `suite` and its `variants`, whose cases count as cases of the suite, and times every level;
+/// calls `progress` after each level that ran and after each that was timed. Only convergence
+/// studies have levels to time.
 pub fn price(
     suite: &Suite,
     variants: &[Suite],
@@ -77,14 +77,14 @@ pub fn price(
 ) -> TimedSuite {
     let suites: Vec<&Suite> = std::iter::once(suite).chain(variants).collect();
     let mut cases: Vec<CaseOutcome> = Vec::new();
-    let mut jobs: Vec<Job<'_>> = Vec::new();
+    let mut jobs: Vec<TimingJob<'_>> = Vec::new();
     for one in &suites {
         let Some(plan) = one.plan::<ConvergencePlan>() else { continue };
         for case in &plan.cases {
             let levels = plan.refine.levels(extent).iter().enumerate();
             jobs.extend(levels.map(|(k, level)| {
                 let at = (cases.len() + index(plan, case), k);
-                Job { plan, case, level: *level, at, seconds: Vec::new() }
+                TimingJob { plan, case, level: *level, at, seconds: Vec::new() }
             }));
         }
         cases.extend(Runner::over(one, extent).run(progress).cases);
@@ -110,7 +110,7 @@ fn index(plan: &ConvergencePlan, case: &Case) -> usize {
 }
 
 /// Round after round until every level has been timed often enough.
-fn time(jobs: &mut [Job<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
+fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
     for job in jobs.iter() {
         let _ = seconds(job.plan, job.case, job.level);
     }
@@ -131,7 +131,7 @@ fn time(jobs: &mut [Job<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sy
     }
 }
 
-/// What a level that has run had to do.
+/// Load of a level that has run.
 pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Load {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Load {

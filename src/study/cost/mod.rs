@@ -1,7 +1,7 @@
-//! What suites cost in seconds: measured level by level, varied, and bid for.
+//! Cost of suites in seconds: measured level by level, for variants, and within a budget.
 //!
-//! Errors come from the same runs as reports, in parallel; then every level is run again, alone, by one
-//! thread, and its steps are timed: without setting up, without taking errors.
+//! Errors come from the same runs as reports, in parallel; then every level is run again, alone, by
+//! one thread, and its steps are timed, without set-up and without taking errors.
 
 pub(crate) mod budget;
 pub(crate) mod candidate;

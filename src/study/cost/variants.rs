@@ -10,7 +10,7 @@ use crate::{
 use std::sync::Arc;
 
 named! {
-    /// What may be varied besides what a suite refines.
+    /// Settings that may be varied besides the refined one.
     pub enum Over {
         /// Particles per cell: half and twice as many along each axis.
         Ppc = "ppc",
@@ -21,8 +21,8 @@ named! {
     }
 }
 
-/// The suite with every combination of what is varied, its own settings left out. The names of cases say
-/// what they vary.
+/// The suite with every combination of the varied settings, except its own. The names of cases
+/// state the variation.
 pub fn variants(suite: &Suite, over: &[Over]) -> Vec<Suite> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let varies = |one: Over| over.contains(&one);

@@ -1,4 +1,5 @@
 //! The stability study: every row of every case, run and judged.
 
 pub(crate) mod run;
+pub(crate) mod runner;
 pub(crate) mod statement;

@@ -1,6 +1,5 @@
-//! Running a stability study: every row of every case.
+//! One case of a stability study: runs, predictions and limits, row by row.
 
-use super::statement;
 use crate::{
     exact::Random,
     study::{
@@ -10,25 +9,21 @@ use crate::{
             setup::Body,
         },
         convergence::stable_step::ROUNDS,
-        describe::statement::Rows,
-        kind::{CaseRunner, Progress, RunContext, Study},
+        kind::RunContext,
     },
     subject::{Perturbable, Subject},
     suite::{
-        compile::stability::recipe::{Setting, Values},
+        compile::stability::setup::{ParameterValues, RunSetup},
         model::{
             refine_plan::Extent,
             stability::{StabilityCase, StabilityPlan},
         },
     },
     verify::{
-        CaseOutcome, CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit,
-        StabilityRow, StabilityStudy, Trial, amplification, resume_trial, spectral_radius,
-        stability_limit,
+        CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow,
+        Trial, amplification, resume_trial, spectral_radius, stability_limit,
     },
 };
-use rayon::prelude::*;
-use std::sync::Arc;
 
 /// Values at which a limit is looked for before the first unstable interval is halved.
 const SCAN: u32 = 48;
@@ -40,94 +35,26 @@ const SCAN_OF_RUNS: u32 = 16;
 const SHARP: f64 = 1e-5;
 const SHARP_OF_RUNS: f64 = 5e-3;
 
-/// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %. Below the
-/// limit the nearer one asks for more, and a full run, with all its steps, makes both.
+/// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %.
+/// Below the limit the nearer one asks for more, and a full run, with all its steps, makes both.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
-/// What rounding makes of an eigenvalue of one with too few eigenvectors (rigid motion has one).
+/// Effect of rounding on an eigenvalue of one with too few eigenvectors (rigid motion has one).
 const DEFECT: f64 = 1e-5;
 
 /// Seed of the perturbations at the start.
 const SEED: u64 = 8;
 
-impl Study for StabilityPlan {
-    fn statement(&self) -> Rows {
-        statement::rows(self)
-    }
-
-    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
-        Box::new(StabilityRunner { plan: self, context })
-    }
-}
-
-/// Runs cases of a stability study.
-struct StabilityRunner<'a> {
-    plan: &'a StabilityPlan,
-    context: RunContext<'a>,
-}
-
-impl CaseRunner for StabilityRunner<'_> {
-    fn units(&self) -> u64 {
-        (self.plan.cases.len() * self.plan.values.len()) as u64
-    }
-
-    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
-        let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
-        let job = Job { plan, case, context };
-        let row = |value: &f64| {
-            let row = job.row(*value);
-            progress();
-            row
-        };
-        outcome(&job, plan.values.par_iter().map(row).collect())
-    }
-}
-
-/// The outcome of a case, from its rows.
-fn outcome(job: &Job<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
-    let Job { plan, case, .. } = job;
-    // Where no face is held, nothing is to be said of walls.
-    let mut settings = case.method.settings();
-    let walls = job.setting(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
-    settings.retain(|(key, _)| walls || key != "walls");
-    let unmet: Vec<String> = case
-        .expected
-        .iter()
-        .zip(&rows)
-        .flat_map(|(expected, row)| {
-            let place = format!("{} = {}", plan.swept, row.value);
-            expected.unmet(row).into_iter().map(move |unmet| format!("{place}: {unmet}"))
-        })
-        .collect();
-    let study = StabilityStudy {
-        swept: plan.swept.clone(),
-        sought: plan.sought.as_ref().map(|(name, ..)| name.clone()),
-        figures: plan.figures.clone(),
-        rows,
-    };
-    CaseOutcome {
-        case: case.name.clone(),
-        subject: "mpm",
-        settings,
-        profile: None,
-        expected: case.summary.clone(),
-        because: case.because.clone(),
-        verdict: study.verdict(),
-        reason: study.reason(),
-        unmet,
-        study: Some(Arc::new(study)),
-    }
-}
-
 /// One case of a study.
-struct Job<'a> {
-    plan: &'a StabilityPlan,
-    case: &'a StabilityCase,
-    context: RunContext<'a>,
+pub(super) struct CaseRun<'a> {
+    pub(super) plan: &'a StabilityPlan,
+    pub(super) case: &'a StabilityCase,
+    pub(super) context: RunContext<'a>,
 }
 
-impl Job<'_> {
-    fn row(&self, value: f64) -> StabilityRow {
+impl CaseRun<'_> {
+    /// The row of one value of the swept parameter.
+    pub(super) fn row(&self, value: f64) -> StabilityRow {
         let empty = StabilityRow { value, trial: None, critical: None, refused: None };
         let found = match &self.plan.sought {
             None => self
@@ -141,36 +68,36 @@ impl Job<'_> {
     }
 
     /// The set-up with these values of the parameters.
-    fn setting(&self, values: &Values<'_>) -> Result<Setting, String> {
-        let mut setting =
-            self.plan.recipe.setting(values).map_err(|diagnostic| diagnostic.one_line())?;
+    pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, String> {
+        let mut setup =
+            self.plan.template.setup(values).map_err(|diagnostic| diagnostic.one_line())?;
         if self.context.extent == Extent::Full {
-            setting.steps = setting.full_steps;
+            setup.steps = setup.full_steps;
         }
-        if let Some(share) = setting.rule {
-            let limit = bodies(&setting).iter().try_fold(f64::INFINITY, |least, body| {
+        if let Some(share) = setup.rule {
+            let limit = bodies(&setup).iter().try_fold(f64::INFINITY, |least, body| {
                 Ok::<f64, String>(least.min(stable_time_step_of(
                     body,
                     self.case.method,
-                    setting.level,
+                    setup.level,
                     ROUNDS,
                 )?))
             })?;
-            setting.dt = vec![share * limit];
+            setup.dt = vec![share * limit];
         }
-        Ok(setting)
+        Ok(setup)
     }
 
-    fn subject(&self, setting: &Setting) -> Result<Box<dyn Perturbable>, String> {
-        let mut subject = perturbable(&bodies(setting), self.case.method, setting.level)?;
-        if setting.frozen {
+    fn subject(&self, setup: &RunSetup) -> Result<Box<dyn Perturbable>, String> {
+        let mut subject = perturbable(&bodies(setup), self.case.method, setup.level)?;
+        if setup.frozen {
             subject.fix_configuration();
         }
         Ok(subject)
     }
 
     /// The run with these values of the parameters.
-    fn run(&self, values: &Values<'_>) -> Result<Trial, String> {
+    fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, String> {
         let run = |keeper: &mut dyn CheckpointStore| self.run_keeping(values, keeper);
         let RunContext { suite, fingerprint, extent, .. } = self.context;
         let case = &self.case.name;
@@ -183,21 +110,22 @@ impl Job<'_> {
 
     fn run_keeping(
         &self,
-        values: &Values<'_>,
+        values: &ParameterValues<'_>,
         keeper: &mut dyn CheckpointStore,
     ) -> Result<Trial, String> {
-        let setting = self.setting(values)?;
+        let setup = self.setup(values)?;
         let make = || -> Result<Box<dyn Subject>, String> {
-            let mut subject = self.subject(&setting)?;
-            if setting.perturb > 0.0 {
-                perturb(subject.as_mut(), &setting);
+            let mut subject = self.subject(&setup)?;
+            if setup.perturb > 0.0 {
+                perturb(subject.as_mut(), &setup);
             }
             Ok(subject)
         };
-        resume_trial(make, &setting.dt, setting.steps, &setting.scales, keeper)
+        resume_trial(make, &setup.dt, setup.steps, &setup.scales, keeper)
     }
 
-    /// The limit of what is sought: predicted and confirmed where the body is frozen, else observed.
+    /// The limit of the sought parameter: predicted and confirmed where the particles are frozen,
+    /// else observed.
     fn critical(
         &self,
         value: f64,
@@ -221,10 +149,10 @@ impl Job<'_> {
     ) -> Result<Critical, String> {
         let mut leaves = None;
         let stable = |sought: f64| -> Result<bool, String> {
-            let setting = self.setting(&with(sought))?;
-            let mut subject = self.subject(&setting)?;
-            let Scales { speed, modulus, .. } = setting.scales;
-            let matrix = amplification(subject.as_mut(), &setting.dt, speed, modulus)?;
+            let setup = self.setup(&with(sought))?;
+            let mut subject = self.subject(&setup)?;
+            let Scales { speed, modulus, .. } = setup.scales;
+            let matrix = amplification(subject.as_mut(), &setup.dt, speed, modulus)?;
             let found = spectral_radius(&matrix);
             let grows = !(found.radius <= 1.0 + DEFECT);
             if grows {
@@ -246,27 +174,27 @@ impl Job<'_> {
     }
 }
 
-/// What a run starts from.
-fn bodies(setting: &Setting) -> Vec<Body<'_>> {
+/// The bodies that a run starts from.
+fn bodies(setup: &RunSetup) -> Vec<Body<'_>> {
     let body = |own| Body {
-        scene: &setting.scene,
+        scene: &setup.scene,
         own,
         initial: Initial::stated(own),
         manufactured: None,
         heat: None,
         keeps_deformation: false,
-        lattice: setting.lattice.clone(),
+        lattice: setup.lattice.clone(),
     };
-    setting.scene.each().iter().map(body).collect()
+    setup.scene.each().iter().map(body).collect()
 }
 
 /// Adds a random number to each number of the state, so that no mode is left out.
-fn perturb(subject: &mut dyn Perturbable, setting: &Setting) {
+fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     let (mut state, mut sizes, mut random) = (Vec::new(), Vec::new(), Random::new(SEED));
     subject.state(&mut state);
-    subject.sizes(setting.scales.speed, setting.scales.modulus, &mut sizes);
+    subject.sizes(setup.scales.speed, setup.scales.modulus, &mut sizes);
     for (number, size) in state.iter_mut().zip(&sizes) {
-        *number += setting.perturb * size * random.between(-1.0, 1.0);
+        *number += setup.perturb * size * random.between(-1.0, 1.0);
     }
     subject.set_state(&state);
 }
@@ -290,11 +218,12 @@ mod tests {
         let plan: &StabilityPlan = suite.plan().unwrap();
         let context =
             RunContext { suite: name, fingerprint: 0, extent: Extent::Usual, cache: None };
-        let job = Job { plan, case: &plan.cases[0], context };
+        let case_run = CaseRun { plan, case: &plan.cases[0], context };
         for value in plan.values.first().into_iter().chain(plan.values.last()) {
             let mut values = vec![(plan.swept.as_str(), *value)];
             values.extend(plan.sought.iter().map(|(name, from, _)| (name.as_str(), *from)));
-            let run = |keeper: &mut dyn CheckpointStore| job.run_keeping(&values, keeper).unwrap();
+            let run =
+                |keeper: &mut dyn CheckpointStore| case_run.run_keeping(&values, keeper).unwrap();
             let steps = run(&mut NoCheckpoints).steps;
             Interruption::holds(steps, |keeper| format!("{:?}", run(keeper)), &plan.swept);
         }

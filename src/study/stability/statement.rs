@@ -3,7 +3,7 @@
 use crate::{
     study::describe::statement::{Rows, push, scene},
     suite::{
-        compile::{stability::recipe::Setting, wording::shown},
+        compile::{stability::setup::RunSetup, wording::shown},
         model::stability::StabilityPlan,
     },
 };
@@ -11,15 +11,15 @@ use crate::{
 /// Rows of the study, with the set-up of its first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
-    let first = |value: &f64| plan.recipe.setting(&[(&plan.swept, *value)]).ok();
+    let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();
     if let Some(first) = plan.values.first().and_then(first) {
         scene(&first.scene, &mut rows);
-        of_setting(plan, &first, &mut rows);
+        of_setup(plan, &first, &mut rows);
     }
     rows
 }
 
-fn of_setting(plan: &StabilityPlan, setting: &Setting, rows: &mut Rows) {
+fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     let mut push = |key: &str, value: String| push(rows, key, &value);
     let values: Vec<String> = plan.values.iter().map(|value| shown(*value)).collect();
     push("swept", format!("{} = {}", plan.swept, values.join(", ")));
@@ -29,44 +29,37 @@ fn of_setting(plan: &StabilityPlan, setting: &Setting, rows: &mut Rows) {
             format!("the largest stable {name}, from {} to {}", shown(*from), shown(*to)),
         );
     }
-    let ppc = setting.level.ppc.unwrap_or(0);
+    let ppc = setup.level.ppc.unwrap_or(0);
     push(
         "cells",
-        format!(
-            "{} of size {} m, {ppc} particles each",
-            setting.level.cells,
-            shown(setting.level.h)
-        ),
+        format!("{} of size {} m, {ppc} particles each", setup.level.cells, shown(setup.level.h)),
     );
-    let full = if setting.full_steps == setting.steps {
+    let full = if setup.full_steps == setup.steps {
         String::new()
     } else {
-        format!(", in full {}", setting.full_steps)
+        format!(", in full {}", setup.full_steps)
     };
-    push("run", format!("{} steps{full}", setting.steps));
-    if let Some(share) = setting.rule {
+    push("run", format!("{} steps{full}", setup.steps));
+    if let Some(share) = setup.rule {
         push("dt", format!("{} of the longest safe step", shown(share)));
     }
-    if let (Some(first), Some(last)) = (setting.dt.first(), setting.dt.last()) {
-        let turns = setting.dt.len() / 2;
+    if let (Some(first), Some(last)) = (setup.dt.first(), setup.dt.last()) {
+        let turns = setup.dt.len() / 2;
         if turns > 0 {
             push("steps in turn", format!("{turns} of {first:e} s, {turns} of {last:e} s"));
         }
     }
-    if setting.frozen {
+    if setup.frozen {
         push("particles", "frozen: no step moves a particle or its domain".to_owned());
     }
-    if setting.perturb > 0.0 {
-        push(
-            "start",
-            format!("random, of size {:e} in every number of the state", setting.perturb),
-        );
+    if setup.perturb > 0.0 {
+        push("start", format!("random, of size {:e} in every number of the state", setup.perturb));
     }
     push(
         "verdicts",
         format!(
             "stable: energy up to {:e} times that at the start; unstable: beyond {:e}",
-            setting.scales.stable_below, setting.scales.unstable_above
+            setup.scales.stable_below, setup.scales.unstable_above
         ),
     );
 }

@@ -11,10 +11,7 @@ use std::{cell::RefCell, collections::BTreeSet};
 const MOST: f64 = 1e7;
 
 /// A parameter: its name, what the file says, its value.
-pub(crate) type Parameter = (String, String, f64);
-
-/// What a declared quantity is, for complaints: `the density`.
-type What<'a> = &'a str;
+pub(crate) type DeclaredParameter = (String, String, f64);
 
 /// The names of a suite, and which of them have been used.
 pub(crate) struct Evaluator<'a> {
@@ -26,12 +23,12 @@ pub(crate) struct Evaluator<'a> {
 
 impl<'a> Evaluator<'a> {
     /// Declares the functions and, in the order of the file, the parameters of a suite. Returns
-    /// the binder and each parameter's name, text and value.
+    /// the evaluator and each parameter's name, text and value.
     pub(crate) fn new(
         source: &'a Source,
         parameters: &Ordered<NumberText>,
         functions: &Ordered<String>,
-    ) -> Result<(Self, Vec<Parameter>), Diagnostic> {
+    ) -> Result<(Self, Vec<DeclaredParameter>), Diagnostic> {
         let scope = Scope::new();
         let heads = functions.as_slice().iter().map(|(head, _)| head.clone()).collect();
         let mut evaluator = Self { source, scope, used: RefCell::default(), heads };
@@ -139,7 +136,7 @@ impl<'a> Evaluator<'a> {
         &self,
         path: &Path,
         text: &NumberText,
-        what: What<'_>,
+        what: &str,
     ) -> Result<f64, Diagnostic> {
         let value = self.number(path, text)?;
         if value > 0.0 {
@@ -154,7 +151,7 @@ impl<'a> Evaluator<'a> {
         &self,
         path: &Path,
         text: &NumberText,
-        what: What<'_>,
+        what: &str,
     ) -> Result<u64, Diagnostic> {
         let value = self.number(path, text)?;
         if (1.0..=MOST).contains(&value) && value.fract() == 0.0 {

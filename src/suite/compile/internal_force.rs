@@ -1,8 +1,8 @@
 //! The internal-force study: the mechanism of grid crossing, without a run.
 //!
-//! Two cells meet at a node; like all others, they hold equal particles under one uniform stress. One
-//! particle of the left cell is moved through the node, and the internal force on the node is read from the
-//! solver's own P2G.
+//! Two cells meet at a node; like all others, they hold equal particles under one uniform stress.
+//! One particle of the left cell is moved through the node, and the internal force on the node is
+//! taken from P2G of the solver itself.
 
 use super::{evaluator::Evaluator, expect::cases, path::Path};
 use crate::{
@@ -28,10 +28,10 @@ const VARIABLES: [&str; 2] = ["n_left", "n_right"];
 /// Checks an internal-force study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
-    words: &InternalForceSpec,
+    spec: &InternalForceSpec,
 ) -> Result<ForcePlan, Diagnostic> {
     let path = Path::top("internal_force");
-    let force = &words.internal_force;
+    let force = &spec.internal_force;
     let plan = ForcePlan {
         cell: evaluator.positive(&path.then("cell"), &force.cell, "the cell size")?,
         ppc: evaluator.count(&path.then("ppc"), &force.ppc, "the number of particles per cell")?,
@@ -51,15 +51,15 @@ pub(crate) fn plan(
         let label = format!("expected at most {MOST_SUMMANDS} particles over all positions");
         return Err(evaluator.diagnostic(&path.then("positions"), &message).with_label(&label));
     }
-    Ok(ForcePlan { cases: cases(evaluator, words)?, ..plan })
+    Ok(ForcePlan { cases: cases(evaluator, spec)?, ..plan })
 }
 
 fn cases(
     evaluator: &Evaluator<'_>,
-    words: &InternalForceSpec,
+    spec: &InternalForceSpec,
 ) -> Result<Vec<ForceCase>, Diagnostic> {
     let bases = |ForceMethodSpec::Mpm { basis }: &ForceMethodSpec| basis.as_slice().to_vec();
-    let bases: Vec<BasisName> = words.methods.iter().flat_map(bases).collect();
+    let bases: Vec<BasisName> = spec.methods.iter().flat_map(bases).collect();
     if bases.is_empty() {
         let path = Path::top("methods");
         return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
@@ -71,11 +71,11 @@ fn cases(
         let message = format!("the case `{}` appears twice", twice.1);
         return Err(evaluator.diagnostic(&Path::top("methods"), &message));
     }
-    let selectors: Vec<_> = words.expect.iter().map(|words| words.case.as_ref()).collect();
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = cases::assign(evaluator, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, &str), usize)| {
         let path = Path::top("expect").then(owner);
-        let expected = &words.expect[owner];
+        let expected = &spec.expect[owner];
         Ok(ForceCase {
             name: name.to_owned(),
             basis,
@@ -89,10 +89,10 @@ fn cases(
 fn expectation(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ForceExpectSpec,
+    spec: &ForceExpectSpec,
 ) -> Result<ForceExpectation, Diagnostic> {
     let share = |key: &str, text| evaluator.positive(&path.then(key), text, "the share");
-    match (&words.agrees_within, &words.steps_below) {
+    match (&spec.agrees_within, &spec.steps_below) {
         (Some(text), None) => share("agrees_within", text).map(ForceExpectation::AgreesWithin),
         (None, Some(text)) => share("steps_below", text).map(ForceExpectation::StepsBelow),
         _ => Err(evaluator

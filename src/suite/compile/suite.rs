@@ -1,8 +1,9 @@
-//! From words to a suite: every number computed, every name resolved, the truth checked.
+//! From the specification to a suite: every number computed, every name resolved, the truth
+//! checked.
 
 use super::{
     check::{fem_support, size, subject_support},
-    evaluator::{Evaluator, Parameter},
+    evaluator::{DeclaredParameter, Evaluator},
     internal_force,
     load::{LoadEntry, StudyFacts},
     path::Path,
@@ -49,33 +50,33 @@ fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
 }
 
 fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
-    let words: ConvergenceSpec = read(source)?;
-    let (evaluator, parameters) = Evaluator::new(source, &words.parameters, &words.functions)?;
-    name(&evaluator, &words.suite)?;
-    let scene = scene::scene(&evaluator, &words.scene)?;
-    fem_support::check(&evaluator, &words, &scene)?;
-    let (refine, places) = refine::plan(&evaluator, &words, &scene)?;
-    let instants = words.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
+    let spec: ConvergenceSpec = read(source)?;
+    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
+    name(&evaluator, &spec.suite)?;
+    let scene = scene::scene(&evaluator, &spec.scene)?;
+    fem_support::check(&evaluator, &spec, &scene)?;
+    let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
+    let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
-    let until = cases::until(&evaluator, &words.run.until)?;
+    let until = cases::until(&evaluator, &spec.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let conduction = rest::conduction(&evaluator, &words, &scene, latest)?;
+    let conduction = rest::conduction(&evaluator, &spec, &scene, latest)?;
     let exact = match &conduction {
         Some(_) => None,
-        None => exact::exact(&evaluator, &words, &scene, latest)?,
+        None => exact::exact(&evaluator, &spec, &scene, latest)?,
     };
     let dimension = scene.dimension();
-    let reference = words.reference.as_ref().map(|words| reference(&evaluator, words, dimension));
+    let reference = spec.reference.as_ref().map(|spec| reference(&evaluator, spec, dimension));
     let reference = reference.transpose()?.flatten();
-    let same_method_dt = steps::same_method(&evaluator, &words, &refine, &until, instants)?;
-    law::check(&evaluator, &words, &scene)?;
-    loads(&evaluator, &words, &scene, latest)?;
+    let same_method_dt = steps::same_method(&evaluator, &spec, &refine, &until, instants)?;
+    law::check(&evaluator, &spec, &scene)?;
+    loads(&evaluator, &spec, &scene, latest)?;
     if exact.is_none() && conduction.is_none() && reference.is_none() {
-        conservation_only::check(&evaluator, &words)?;
+        conservation_only::check(&evaluator, &spec)?;
     }
-    let observe = words.observe.as_ref().map(|words| observed(&evaluator, words, &scene));
-    let scale = words.judge.scale.as_ref().map(|text| {
+    let observe = spec.observe.as_ref().map(|spec| observed(&evaluator, spec, &scene));
+    let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
     let mut plan = ConvergencePlan {
@@ -87,62 +88,62 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
         same_method_dt,
         refine,
         instants,
-        norm: words.judge.norm,
-        of: words.judge.of,
+        norm: spec.judge.norm,
+        of: spec.judge.of,
         scale: scale.transpose()?,
-        crossing_levels: words.judge.crossing_levels,
+        crossing_levels: spec.judge.crossing_levels,
         cases: Vec::new(),
     };
-    subject_support::check(&evaluator, &words, &plan)?;
-    size::check(&evaluator, &words, &plan, &places)?;
+    subject_support::check(&evaluator, &spec, &plan)?;
+    size::check(&evaluator, &spec, &plan, &places)?;
     steps::check(&evaluator, &plan, &places, &until)?;
-    plan.cases = cases::cases(&evaluator, &words, &plan, &until)?;
-    evaluator.refuse_unused(&words.parameters, &words.functions)?;
-    let head = [words.suite, words.title, words.source, words.about];
-    Ok(assemble(head, parameters, &words.functions, plan))
+    plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
+    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
+    let head = [spec.suite, spec.title, spec.source, spec.about];
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
 /// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.
 fn loads(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
 ) -> Result<(), Diagnostic> {
-    let study = StudyFacts { manufactured: words.manufactured.is_some(), until };
-    for (i, load) in words.scene.loads.iter().enumerate() {
+    let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
+    for (i, load) in spec.scene.loads.iter().enumerate() {
         let path = Path::top("scene").then("loads").then(i).then(load.effect().name());
         load.words().check(&LoadEntry { evaluator, path, scene }, &study)?;
         if let Some(lacked) = load.words().lacked_by_fem() {
-            subject_support::fem_lacks(evaluator, words, lacked)?;
+            subject_support::fem_lacks(evaluator, spec, lacked)?;
         }
     }
     Ok(())
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
-    let words: InternalForceSpec = read(source)?;
-    let (evaluator, parameters) = Evaluator::new(source, &words.parameters, &words.functions)?;
-    name(&evaluator, &words.suite)?;
-    let plan = internal_force::plan(&evaluator, &words)?;
-    evaluator.refuse_unused(&words.parameters, &words.functions)?;
-    let head = [words.suite, words.title, words.source, words.about];
-    Ok(assemble(head, parameters, &words.functions, plan))
+    let spec: InternalForceSpec = read(source)?;
+    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
+    name(&evaluator, &spec.suite)?;
+    let plan = internal_force::plan(&evaluator, &spec)?;
+    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
+    let head = [spec.suite, spec.title, spec.source, spec.about];
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
 fn stability(source: &Source) -> Result<Suite, Diagnostic> {
-    let words: StabilitySpec = read(source)?;
-    let (evaluator, parameters) = Evaluator::new(source, &words.parameters, &words.functions)?;
-    name(&evaluator, &words.suite)?;
-    let plan = stability::plan(&evaluator, source, &words)?;
-    evaluator.refuse_unused(&words.parameters, &words.functions)?;
-    let head = [words.suite, words.title, words.source, words.about];
-    Ok(assemble(head, parameters, &words.functions, plan))
+    let spec: StabilitySpec = read(source)?;
+    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
+    name(&evaluator, &spec.suite)?;
+    let plan = stability::plan(&evaluator, source, &spec)?;
+    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
+    let head = [spec.suite, spec.title, spec.source, spec.about];
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
 fn assemble(
     [name, title, source, about]: [String; 4],
-    parameters: Vec<Parameter>,
+    parameters: Vec<DeclaredParameter>,
     functions: &Ordered<String>,
     plan: impl StudyPlan,
 ) -> Suite {
@@ -163,11 +164,11 @@ fn name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
 /// The place that is watched: one in the body.
 fn observed(
     evaluator: &Evaluator<'_>,
-    words: &ObserveSpec,
+    spec: &ObserveSpec,
     scene: &Scene,
 ) -> Result<Vec<f64>, Diagnostic> {
     let path = Path::top("observe").then("at");
-    let place = evaluator.point(&path, &words.at, scene.dimension())?;
+    let place = evaluator.point(&path, &spec.at, scene.dimension())?;
     for (axis, x) in place.iter().enumerate() {
         let (from, to) = (scene.from[axis], scene.to[axis]);
         if !(from..=to).contains(x) {
@@ -185,13 +186,13 @@ fn observed(
 
 fn reference(
     evaluator: &Evaluator<'_>,
-    words: &ReferenceSpec,
+    spec: &ReferenceSpec,
     dimension: usize,
 ) -> Result<Option<ReferencePlan>, Diagnostic> {
     let path = Path::top("reference");
-    let (equation, fem) = match (words.equation, &words.fem) {
+    let (equation, fem) = match (spec.equation, &spec.fem) {
         (Some(equation), Some(fem)) => (equation, fem),
-        (None, None) if words.same_method.is_some() => return Ok(None),
+        (None, None) if spec.same_method.is_some() => return Ok(None),
         _ => {
             let message =
                 "a reference is a `fem` computation of an `equation`, or the `same_method`";

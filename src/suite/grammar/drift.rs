@@ -1,4 +1,4 @@
-//! The words of bounds on what a run keeps.
+//! Bounds on the errors of conserved totals.
 
 use crate::suite::yaml::NumberText;
 use serde::Deserialize;

@@ -1,8 +1,8 @@
-//! What kind of study a suite is.
+//! Kind of study of a suite.
 
 use serde::Deserialize;
 
-/// What every suite has, whatever it studies.
+/// Keys that every suite has, whatever it studies.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct Head {
     #[serde(default = "StudyName::default_study")]

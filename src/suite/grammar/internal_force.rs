@@ -1,4 +1,4 @@
-//! The words of an internal-force study.
+//! Keys of an internal-force study.
 
 use super::StudyName;
 use crate::{

@@ -130,7 +130,7 @@ pub(crate) struct JudgeSpec {
     pub(crate) of: Quantity,
     #[serde(default)]
     pub(crate) norm: NormName,
-    /// What the error is divided by before it is judged.
+    /// Divisor of the error before it is judged.
     pub(crate) scale: Option<NumberText>,
     #[serde(default)]
     pub(crate) crossing_levels: CrossingLevels,
@@ -198,7 +198,7 @@ pub(crate) struct ExpectSpec {
     /// Bounds on the rate of the energy (1/s).
     pub(crate) energy_rate: Option<Vec<NumberText>>,
     pub(crate) because: String,
-    /// What is expected of a full run, where that differs.
+    /// Expectation of a full run, where that differs.
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 

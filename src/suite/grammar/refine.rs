@@ -1,4 +1,4 @@
-//! The words of a refinement plan.
+//! Keys of a refinement plan.
 
 use super::StepSpec;
 use crate::suite::yaml::{NumberText, OneOrMany};
@@ -13,7 +13,7 @@ pub(crate) struct RunSpec {
     pub(crate) instants: Option<NumberText>,
 }
 
-/// What is a list is refined, from coarse to fine.
+/// The key that holds a list is refined, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RefineSpec {

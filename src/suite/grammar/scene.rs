@@ -1,4 +1,4 @@
-//! The words of a scene.
+//! Keys of a scene.
 
 use crate::{
     mpm::MaterialSpec,

@@ -1,4 +1,4 @@
-//! The words of a stability study.
+//! Keys of a stability study.
 
 use super::{MethodSpec, SceneSpec, StepSpec, StudyName};
 use crate::{
@@ -41,7 +41,7 @@ pub(crate) struct StabilitySpec {
 pub(crate) struct ParticleSpec {
     pub(crate) cells: NumberText,
     pub(crate) ppc: NumberText,
-    /// What every particle is moved by (m), before anything starts.
+    /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
     /// Places (m) of further particles, each with the volume of the others.
     #[serde(default)]
@@ -92,7 +92,7 @@ pub(crate) struct StabilityExpectSpec {
     pub(crate) because: String,
 }
 
-/// What a figure must be.
+/// Bounds on a figure.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FigureSpec {

@@ -1,4 +1,4 @@
-//! The words of a time step: a length, or a rule for it (`auto`, `{courant: 0.5}`).
+//! A time step: a length, or a rule for it (`auto`, `{courant: 0.5}`).
 
 use crate::suite::yaml::NumberText;
 use serde::de::{

@@ -1,4 +1,4 @@
-//! The words of a truth that is given by formulas.
+//! A truth that is given by formulas.
 
 use crate::{exact::Equation, fem::BarLaw, suite::yaml::NumberText};
 use serde::{Deserialize, Deserializer, de::Error as _};

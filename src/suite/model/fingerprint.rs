@@ -1,8 +1,8 @@
 //! A number that tells texts apart.
 
-/// FNV-1a (Fowler, Noll & Vo), 64 bits, over words of eight bytes: a program has tens of millions of bytes,
-/// and each step waits for the one before. Then high bits of a word must be brought down, to where a
-/// product takes them on; no step loses anything of what was there.
+/// FNV-1a (Fowler, Noll & Vo), 64 bits, over words of eight bytes: a program has tens of millions
+/// of bytes, and each step waits for the one before. Then high bits of a word must be brought down,
+/// to where a product takes them on; no step loses anything of what was there.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     let next = |hash: u64, word: u64| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);

@@ -29,13 +29,13 @@ pub struct ForceCase {
     pub name: String,
     /// Basis functions.
     pub basis: BasisName,
-    /// What is expected of the force.
+    /// Expectation of the force.
     pub expected: ForceExpectation,
     /// The reason for expecting it.
     pub because: String,
 }
 
-/// What is expected of the force on a node while a particle moves through it.
+/// Expectation of the force on a node while a particle moves through it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceExpectation {
     /// It deviates from the prediction by at most this share of the largest prediction.

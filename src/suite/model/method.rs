@@ -66,7 +66,7 @@ impl Method {
         }
     }
 
-    /// What makes the method, as rows of name and value.
+    /// The settings of the method, as rows of name and value.
     pub fn settings(&self) -> Vec<(String, String)> {
         let owned = |rows: Vec<(&str, &str)>| -> Vec<(String, String)> {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()

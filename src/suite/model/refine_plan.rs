@@ -1,4 +1,4 @@
-//! What a study refines, level by level.
+//! The refinement of a study, level by level.
 
 use crate::verify::Axis;
 
@@ -34,7 +34,7 @@ pub struct LevelPlan {
 /// How much of a plan is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// What the gate runs.
+    /// The levels of the gate.
     Usual,
     /// All levels.
     Full,

@@ -9,8 +9,8 @@ use crate::{
 /// A stability study.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
-    /// What is read once more for every value of the parameters.
-    pub(crate) recipe: Recipe,
+    /// Template of the set-ups, evaluated for every value of the parameters.
+    pub(crate) template: SetupTemplate,
     /// The parameter that is swept.
     pub swept: String,
     /// Its values, one for each row.
@@ -27,9 +27,9 @@ pub struct StabilityPlan {
 
 /// A suite that can be read with other values of its parameters.
 #[derive(Debug, Clone)]
-pub(crate) struct Recipe {
+pub(crate) struct SetupTemplate {
     pub(crate) source: Source,
-    pub(crate) words: StabilitySpec,
+    pub(crate) spec: StabilitySpec,
 }
 
 /// Changes to the lattice of particles before a run.
@@ -48,7 +48,7 @@ pub struct StabilityCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// What is expected of each row.
+    /// Expectation of each row.
     pub expected: Vec<StabilityExpectation>,
     /// The same in one line.
     pub summary: String,

@@ -1,4 +1,4 @@
-//! What is wrong with a file, and where.
+//! An error in a file, and its place.
 
 use super::place::{Place, line_around};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
@@ -28,7 +28,7 @@ struct Parts {
 struct Excerpt {
     place: Place,
     line: String,
-    /// What is underlined, in bytes of `line`.
+    /// Underlined range, in bytes of `line`.
     underlined: Range<usize>,
 }
 
@@ -58,7 +58,7 @@ impl Diagnostic {
         diagnostic
     }
 
-    /// Adds the words under the caret: what was expected there.
+    /// Adds the label under the caret: what was expected there.
     #[must_use]
     pub fn with_label(mut self, label: &str) -> Self {
         self.0.label = Some(printable(label)).filter(|label| !label.is_empty());
@@ -82,17 +82,17 @@ impl Diagnostic {
         self.0.excerpt.as_ref().map(|excerpt| excerpt.place)
     }
 
-    /// What is wrong.
+    /// The error.
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// What was expected at the place.
+    /// The text under the caret: what was expected at the place.
     pub fn label(&self) -> Option<&str> {
         self.0.label.as_deref()
     }
 
-    /// What the author could do.
+    /// A remedy for the author.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

@@ -1,12 +1,12 @@
-//! What the program writes for itself to read again: numbers come back bit by bit, NaN and infinities
-//! among them, which JSON has no words for. Nobody else's text is read here.
+//! Text that the program writes for itself to read again: numbers come back bit by bit, NaN and
+//! infinities among them, which JSON cannot express.
 
 use serde::{Serialize, de::DeserializeOwned};
 
 /// The text of a value.
 ///
 /// # Errors
-/// What the library says that it cannot write.
+/// The message of the library on a value that it cannot write.
 pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, String> {
     serde_yaml::to_string(value).map_err(|error| error.to_string())
 }

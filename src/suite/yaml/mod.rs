@@ -31,6 +31,7 @@ pub(crate) mod locate;
 pub(crate) mod number_text;
 pub(crate) mod one_or_many;
 pub(crate) mod ordered;
+pub(crate) mod phrase;
 pub(crate) mod place;
 pub(crate) mod read;
 pub(crate) mod refusal;
@@ -41,7 +42,6 @@ pub(crate) mod shape;
 pub(crate) mod source;
 pub(crate) mod translate;
 pub(crate) mod unwanted;
-pub(crate) mod words;
 
 #[cfg(test)]
 mod tests;
@@ -52,11 +52,11 @@ pub use locate::Step;
 pub use number_text::NumberText;
 pub use one_or_many::OneOrMany;
 pub use ordered::Ordered;
+pub(crate) use phrase::nearest;
 pub use place::Place;
 pub use read::read;
 pub use refusal::refuse;
 pub use source::{MAX_BYTES, Source};
-pub(crate) use words::nearest;
 
 /// The most entries that one list or one map may have.
 pub const MAX_ENTRIES: usize = 1000;

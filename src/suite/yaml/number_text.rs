@@ -4,7 +4,7 @@ use super::shape::finite;
 use serde::de::{self, Deserialize, Deserializer, Visitor};
 use std::fmt;
 
-/// What a suite may write where a number is due: `25`, `1e-3` or `"pi/(2*L)"`.
+/// A number in a suite, or a formula for one: `25`, `1e-3` or `"pi/(2*L)"`.
 ///
 /// Formulas are not parsed here; `Display` gives the text to parse, for a number the shortest
 /// that reads back as the same number.

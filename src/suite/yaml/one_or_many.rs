@@ -6,7 +6,7 @@ use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, Se
 use std::fmt;
 use std::marker::PhantomData;
 
-/// What a suite may vary: `scheme: usl`, or `scheme: [musl, usl]` for a case of each.
+/// A setting that a suite may vary: `scheme: usl`, or `scheme: [musl, usl]` for a case of each.
 ///
 /// Never empty. `T` may be a number, text, a struct or an enum, but not itself a list: the
 /// first bracket is always that of the alternatives.

@@ -1,5 +1,5 @@
-//! What must be known of a file before the parser may see it: how deep it nests, and whether
-//! it uses what suites do not need.
+//! Scan of a file before the parser sees it: how deep it nests, and whether it uses features that
+//! suites do not need.
 //!
 //! The YAML parser's cost is quadratic in the nesting, and its own limit acts too late. This
 //! pass follows the parser's rules for where a token starts, and nothing else: it builds no
@@ -21,7 +21,7 @@ pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
         open: Vec::new(),
         key_allowed: true,
         possible_key: None,
-        document: Document::Before,
+        document: DocumentState::Before,
         scalars: Vec::new(),
     };
     while scanner.step()? == Next::More {}
@@ -42,12 +42,12 @@ pub(crate) struct Scanner<'t> {
     pub(crate) key_allowed: bool,
     /// Where the token starts that a `:` later on the same line makes a key.
     pub(crate) possible_key: Option<usize>,
-    document: Document,
+    document: DocumentState,
     pub(crate) scalars: Vec<Scalar>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Document {
+enum DocumentState {
     Before,
     Inside,
     Ended,
@@ -66,7 +66,7 @@ impl Scanner<'_> {
             self.all_closed()?;
             return Ok(Next::Stop);
         };
-        if self.column() == 0 && byte == b'%' && self.document == Document::Before {
+        if self.column() == 0 && byte == b'%' && self.document == DocumentState::Before {
             self.skip_line();
             return Ok(Next::More);
         }
@@ -77,10 +77,10 @@ impl Scanner<'_> {
         if self.at_document_mark() {
             return self.document_mark(byte);
         }
-        if self.document == Document::Ended {
+        if self.document == DocumentState::Ended {
             return Err(self.second_document());
         }
-        self.document = Document::Inside;
+        self.document = DocumentState::Inside;
         self.token(byte)
     }
 
@@ -179,10 +179,10 @@ impl Scanner<'_> {
     fn document_mark(&mut self, byte: u8) -> Result<Next, Diagnostic> {
         self.all_closed()?;
         self.document = match (byte, self.document) {
-            (b'-', Document::Before) => Document::Inside,
+            (b'-', DocumentState::Before) => DocumentState::Inside,
             (b'-', _) => return Err(self.second_document()),
-            (_, Document::Before) => Document::Before,
-            _ => Document::Ended,
+            (_, DocumentState::Before) => DocumentState::Before,
+            _ => DocumentState::Ended,
         };
         self.indents.clear();
         self.possible_key = None;

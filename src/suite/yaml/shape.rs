@@ -1,5 +1,5 @@
-//! What holds for every suite file whatever its keys mean: no key twice, no merge keys, no
-//! endless lists, only finite numbers.
+//! Rules for every suite file, whatever its keys mean: no key twice, no merge keys, no endless
+//! lists, only finite numbers.
 //!
 //! Checked in a walk of its own, because a typed reader notices a second key only after its
 //! value, and a field of type `f64` accepts `.nan`.
@@ -11,16 +11,16 @@ use std::fmt;
 
 /// Walks the whole file.
 pub(crate) fn check(source: &Source) -> Result<(), serde_yaml::Error> {
-    Shape { root: true }.deserialize(serde_yaml::Deserializer::from_str(source.text()))
+    ShapeCheck { root: true }.deserialize(serde_yaml::Deserializer::from_str(source.text()))
 }
 
-struct Shape {
+struct ShapeCheck {
     root: bool,
 }
 
-const INSIDE: Shape = Shape { root: false };
+const INSIDE: ShapeCheck = ShapeCheck { root: false };
 
-impl<'de> DeserializeSeed<'de> for Shape {
+impl<'de> DeserializeSeed<'de> for ShapeCheck {
     type Value = ();
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
@@ -28,7 +28,7 @@ impl<'de> DeserializeSeed<'de> for Shape {
     }
 }
 
-impl<'de> Visitor<'de> for Shape {
+impl<'de> Visitor<'de> for ShapeCheck {
     type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

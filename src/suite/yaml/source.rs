@@ -57,7 +57,7 @@ impl Source {
         &self.name
     }
 
-    /// What the file says, without a byte order mark.
+    /// The text of the file, without a byte order mark.
     pub fn text(&self) -> &str {
         &self.text
     }

@@ -1,9 +1,9 @@
-//! The errors of the YAML library, in the words of someone who writes a suite.
+//! Errors of the YAML library, in terms of a suite.
 
 use super::{
     Diagnostic, Source,
+    phrase::{expected, found, listed, nearest, syntax},
     refusal::refused,
-    words::{expected, found, listed, nearest, syntax},
 };
 
 /// Turns an error of the library into a complaint at the same place.
@@ -30,7 +30,7 @@ pub(crate) fn diagnostic(source: &Source, error: &serde_yaml::Error) -> Diagnost
         .unwrap_or_else(|| fault.at_token(problem))
 }
 
-/// What the library puts in front of a problem, `scene.material: `, and the problem.
+/// Prefix of a problem by the library, `scene.material: `, and the problem.
 fn split_path(text: &str) -> (&str, &str) {
     const OPENINGS: [&str; 7] = [
         "unknown field `",

@@ -1,4 +1,4 @@
-//! What the scan refuses, in words.
+//! Diagnostics of the scan.
 
 use super::{Diagnostic, MAX_NESTING, Place, scan::Scanner};
 use std::ops::Range;

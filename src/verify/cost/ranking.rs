@@ -133,12 +133,12 @@ pub fn rankings(
     let mut problems: Vec<(&str, f64, Vec<MethodCost>)> = Vec::new();
     for case in cases {
         let Some(study) = case.convergence().filter(|study| study.compared) else { continue };
-        let size = study.yardstick.size;
+        let size = study.error_scale.size;
         if !(size > 0.0) || study.levels.len() < 3 {
             continue;
         }
         let one = contender(case, study, &work);
-        let problem = study.yardstick.problem.as_str();
+        let problem = study.error_scale.problem.as_str();
         match problems
             .iter_mut()
             .find(|(known, known_size, _)| *known == problem && *known_size == size)
@@ -161,7 +161,7 @@ fn contender(
     let window = study.judgement.window.as_deref().unwrap_or_default();
     let tried = |(k, level): (usize, &LevelOutcome)| Sample {
         spacing: level.spacing,
-        error: level.error / study.yardstick.size,
+        error: level.error / study.error_scale.size,
         work: work(case, k, level),
         usable: level.usable,
         asymptotic: window.contains(&k),
@@ -171,6 +171,6 @@ fn contender(
         name: case.case.clone(),
         tried: study.levels.iter().enumerate().map(tried).collect(),
         formal_order: study.formal_order,
-        growth: study.yardstick.growth,
+        growth: study.error_scale.growth,
     }
 }

@@ -1,4 +1,4 @@
-//! What the FEM bar cannot do: refused before anything runs.
+//! Conditions outside the scope of the FEM bar, refused before anything runs.
 
 use crate::suite::{
     compile::{evaluator::Evaluator, path::Path},
@@ -10,10 +10,10 @@ use crate::suite::{
 /// Refuses conditions that the bar does not know, if the suite asks for one.
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    if !words.has_fem_reference() && words.fem_method().is_none() {
+    if !spec.has_fem_reference() && spec.fem_method().is_none() {
         return Ok(());
     }
     let path = Path::top("scene");

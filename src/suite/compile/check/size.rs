@@ -1,7 +1,7 @@
 //! Whether every level fits into a machine, and has nodes where a face is held.
 
 use crate::suite::{
-    compile::{evaluator::Evaluator, path::Path, run::refine::Place, wording::shown},
+    compile::{evaluator::Evaluator, path::Path, run::refine::LevelPaths, wording::shown},
     grammar::{ConvergenceSpec, MethodSpec},
     model::{
         BoundaryCondition, ConvergencePlan, Scene,
@@ -21,12 +21,12 @@ const ROUNDING: f64 = 1e-6;
 /// Refuses a level that is too large, or on which a held face has no nodes.
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
-    places: &[Place],
+    places: &[LevelPaths],
 ) -> Result<(), Diagnostic> {
     reference(evaluator, plan)?;
-    if words.methods.iter().all(|method| matches!(method, MethodSpec::Fem { .. })) {
+    if spec.methods.iter().all(|method| matches!(method, MethodSpec::Fem { .. })) {
         return Ok(());
     }
     for (level, place) in plan.refine.levels.iter().zip(places) {
@@ -60,7 +60,7 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// What the level has too many of, and how many.
+/// The quantity that exceeds the limit, if one does, and its amount.
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
@@ -81,7 +81,7 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
 }
 
 /// The nodes that are held lie on the last face of the grid, which must be that of the body; a
-/// periodic grid must end where it was told to.
+/// periodic grid must end where the suite says.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -140,8 +140,8 @@ fn sets(
 /// A reference keeps its state at every instant.
 fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
-    let kept = fine.cells as f64 * plan.instants as f64;
-    if kept <= MOST {
+    let stored = fine.cells as f64 * plan.instants as f64;
+    if stored <= MOST {
         return Ok(());
     }
     let message =

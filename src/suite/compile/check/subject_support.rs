@@ -13,7 +13,7 @@ use crate::{
 /// Refuses to judge a quantity that the reference FEM does not give.
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
     if !plan.of.is_optional() {
@@ -25,7 +25,7 @@ pub(crate) fn check(
         let message = format!("a reference has no {name} to compare with, which this suite judges");
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message).with_help(help));
     }
-    match words.fem_method() {
+    match spec.fem_method() {
         Some(i) => {
             let message = format!("the reference FEM gives no {name}, which this suite judges");
             let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), &message);
@@ -38,14 +38,14 @@ pub(crate) fn check(
 /// Refuses the reference FEM, as method or as reference, for a scene with an effect that it lacks.
 pub(crate) fn fem_lacks(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     effect: &str,
 ) -> Result<(), Diagnostic> {
     let message = format!("the reference FEM has no {effect}, and the scene has");
-    if words.has_fem_reference() {
+    if spec.has_fem_reference() {
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message));
     }
-    match words.fem_method() {
+    match spec.fem_method() {
         Some(i) => Err(evaluator.diagnostic(&Path::top("methods").then(i), &message)),
         None => Ok(()),
     }

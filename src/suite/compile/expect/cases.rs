@@ -15,24 +15,24 @@ use crate::{
 };
 use std::str::FromStr;
 
-/// What is expected of a case, and of a full run if that differs.
-type Expected = (Expectation, Option<Expectation>);
+/// Expectation of a case, and of a full run if that differs.
+type CaseExpectation = (Expectation, Option<Expectation>);
 
 /// One expectation for each of the `cases`, in their order.
 pub(crate) fn expectations(
     evaluator: &Evaluator<'_>,
-    words: &[ExpectSpec],
+    spec: &[ExpectSpec],
     plan: &ConvergencePlan,
     cases: &[(&str, Method)],
-) -> Result<Vec<Expected>, Diagnostic> {
+) -> Result<Vec<CaseExpectation>, Diagnostic> {
     let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
-    let selectors: Vec<_> = words.iter().map(|words| words.case.as_ref()).collect();
+    let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
-    let both = |(i, words): (usize, &ExpectSpec)| {
+    let both = |(i, spec): (usize, &ExpectSpec)| {
         let path = Path::top("expect").then(i);
-        Ok((expectation(evaluator, &path, words, plan)?, in_full(evaluator, &path, words, plan)?))
+        Ok((expectation(evaluator, &path, spec, plan)?, in_full(evaluator, &path, spec, plan)?))
     };
-    let parsed = words.iter().enumerate().map(both).collect::<Result<Vec<Expected>, _>>()?;
+    let parsed = spec.iter().enumerate().map(both).collect::<Result<Vec<CaseExpectation>, _>>()?;
     for (&owner, (_, method)) in owners.iter().zip(cases) {
         let path = Path::top("expect").then(owner);
         subject_support::check_drift(evaluator, &path, &parsed[owner].0.limits, *method)?;
@@ -93,14 +93,14 @@ fn matches(glob: &str, name: &str) -> bool {
     rest.ends_with(last)
 }
 
-/// What is expected of a full run, where an entry says that it differs.
+/// Expectation of a full run, where an entry states that it differs.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpectSpec,
+    spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Option<Expectation>, Diagnostic> {
-    let Some(full) = &words.full else { return Ok(None) };
+    let Some(full) = &spec.full else { return Ok(None) };
     let path = path.then("full");
     for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
         if given {
@@ -116,13 +116,13 @@ fn in_full(
 fn expectation(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpectSpec,
+    spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Expectation, Diagnostic> {
-    let limits = limits(evaluator, path, words, plan)?;
-    let verdict = match &words.verdict {
+    let limits = limits(evaluator, path, spec, plan)?;
+    let verdict = match &spec.verdict {
         Some(word) => Some(verdict(evaluator, &path.then("verdict"), word)?),
-        None if words.order.is_some() => Some(Verdict::Converging),
+        None if spec.order.is_some() => Some(Verdict::Converging),
         None if !limits.is_empty() => None,
         None => {
             let diagnostic = evaluator
@@ -131,16 +131,16 @@ fn expectation(
             return Err(diagnostic.with_help(help));
         }
     };
-    let because = because(evaluator, path, &words.because)?;
-    let bounds = |key: &str, words: &Option<Vec<NumberText>>| {
-        words.as_ref().map(|pair| interval(evaluator, &path.then(key), pair)).transpose()
+    let because = because(evaluator, path, &spec.because)?;
+    let bounds = |key: &str, spec: &Option<Vec<NumberText>>| {
+        spec.as_ref().map(|pair| interval(evaluator, &path.then(key), pair)).transpose()
     };
     Ok(Expectation {
         verdict,
-        order: bounds("order", &words.order)?,
-        finest_pair: bounds("finest_pair", &words.finest_pair)?,
-        crossings: words.crossings.map(|name| name == CrossingsName::Some),
-        floor: words.floor,
+        order: bounds("order", &spec.order)?,
+        finest_pair: bounds("finest_pair", &spec.finest_pair)?,
+        crossings: spec.crossings.map(|name| name == CrossingsName::Some),
+        floor: spec.floor,
         limits,
         because,
     })

@@ -1,4 +1,4 @@
-//! Bounds on figures that an expectation asks for, from words.
+//! Bounds on figures, from an entry of `expect`.
 
 use crate::{
     suite::{
@@ -14,26 +14,26 @@ use crate::{
 pub(crate) fn limits(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExpectSpec,
+    spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Limits, Diagnostic> {
     let bound = |key: &str, text: &Option<NumberText>| {
         text.as_ref().map(|text| evaluator.positive(&path.then(key), text, "a bound")).transpose()
     };
     let limits = Limits {
-        error_below: bound("error_below", &words.error_below)?,
-        error_above: bound("error_above", &words.error_above)?,
-        observed_within: bound("observed_within", &words.observed_within)?,
-        rest_below: bound("rest_below", &words.rest_below)?,
-        drift: match &words.drift {
-            Some(words) => drifts(evaluator, &path.then("drift"), words, plan)?,
+        error_below: bound("error_below", &spec.error_below)?,
+        error_above: bound("error_above", &spec.error_above)?,
+        observed_within: bound("observed_within", &spec.observed_within)?,
+        rest_below: bound("rest_below", &spec.rest_below)?,
+        drift: match &spec.drift {
+            Some(spec) => drifts(evaluator, &path.then("drift"), spec, plan)?,
             None => Vec::new(),
         },
-        energy_rate: match &words.energy_rate {
-            Some(words) => {
+        energy_rate: match &spec.energy_rate {
+            Some(spec) => {
                 let path = path.then("energy_rate");
                 energy::check(evaluator, &path, plan)?;
-                Some(interval(evaluator, &path, words)?)
+                Some(interval(evaluator, &path, spec)?)
             }
             None => None,
         },
@@ -60,18 +60,18 @@ pub(crate) fn limits(
 fn drifts(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &DriftSpec,
+    spec: &DriftSpec,
     plan: &ConvergencePlan,
 ) -> Result<Vec<(Conserved, f64)>, Diagnostic> {
     let mut drifts = Vec::new();
     for &sum in Conserved::ALL {
         let text = match sum {
-            Conserved::Mass => &words.mass,
-            Conserved::Momentum => &words.momentum,
-            Conserved::AngularMomentum => &words.angular_momentum,
-            Conserved::KineticEnergy => &words.kinetic_energy,
-            Conserved::KineticEnergyGain => &words.kinetic_energy_gain,
-            Conserved::Energy => &words.energy,
+            Conserved::Mass => &spec.mass,
+            Conserved::Momentum => &spec.momentum,
+            Conserved::AngularMomentum => &spec.angular_momentum,
+            Conserved::KineticEnergy => &spec.kinetic_energy,
+            Conserved::KineticEnergyGain => &spec.kinetic_energy_gain,
+            Conserved::Energy => &spec.energy,
         };
         let Some(text) = text else { continue };
         let path = path.then(sum.name());

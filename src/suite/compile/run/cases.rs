@@ -24,11 +24,11 @@ const MOST_CASES: usize = 1000;
 /// The ends of the runs: how names write them, and value (s).
 pub(crate) fn until(
     evaluator: &Evaluator<'_>,
-    words: &OneOrMany<NumberText>,
+    spec: &OneOrMany<NumberText>,
 ) -> Result<Vec<(String, f64)>, Diagnostic> {
     let path = Path::top("run").then("until");
     let mut ends: Vec<(String, f64)> = Vec::new();
-    for (i, text) in words.as_slice().iter().enumerate() {
+    for (i, text) in spec.as_slice().iter().enumerate() {
         let path = evaluator.alternative(&path, i);
         let until = evaluator.positive(&path, text, "the end of the run")?;
         let text = shown(until);
@@ -44,12 +44,12 @@ pub(crate) fn until(
 /// All cases of a suite with what is expected of each.
 pub(crate) fn cases(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
     until: &[(String, f64)],
 ) -> Result<Vec<Case>, Diagnostic> {
     let mut drafts = Vec::new();
-    for (i, method) in words.methods.iter().enumerate() {
+    for (i, method) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         possible(evaluator, &path, method, plan)?;
         few(evaluator, &path, drafts.len(), method, until.len())?;
@@ -81,7 +81,7 @@ pub(crate) fn cases(
         return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
     }
     let named: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
-    let expectations = cases::expectations(evaluator, &words.expect, plan, &named)?;
+    let expectations = cases::expectations(evaluator, &spec.expect, plan, &named)?;
     let with = |(draft, (expectation, expectation_in_full)): (Draft, _)| Case {
         name: draft.name,
         method: draft.method,
@@ -134,11 +134,11 @@ fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,
     already: usize,
-    words: &MethodSpec,
+    spec: &MethodSpec,
     ends: usize,
 ) -> Result<(), Diagnostic> {
     let optional = |length: Option<usize>| length.unwrap_or(1);
-    let lengths = match words {
+    let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
             basis.as_slice().len(),
             transfer.as_slice().len(),
@@ -169,10 +169,10 @@ fn few(
 fn possible(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &MethodSpec,
+    spec: &MethodSpec,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    match words {
+    match spec {
         MethodSpec::Fem { .. } if plan.scene.dimension() != 1 => {
             let d = plan.scene.dimension();
             Err(evaluator.diagnostic(path, &format!("the reference FEM is 1-D, the scene {d}-D")))

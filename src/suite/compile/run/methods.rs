@@ -13,8 +13,8 @@ use crate::{
 
 /// The product of one entry of `methods`. A choice enters the name where there is one, or where
 /// it always has to be made.
-pub(crate) fn methods(words: &MethodSpec, own_law: EquationName) -> Vec<(String, Method)> {
-    match words {
+pub(crate) fn methods(spec: &MethodSpec, own_law: EquationName) -> Vec<(String, Method)> {
+    match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => {
             let mut all = Vec::new();
             let starts = choices(start.as_ref(), Start::AtZero, Start::name);

@@ -1,4 +1,4 @@
-//! The refinement plan of a suite, from words: what is a list is refined.
+//! The refinement plan of a suite: the key that holds a list is refined.
 
 use super::step_rule;
 use crate::{
@@ -17,39 +17,39 @@ use crate::{
 };
 
 /// Where a file states what makes a level: its size, and its time step.
-pub(crate) struct Place {
+pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
 }
 
 /// One entry of a list, and where it stands.
-struct Entry<T> {
+struct Located<T> {
     value: T,
     at: Path,
 }
 
-/// The levels of a suite, and the places that complaints about each point at.
+/// The levels of a suite, and the places in the file that diagnostics of each point at.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<(RefinePlan, Vec<Place>), Diagnostic> {
-    let axis = axis(evaluator, &words.refine)?;
-    no_idle_expectation(evaluator, words)?;
+) -> Result<(RefinePlan, Vec<LevelPaths>), Diagnostic> {
+    let axis = axis(evaluator, &spec.refine)?;
+    no_idle_expectation(evaluator, spec)?;
     let d = scene.dimension();
-    let cells = counts(evaluator, &listed(evaluator, words, Axis::Space, axis), "cells")?;
+    let cells = counts(evaluator, &listed(evaluator, spec, Axis::Space, axis), "cells")?;
     let ppc =
-        counts(evaluator, &listed(evaluator, words, Axis::Particles, axis), "particles per cell")?;
+        counts(evaluator, &listed(evaluator, spec, Axis::Particles, axis), "particles per cell")?;
     for entry in &ppc {
         equally_spaced(evaluator, entry, d)?;
     }
     let at_run = Path::top("run").then("dt");
-    let rule = words.run.dt.as_ref().map(|words| step_rule::share(evaluator, &at_run, words));
+    let rule = spec.run.dt.as_ref().map(|spec| step_rule::share(evaluator, &at_run, spec));
     let rule = rule.transpose()?.flatten();
-    step_rule::check(evaluator, &words.methods, rule)?;
-    let stated = words.run.dt.as_ref();
-    let stated = stated.map(|words| step_rule::formula_text(evaluator, &at_run, words, scene));
-    let dt = steps(evaluator, words, axis, stated.transpose()?.as_ref())?;
+    step_rule::check(evaluator, &spec.methods, rule)?;
+    let stated = spec.run.dt.as_ref();
+    let stated = stated.map(|spec| step_rule::formula_text(evaluator, &at_run, spec, scene));
+    let dt = steps(evaluator, spec, axis, stated.transpose()?.as_ref())?;
     let count = cells.len().max(ppc.len()).max(dt.len());
     let level = |k: usize| {
         let cells = of_level(&cells, k)?.value;
@@ -59,56 +59,56 @@ pub(crate) fn plan(
     };
     let place = |k: usize| {
         let size = if axis == Axis::Particles { &ppc } else { &cells };
-        Some(Place { size: of_level(size, k)?.at.clone(), dt: of_level(&dt, k)?.at.clone() })
+        Some(LevelPaths { size: of_level(size, k)?.at.clone(), dt: of_level(&dt, k)?.at.clone() })
     };
     let plan = RefinePlan {
         axis,
         levels: (0..count).filter_map(level).collect(),
-        usual: count - words.refine.full.as_ref().map_or(0, |full| full.as_slice().len()),
+        usual: count - spec.refine.full.as_ref().map_or(0, |full| full.as_slice().len()),
         steps: dt.iter().map(|entry| entry.value.source().to_owned()).collect(),
         rule,
     };
     Ok((plan, (0..count).filter_map(place).collect()))
 }
 
-/// What is expected of a full run needs one.
+/// Refuses an expectation of a full run where there is none.
 fn no_idle_expectation(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
 ) -> Result<(), Diagnostic> {
-    let idle = words.expect.iter().position(|entry| entry.full.is_some());
-    let (Some(i), None) = (idle, &words.refine.full) else { return Ok(()) };
+    let idle = spec.expect.iter().position(|entry| entry.full.is_some());
+    let (Some(i), None) = (idle, &spec.refine.full) else { return Ok(()) };
     let path = Path::top("expect").then(i).then("full");
     let diagnostic = evaluator.diagnostic_at_key(&path, "there is no full run to expect this of");
     Err(diagnostic.with_help("list its levels under `full` in `refine`"))
 }
 
 /// The entry of level `k`: its own, or the one that all levels share.
-fn of_level<T>(entries: &[Entry<T>], k: usize) -> Option<&Entry<T>> {
+fn of_level<T>(entries: &[Located<T>], k: usize) -> Option<&Located<T>> {
     entries.get(k).or_else(|| entries.first().filter(|_| entries.len() == 1))
 }
 
-fn is_list(words: Option<&OneOrMany<NumberText>>) -> bool {
-    words.is_some_and(|list| list.as_slice().len() > 1)
+fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
+    spec.is_some_and(|list| list.as_slice().len() > 1)
 }
 
-/// What is refined. Of two lists only cells and time steps go together, level by level.
-fn axis(evaluator: &Evaluator<'_>, words: &RefineSpec) -> Result<Axis, Diagnostic> {
+/// The refined axis. Of two lists only cells and time steps go together, level by level.
+fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = Path::top("refine");
-    let [cells, dt, ppc] = [Some(&words.cells), words.dt.as_ref(), words.ppc.as_ref()].map(is_list);
+    let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
     if ppc && (cells || dt) {
         let diagnostic = evaluator.diagnostic(&path.then("ppc"), "two things are refined at once");
         let help = "particles per cell are refined alone: give one number of cells and one `dt`";
         return Err(diagnostic.with_help(help));
     }
-    let lengths = [Some(&words.cells), words.dt.as_ref()]
+    let lengths = [Some(&spec.cells), spec.dt.as_ref()]
         .map(|list| list.map_or(0, |list| list.as_slice().len()));
     if cells && dt && lengths[0] != lengths[1] {
         let message = format!("{} time steps for {} levels of cells", lengths[1], lengths[0]);
         let diagnostic = evaluator.diagnostic(&path.then("dt"), &message);
         return Err(diagnostic.with_label("expected one for each").with_help(FORMULA));
     }
-    if let (true, Some(_)) = (cells && dt, &words.full) {
+    if let (true, Some(_)) = (cells && dt, &spec.full) {
         let message = "one list of further levels cannot refine both cells and time steps";
         return Err(evaluator.diagnostic_at_key(&path.then("full"), message).with_help(FORMULA));
     }
@@ -121,14 +121,15 @@ fn axis(evaluator: &Evaluator<'_>, words: &RefineSpec) -> Result<Axis, Diagnosti
 
 const FORMULA: &str = "or give the time step in `run`, as a formula of h";
 
-/// The entries of one key of `refine`, followed by those of `full` if it is the key that is refined.
+/// The entries of one key of `refine`, followed by those of `full` if it is the key that is
+/// refined.
 fn listed<'w>(
     evaluator: &Evaluator<'_>,
-    words: &'w ConvergenceSpec,
+    spec: &'w ConvergenceSpec,
     key: Axis,
     refined: Axis,
-) -> Vec<Entry<&'w NumberText>> {
-    let refine = &words.refine;
+) -> Vec<Located<&'w NumberText>> {
+    let refine = &spec.refine;
     let (name, list) = match key {
         Axis::Space => ("cells", Some(&refine.cells)),
         Axis::Time => ("dt", refine.dt.as_ref()),
@@ -138,7 +139,7 @@ fn listed<'w>(
     let entries = |name: &str, list: Option<&'w OneOrMany<NumberText>>| {
         let path = Path::top("refine").then(name);
         let texts = list.map_or(&[][..], OneOrMany::as_slice).iter().enumerate();
-        let entry = |(i, value)| Entry { value, at: evaluator.alternative(&path, i) };
+        let entry = |(i, value)| Located { value, at: evaluator.alternative(&path, i) };
         texts.map(entry).collect::<Vec<_>>()
     };
     let mut all = entries(name, list);
@@ -149,11 +150,11 @@ fn listed<'w>(
 /// Counts that grow from level to level.
 fn counts(
     evaluator: &Evaluator<'_>,
-    texts: &[Entry<&NumberText>],
+    texts: &[Located<&NumberText>],
     what: &str,
-) -> Result<Vec<Entry<u64>>, Diagnostic> {
-    let mut counts: Vec<Entry<u64>> = Vec::new();
-    for Entry { value, at } in texts {
+) -> Result<Vec<Located<u64>>, Diagnostic> {
+    let mut counts: Vec<Located<u64>> = Vec::new();
+    for Located { value, at } in texts {
         let count = evaluator.count(at, value, &format!("the number of {what}"))?;
         if counts.iter().any(|known| known.value == count) {
             let message = format!("a level with {count} {what} appears twice");
@@ -163,7 +164,7 @@ fn counts(
             let message = format!("a level with {count} {what} after one with {}", coarser.value);
             return Err(evaluator.diagnostic(at, &message).with_label(COARSE_TO_FINE));
         }
-        counts.push(Entry { value: count, at: at.clone() });
+        counts.push(Located { value: count, at: at.clone() });
     }
     Ok(counts)
 }
@@ -172,7 +173,7 @@ pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 fn equally_spaced(
     evaluator: &Evaluator<'_>,
-    ppc: &Entry<u64>,
+    ppc: &Located<u64>,
     dimension: usize,
 ) -> Result<(), Diagnostic> {
     if per_axis(ppc.value, dimension).is_some() {
@@ -186,13 +187,13 @@ fn equally_spaced(
 /// The time steps: one in `run`, or a list in `refine`.
 fn steps(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     axis: Axis,
     stated: Option<&NumberText>,
-) -> Result<Vec<Entry<Formula>>, Diagnostic> {
+) -> Result<Vec<Located<Formula>>, Diagnostic> {
     let at_run = Path::top("run").then("dt");
     let at_refine = Path::top("refine").then("dt");
-    let texts = match (stated, &words.refine.dt) {
+    let texts = match (stated, &spec.refine.dt) {
         (Some(_), Some(_)) => {
             let diagnostic =
                 evaluator.diagnostic_at_key(&at_refine, "`run` states the time step already");
@@ -208,11 +209,11 @@ fn steps(
                 evaluator.diagnostic_at_key(&at_refine, "one time step refines nothing");
             return Err(diagnostic.with_help("move it to `run`, or list several"));
         }
-        (Some(value), None) => vec![Entry { value, at: at_run }],
-        (None, Some(_)) => listed(evaluator, words, Axis::Time, axis),
+        (Some(value), None) => vec![Located { value, at: at_run }],
+        (None, Some(_)) => listed(evaluator, spec, Axis::Time, axis),
     };
-    let bind = |Entry { value, at }: Entry<&NumberText>| {
-        Ok(Entry { value: evaluator.formula(&at, value, &["h"])?, at })
+    let bind = |Located { value, at }: Located<&NumberText>| {
+        Ok(Located { value: evaluator.formula(&at, value, &["h"])?, at })
     };
     texts.into_iter().map(bind).collect()
 }

@@ -10,13 +10,13 @@ use crate::suite::{
 /// The share that `auto` takes.
 const AUTO: f64 = 0.5;
 
-/// The share of the longest safe step that `words` at `path` ask for, if they are a rule.
+/// The share of the longest safe step that `spec` at `path` asks for, if it is a rule.
 pub(crate) fn share(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StepSpec,
+    spec: &StepSpec,
 ) -> Result<Option<f64>, Diagnostic> {
-    match words {
+    match spec {
         StepSpec::Length(_) => Ok(None),
         StepSpec::Auto => Ok(Some(AUTO)),
         StepSpec::Courant(text) => evaluator
@@ -25,14 +25,15 @@ pub(crate) fn share(
     }
 }
 
-/// The step (s) as a formula of h: as stated, or, by a rule, what it is without looking at the particles.
+/// The step (s) as a formula of h: as stated, or, for a rule, its value before any particle is
+/// known.
 pub(crate) fn formula_text(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StepSpec,
+    spec: &StepSpec,
     scene: &Scene,
 ) -> Result<NumberText, Diagnostic> {
-    let share = match (words, share(evaluator, path, words)?) {
+    let share = match (spec, share(evaluator, path, spec)?) {
         (StepSpec::Length(text), _) => return Ok(text.clone()),
         (_, share) => share.unwrap_or(AUTO),
     };

@@ -1,6 +1,6 @@
 //! Time steps that runs can take.
 
-use super::refine::{COARSE_TO_FINE, Place};
+use super::refine::{COARSE_TO_FINE, LevelPaths};
 use crate::{
     suite::{
         compile::{evaluator::Evaluator, path::Path, wording::shown},
@@ -11,19 +11,19 @@ use crate::{
     verify::{Axis, Clock},
 };
 
-/// How much shorter the steps are of the same method that serves as truth. Its start is of second order,
-/// so that an error of second order on the finest level is told to 1/64.
+/// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
+/// order, so that an error of second order on the finest level is known to 1/64.
 const SHORTER: f64 = 8.0;
 
 /// The time step (s) of the same method, where a suite compares with it.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     refine: &RefinePlan,
     until: &[(String, f64)],
     instants: u64,
 ) -> Result<Option<f64>, Diagnostic> {
-    let same = words.reference.as_ref().and_then(|reference| reference.same_method.as_ref());
+    let same = spec.reference.as_ref().and_then(|reference| reference.same_method.as_ref());
     let (Some(same), Some(finest)) = (same, refine.levels.last()) else { return Ok(None) };
     let path = Path::top("reference").then("same_method");
     if refine.axis != Axis::Time {
@@ -50,7 +50,7 @@ pub(crate) fn same_method(
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
-    places: &[Place],
+    places: &[LevelPaths],
     until: &[(String, f64)],
 ) -> Result<(), Diagnostic> {
     for (_, until) in until {

@@ -1,10 +1,10 @@
-//! What is expected of the rows of a stability study, from words.
+//! Expectations of the rows of a stability study.
 
 use crate::{
     suite::{
         compile::{evaluator::Evaluator, path::Path, wording::suggestion},
         grammar::{FigureSpec, StabilityExpectSpec},
-        model::stability::Recipe,
+        model::stability::SetupTemplate,
         yaml::Diagnostic,
     },
     verify::{RunFigure, StabilityExpectation, Wanted},
@@ -14,7 +14,7 @@ use crate::{
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StabilityExpectSpec,
+    spec: &StabilityExpectSpec,
 ) -> Result<Vec<RunFigure>, Diagnostic> {
     let find = |(name, _): &(String, FigureSpec)| {
         RunFigure::ALL.iter().copied().find(|figure| figure.name() == name).ok_or_else(|| {
@@ -25,21 +25,21 @@ pub(crate) fn named(
                 .with_help(&suggestion("figures", name, &known))
         })
     };
-    words.figures.as_slice().iter().map(find).collect()
+    spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// What entry number `i` of `expect` expects of every row, whose values are `rows`.
+/// Expectation of every row by entry number `i` of `expect`; `rows` are the values of each row.
 pub(crate) fn rows(
-    (evaluator, recipe): (&Evaluator<'_>, &Recipe),
-    words: &StabilityExpectSpec,
+    (evaluator, template): (&Evaluator<'_>, &SetupTemplate),
+    spec: &StabilityExpectSpec,
     i: usize,
     rows: &[Vec<(&str, f64)>],
     seeks: bool,
 ) -> Result<Vec<StabilityExpectation>, Diagnostic> {
     let path = Path::top("expect").then(i);
-    let figures = named(evaluator, &path, words)?;
-    refuse_idle(evaluator, &path, words, seeks)?;
-    if let Some(verdicts) = words.verdict.as_ref().filter(|list| list.as_slice().len() > 1) {
+    let figures = named(evaluator, &path, spec)?;
+    refuse_idle(evaluator, &path, spec, seeks)?;
+    if let Some(verdicts) = spec.verdict.as_ref().filter(|list| list.as_slice().len() > 1) {
         let (got, needed) = (verdicts.as_slice().len(), rows.len());
         if got != needed {
             let message = format!("{got} verdicts for {needed} rows");
@@ -47,30 +47,30 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // What the suite itself says comes first: it is there that the use of parameters is noted.
-    row(evaluator, &path, words, &figures, 0)?;
+    // The values of the suite itself come first: they mark parameters as used.
+    row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
-        .map(|(k, values)| row(&recipe.evaluator(values)?, &path, words, &figures, k))
+        .map(|(k, values)| row(&template.evaluator(values)?, &path, spec, &figures, k))
         .collect()
 }
 
 fn row(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StabilityExpectSpec,
+    spec: &StabilityExpectSpec,
     figures: &[RunFigure],
     k: usize,
 ) -> Result<StabilityExpectation, Diagnostic> {
-    let verdict = words.verdict.as_ref().and_then(|list| {
+    let verdict = spec.verdict.as_ref().and_then(|list| {
         let list = list.as_slice();
         list.get(k).or_else(|| list.first().filter(|_| list.len() == 1)).copied()
     });
     let critical =
-        words.critical.as_ref().map(|words| wanted(evaluator, &path.then("critical"), words));
-    let entries = figures.iter().zip(words.figures.as_slice());
-    let figures = entries.map(|(figure, (name, words))| {
-        Ok((*figure, wanted(evaluator, &path.then("figures").then(name.as_str()), words)?))
+        spec.critical.as_ref().map(|spec| wanted(evaluator, &path.then("critical"), spec));
+    let entries = figures.iter().zip(spec.figures.as_slice());
+    let figures = entries.map(|(figure, (name, spec))| {
+        Ok((*figure, wanted(evaluator, &path.then("figures").then(name.as_str()), spec)?))
     });
     Ok(StabilityExpectation {
         verdict,
@@ -83,23 +83,23 @@ fn row(
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StabilityExpectSpec,
+    spec: &StabilityExpectSpec,
     seeks: bool,
 ) -> Result<(), Diagnostic> {
     let help = "a suite with `critical` has a limit for each row, one without it a run";
-    if seeks && words.verdict.is_some() {
+    if seeks && spec.verdict.is_some() {
         let message = "a limit is sought, and no row has a single run";
         return Err(evaluator.diagnostic_at_key(&path.then("verdict"), message).with_help(help));
     }
-    if seeks && !words.figures.as_slice().is_empty() {
+    if seeks && !spec.figures.as_slice().is_empty() {
         let message = "a limit is sought, and no row has the figures of a single run";
         return Err(evaluator.diagnostic_at_key(&path.then("figures"), message).with_help(help));
     }
-    if !seeks && words.critical.is_some() {
+    if !seeks && spec.critical.is_some() {
         let message = "no limit is sought";
         return Err(evaluator.diagnostic_at_key(&path.then("critical"), message).with_help(help));
     }
-    let nothing = words.verdict.is_none() && words.figures.as_slice().is_empty();
+    let nothing = spec.verdict.is_none() && spec.figures.as_slice().is_empty();
     if !seeks && nothing {
         let message = "nothing is expected of the runs of this case";
         return Err(evaluator
@@ -109,16 +109,12 @@ fn refuse_idle(
     Ok(())
 }
 
-fn wanted(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    words: &FigureSpec,
-) -> Result<Wanted, Diagnostic> {
+fn wanted(evaluator: &Evaluator<'_>, path: &Path, spec: &FigureSpec) -> Result<Wanted, Diagnostic> {
     let number = |key: &str, text: &Option<_>| {
         text.as_ref().map(|text| evaluator.number(&path.then(key), text)).transpose()
     };
-    let (above, below) = (number("above", &words.above)?, number("below", &words.below)?);
-    let is = match (number("is", &words.is)?, number("within", &words.within)?) {
+    let (above, below) = (number("above", &spec.above)?, number("below", &spec.below)?);
+    let is = match (number("is", &spec.is)?, number("within", &spec.within)?) {
         (Some(value), Some(within)) if within >= 0.0 => Some((value, within)),
         (None, None) => None,
         _ => {
@@ -133,33 +129,33 @@ fn wanted(
     Ok(Wanted { is, above, below })
 }
 
-/// What an entry expects, in one line.
-pub(crate) fn summary(words: &StabilityExpectSpec, predicted: bool) -> String {
+/// Expectation of an entry, in one line.
+pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
     let mut parts = Vec::new();
-    if let Some(verdicts) = &words.verdict {
+    if let Some(verdicts) = &spec.verdict {
         let names: Vec<&str> = verdicts.as_slice().iter().map(|verdict| verdict.words()).collect();
         parts.push(names.join(", "));
     }
     if predicted {
         parts.push("predictions confirmed by runs".to_owned());
     }
-    if let Some(critical) = &words.critical {
-        parts.push(format!("the limit {}", in_words(critical)));
+    if let Some(critical) = &spec.critical {
+        parts.push(format!("the limit {}", bounds_text(critical)));
     }
-    let figures = words.figures.as_slice().iter();
-    parts.extend(figures.map(|(name, words)| {
+    let figures = spec.figures.as_slice().iter();
+    parts.extend(figures.map(|(name, spec)| {
         let known = RunFigure::ALL.iter().find(|figure| figure.name() == name);
-        format!("{} {}", known.map_or(name.as_str(), |figure| figure.head()), in_words(words))
+        format!("{} {}", known.map_or(name.as_str(), |figure| figure.head()), bounds_text(spec))
     }));
     parts.join("; ")
 }
 
-fn in_words(words: &FigureSpec) -> String {
+fn bounds_text(spec: &FigureSpec) -> String {
     let mut parts = Vec::new();
-    if let (Some(is), Some(within)) = (&words.is, &words.within) {
+    if let (Some(is), Some(within)) = (&spec.is, &spec.within) {
         parts.push(format!("{is} within {within}"));
     }
-    parts.extend(words.above.as_ref().map(|least| format!("at least {least}")));
-    parts.extend(words.below.as_ref().map(|most| format!("at most {most}")));
+    parts.extend(spec.above.as_ref().map(|least| format!("at least {least}")));
+    parts.extend(spec.below.as_ref().map(|most| format!("at most {most}")));
     parts.join(", ")
 }

@@ -1,18 +1,15 @@
 //! The stability study: a parameter is swept, and every run ends in a verdict.
 //!
 //! ```text
-//! model    a study, checked
-//! recipe   values of the parameters -> a set-up, by reading the suite's words once more
-//! scales   what a run is measured with
-//! plan     words -> cases, each with what is expected of every row
-//! expect   what is expected
-//! run      cases -> outcomes: runs, predictions, limits
-//! rows     the plan in rows of name and value, for reports
+//! setup    values of the parameters -> the set-up of a run
+//! scales   scales and bounds that a run is judged by
+//! plan     specification -> cases, each with an expectation of every row
+//! expect   the expectations
 //! ```
 
 pub(crate) mod expect;
 pub(crate) mod plan;
-pub(crate) mod recipe;
 pub(crate) mod scales;
+pub(crate) mod setup;
 
 pub(crate) use plan::plan;

@@ -1,6 +1,6 @@
 //! A stability study, checked before anything runs.
 
-use super::{expect, recipe::setting};
+use super::{expect, setup::setup};
 use crate::{
     mpm::{MaterialPlan, combine},
     suite::{
@@ -15,7 +15,7 @@ use crate::{
         grammar::{MethodSpec, StabilitySpec},
         model::{
             method::Method,
-            stability::{Recipe, StabilityCase, StabilityPlan},
+            stability::{SetupTemplate, StabilityCase, StabilityPlan},
         },
         yaml::{Diagnostic, Source},
     },
@@ -28,13 +28,13 @@ const MOST: usize = 500;
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     source: &Source,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
 ) -> Result<StabilityPlan, Diagnostic> {
-    let recipe = Recipe { source: source.clone(), words: words.clone() };
-    // What the suite says before anything is swept: the use of every parameter is noted here.
-    let base = setting(evaluator, words)?;
-    let (swept, values) = sweep(evaluator, words)?;
-    let sought = sought(evaluator, words, &swept)?;
+    let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
+    // The values of the suite itself come first: they mark parameters as used.
+    let base = setup(evaluator, spec)?;
+    let (swept, values) = sweep(evaluator, spec)?;
+    let sought = sought(evaluator, spec, &swept)?;
     let mut material = base.scene.material;
     for value in &values {
         let ends = sought.as_ref().map_or(vec![None], |(name, from, to)| {
@@ -43,35 +43,35 @@ pub(crate) fn plan(
         for end in ends {
             let mut with = vec![(swept.as_str(), *value)];
             with.extend(end);
-            material = recipe.setting(&with)?.scene.material;
+            material = template.setup(&with)?.scene.material;
         }
     }
-    let drafts = drafts(evaluator, words, &material)?;
-    let cases = cases(evaluator, &recipe, words, drafts, (&swept, &values, sought.is_some()))?;
-    let mut figures = words.show.clone();
-    for entry in &words.expect {
+    let drafts = drafts(evaluator, spec, &material)?;
+    let cases = cases(evaluator, &template, spec, drafts, (&swept, &values, sought.is_some()))?;
+    let mut figures = spec.show.clone();
+    for entry in &spec.expect {
         for figure in expect::named(evaluator, &Path::top("expect"), entry)? {
             if !figures.contains(&figure) {
                 figures.push(figure);
             }
         }
     }
-    let frozen = words.run.frozen;
-    Ok(StabilityPlan { recipe, swept, values, sought, frozen, figures, cases })
+    let frozen = spec.run.frozen;
+    Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases })
 }
 
 /// The parameter that is swept, and its values.
 fn sweep(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
 ) -> Result<(String, Vec<f64>), Diagnostic> {
     let path = Path::top("sweep");
-    let [(name, list)] = words.sweep.as_slice() else {
+    let [(name, list)] = spec.sweep.as_slice() else {
         let diagnostic = evaluator.diagnostic(&path, "one parameter is swept at a time");
         return Err(diagnostic.with_label("expected a parameter and its values"));
     };
     let path = path.then(name.as_str());
-    declared(evaluator, &path, words, name)?;
+    declared(evaluator, &path, spec, name)?;
     let values = list
         .as_slice()
         .iter()
@@ -90,14 +90,14 @@ fn sweep(
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
     name: &str,
 ) -> Result<(), Diagnostic> {
-    if words.parameters.get(name).is_some() {
+    if spec.parameters.get(name).is_some() {
         return Ok(());
     }
     let known: Vec<&str> =
-        words.parameters.as_slice().iter().map(|(name, _)| name.as_str()).collect();
+        spec.parameters.as_slice().iter().map(|(name, _)| name.as_str()).collect();
     let diagnostic =
         evaluator.diagnostic(path, &format!("`{name}` is not a parameter of this suite"));
     Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
@@ -106,12 +106,12 @@ fn declared(
 /// The parameter whose limit is sought, and the range.
 fn sought(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
     swept: &str,
 ) -> Result<Option<(String, f64, f64)>, Diagnostic> {
-    let Some(critical) = &words.critical else { return Ok(None) };
+    let Some(critical) = &spec.critical else { return Ok(None) };
     let path = Path::top("critical");
-    declared(evaluator, &path.then("parameter"), words, &critical.parameter)?;
+    declared(evaluator, &path.then("parameter"), spec, &critical.parameter)?;
     if critical.parameter == swept {
         let message = format!("`{swept}` is swept, and its limit sought");
         return Err(evaluator.diagnostic(&path.then("parameter"), &message));
@@ -128,17 +128,17 @@ fn sought(
 /// The product of the lists of `methods`.
 fn drafts(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
     material: &MaterialPlan,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
     let own = law::own(material).unwrap_or_default();
     let mut drafts: Vec<(String, Method)> = Vec::new();
-    for (i, words) in words.methods.iter().enumerate() {
+    for (i, spec) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
-        if matches!(words, MethodSpec::Fem { .. }) {
+        if matches!(spec, MethodSpec::Fem { .. }) {
             return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
         }
-        for (name, method) in methods(words, own) {
+        for (name, method) in methods(spec, own) {
             if let Method::Mpm { basis, transfer, mass, frame, .. } = method {
                 combine(basis, transfer, mass, frame).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
@@ -165,33 +165,33 @@ fn drafts(
 
 fn cases(
     evaluator: &Evaluator<'_>,
-    recipe: &Recipe,
-    words: &StabilitySpec,
+    template: &SetupTemplate,
+    spec: &StabilitySpec,
     drafts: Vec<(String, Method)>,
     (swept, values, seeks): (&str, &[f64], bool),
 ) -> Result<Vec<StabilityCase>, Diagnostic> {
     let names: Vec<&str> = drafts.iter().map(|(name, _)| name.as_str()).collect();
-    let selectors: Vec<_> = words.expect.iter().map(|words| words.case.as_ref()).collect();
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(swept, *value)]).collect();
-    let expected = words
+    let expected = spec
         .expect
         .iter()
         .enumerate()
-        .map(|(i, words)| {
+        .map(|(i, spec)| {
             let path = Path::top("expect").then(i);
             Ok((
-                expect::rows((evaluator, recipe), words, i, &rows, seeks)?,
-                because(evaluator, &path, &words.because)?,
+                expect::rows((evaluator, template), spec, i, &rows, seeks)?,
+                because(evaluator, &path, &spec.because)?,
             ))
         })
         .collect::<Result<Vec<_>, Diagnostic>>()?;
-    let predicted = seeks && words.run.frozen;
+    let predicted = seeks && spec.run.frozen;
     let case = |((name, method), owner): ((String, Method), usize)| StabilityCase {
         name,
         method,
         expected: expected[owner].0.clone(),
-        summary: expect::summary(&words.expect[owner], predicted),
+        summary: expect::summary(&spec.expect[owner], predicted),
         because: expected[owner].1.clone(),
     };
     Ok(drafts.into_iter().zip(owners).map(case).collect())

@@ -1,4 +1,4 @@
-//! What a run is measured with, from words.
+//! Scales and bounds that a run is judged by.
 
 use crate::{
     suite::{
@@ -10,17 +10,17 @@ use crate::{
     verify::{RunFigure, Scales},
 };
 
-/// Energy, over that at the start, up to which a run is stable: what the exchange between velocities
-/// and stresses makes of a random start just below the limit of a leapfrog, with room to spare.
+/// Energy, over that at the start, up to which a run is stable: above what the exchange between
+/// velocities and stresses makes of a random start just below the limit of a leapfrog.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Energy beyond which a run is unstable.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// What the runs of `scene` are measured with.
+/// Scales and bounds of the runs of `scene`.
 pub(crate) fn scales(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
     scene: &Scene,
 ) -> Result<Scales, Diagnostic> {
     let modulus = scene
@@ -33,8 +33,8 @@ pub(crate) fn scales(
         let at = path.then(key);
         text.as_ref().map_or(Ok(default), |text| evaluator.positive(&at, text, "the bound"))
     };
-    let stable_below = bound("stable_below", &words.run.stable_below, STABLE_BELOW)?;
-    let unstable_above = bound("unstable_above", &words.run.unstable_above, UNSTABLE_ABOVE)?;
+    let stable_below = bound("stable_below", &spec.run.stable_below, STABLE_BELOW)?;
+    let unstable_above = bound("unstable_above", &spec.run.unstable_above, UNSTABLE_ABOVE)?;
     if !(stable_below <= unstable_above) {
         let message = format!(
             "a run is stable below {} and unstable above {}",
@@ -45,19 +45,19 @@ pub(crate) fn scales(
     }
     let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());
-    let null_space = of_null_space(evaluator, words, scene)?;
+    let null_space = of_null_space(evaluator, spec, scene)?;
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
 }
 
-/// Whether a figure asks for what the grid cannot see of a body: bodies that meet share what they see.
+/// Whether a requested figure needs the null space of the grid, which is known of one body only.
 fn of_null_space(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
     scene: &Scene,
 ) -> Result<bool, Diagnostic> {
-    let shown = words.show.iter().enumerate();
+    let shown = spec.show.iter().enumerate();
     let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
-    let expected = words.expect.iter().enumerate().flat_map(|(i, entry)| {
+    let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
         let path = Path::top("expect").then(i).then("figures");
         let named = entry.figures.as_slice().iter().filter_map(|(name, _)| {
             RunFigure::ALL.iter().copied().find(|figure| figure.name() == name)

@@ -30,31 +30,31 @@ pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
 }
 
 /// Refuses a suite without a truth that asks for something which takes one.
-pub(crate) fn check(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
-    let asked = |words: &ExpectSpec| {
-        let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = words;
-        let ExpectSpec { error_below, error_above, observed_within, rest_below, .. } = words;
+pub(crate) fn check(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+    let asked = |spec: &ExpectSpec| {
+        let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
+        let ExpectSpec { error_below, error_above, observed_within, rest_below, .. } = spec;
         let bounds = [error_below, error_above, observed_within, rest_below];
         let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();
         let kept = drift.is_some() || energy_rate.is_some();
         judged || floor.is_some() || bounds.iter().any(|b| b.is_some()) || !kept
     };
-    let full = |words: &ExpectSpec| words.full.as_deref().is_some_and(asked);
-    if words.expect.iter().any(|words| asked(words) || full(words)) {
+    let full = |spec: &ExpectSpec| spec.full.as_deref().is_some_and(asked);
+    if spec.expect.iter().any(|spec| asked(spec) || full(spec)) {
         let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
                        `reference`";
         let diagnostic = evaluator.diagnostic_at_key(&Path::top("suite"), message);
         return Err(diagnostic
             .with_help("without one, expectations may bound a `drift` or an `energy_rate` only"));
     }
-    if words.observe.is_some() {
+    if spec.observe.is_some() {
         let message = "a place is observed against a truth, and the suite has none";
         return Err(evaluator.diagnostic_at_key(&Path::top("observe"), message));
     }
     Ok(())
 }
 
-/// What can be said of levels that were compared with nothing, if all ran to their end.
+/// Judgement of levels that were compared with nothing, if all ran to their end.
 pub(crate) fn judgement(levels: &[LevelOutcome]) -> Option<Judgement> {
     let sound = levels.iter().all(|level| level.run.failure.is_none());
     sound.then(|| Judgement {

@@ -1,4 +1,4 @@
-//! What does not go with an equilibrium.
+//! Refusal of keys that exclude an equilibrium.
 //!
 //! A body that comes to rest under a load is compared with its equilibrium once it is there: at the
 //! end of the run.
@@ -13,15 +13,15 @@ use crate::suite::{
 /// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
 pub(crate) fn refuse(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     state: &ExactSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     let path = Path::top("equilibrium");
     let others = [
-        ("exact", words.exact.is_some()),
-        ("manufactured", words.manufactured.is_some()),
-        ("reference", words.reference.is_some()),
+        ("exact", spec.exact.is_some()),
+        ("manufactured", spec.manufactured.is_some()),
+        ("reference", spec.reference.is_some()),
     ];
     if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
         let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
@@ -36,19 +36,19 @@ pub(crate) fn refuse(
         let message = "a body in which heat flows is not at rest: state a motion under `exact`";
         return Err(evaluator.diagnostic_at_key(&path, message));
     }
-    if words.run.until.as_slice().len() > 1 {
+    if spec.run.until.as_slice().len() > 1 {
         let at = evaluator.alternative(&Path::top("run").then("until"), 1);
         let message = "a body comes to rest once, under the loads at the end of its run";
         return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
     }
     let over_time = [NormName::MaxRms, NormName::MaxL1, NormName::MaxL2, NormName::MaxLinf];
-    if over_time.contains(&words.judge.norm) {
+    if over_time.contains(&spec.judge.norm) {
         let message = "on its way a body is not in equilibrium";
         let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
         return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));
     }
     refuse_driven(evaluator, scene)?;
-    match words.fem_method() {
+    match spec.fem_method() {
         Some(i) => {
             let message = "the reference FEM has no damping and does not come to rest";
             Err(evaluator.diagnostic(&Path::top("methods").then(i), message))

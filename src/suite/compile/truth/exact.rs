@@ -27,21 +27,21 @@ const MOST_OPERATIONS: u64 = 5000;
 /// The problem that a suite's formulas solve, if it has formulas.
 ///
 /// # Errors
-/// A complaint at the formula that says which condition it violates, where and by how much.
+/// A diagnostic at the formula that names the violated condition, where and by how much.
 pub(crate) fn exact(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Diagnostic> {
     if scene.each().iter().any(|body| body.quadrilateral.is_some()) {
-        refuse_truth(evaluator, words)?;
+        refuse_truth(evaluator, spec)?;
     }
     if !scene.bodies.is_empty() {
-        interface::refuse(evaluator, words)?;
+        interface::refuse(evaluator, spec)?;
     }
-    if let Some(state) = &words.equilibrium {
-        equilibrium::refuse(evaluator, words, state, scene)?;
+    if let Some(state) = &spec.equilibrium {
+        equilibrium::refuse(evaluator, spec, state, scene)?;
         let path = Path::top("equilibrium");
         let problem = Problem {
             at_rest: true,
@@ -51,9 +51,9 @@ pub(crate) fn exact(
         check(evaluator, &path, &problem)?;
         return Ok(Some(problem));
     }
-    let Some(exact) = &words.exact else { return manufactured(evaluator, words, scene, until) };
+    let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
     let path = Path::top("exact");
-    if words.manufactured.is_some() {
+    if spec.manufactured.is_some() {
         let message = "a solution is either exact or manufactured";
         return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
     }
@@ -79,12 +79,12 @@ pub(crate) fn exact(
 fn solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &ExactSpec,
+    spec: &ExactSpec,
     (scene, at_rest): (&Scene, bool),
     until: f64,
 ) -> Result<Problem, Diagnostic> {
-    let tolerance = tolerance(evaluator, path, words.tolerance.as_ref())?;
-    let (Some(name), Some(texts)) = (words.equation, &words.displacement) else {
+    let tolerance = tolerance(evaluator, path, spec.tolerance.as_ref())?;
+    let (Some(name), Some(texts)) = (spec.equation, &spec.displacement) else {
         let message = "a body that moves needs an `equation` and a `displacement`";
         return Err(evaluator.diagnostic_at_key(path, message));
     };
@@ -92,7 +92,7 @@ fn solution(
     let motion = motion(evaluator, path, texts, scene.dimension())?;
     let motion_in_heat = equation.is_finite().then(|| motion.clone());
     let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
-    let heat = conduction::problem(evaluator, path, words.temperature.as_ref(), scene, rest)?;
+    let heat = conduction::problem(evaluator, path, spec.temperature.as_ref(), scene, rest)?;
     Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
 }
 
@@ -109,21 +109,15 @@ fn equation(
             .map(|()| equation)
             .map_err(|[message, help]| evaluator.diagnostic(path, message).with_help(help));
     }
-    let (message, help) = if !Equation::NAMES.contains(&name.name()) {
+    let (name, material) = (name.name(), scene.material.name());
+    let (message, help) = if Equation::NAMES.contains(&name) {
         (
-            "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only"
-                .to_owned(),
-            "give other equations a `reference`",
-        )
-    } else {
-        (
-            format!(
-                "`{}` is not the problem of a `{}` material",
-                name.name(),
-                scene.material.name()
-            ),
+            format!("`{name}` is not the problem of a `{material}` material"),
             "a linear elastic material has `small_strain`, others have the equation of their name",
         )
+    } else {
+        let message = "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only";
+        (message.to_owned(), "give other equations a `reference`")
     };
     Err(evaluator.diagnostic(path, &message).with_help(help))
 }
@@ -131,11 +125,11 @@ fn equation(
 /// The problem whose body force follows from the motion that the suite states.
 fn manufactured(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Diagnostic> {
-    let Some(made) = &words.manufactured else { return Ok(None) };
+    let Some(made) = &spec.manufactured else { return Ok(None) };
     let path = Path::top("manufactured");
     let equation = law::manufactured(&scene.material).map_err(|reason| {
         let message = "a force is manufactured for a `neo_hookean` or `hencky` material";

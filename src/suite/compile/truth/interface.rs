@@ -1,7 +1,8 @@
-//! The exact solution of several bodies: that of each, and what holds where they meet.
+//! The exact solution of several bodies: that of each, and the conditions on faces where they meet.
 //!
-//! Boxes meet face to face: the high face of one and the low face of the next along an axis, of the same
-//! extent, touching or with a gap between them. No condition is known for other faces and for rims.
+//! Boxes meet face to face: the high face of one and the low face of the next along an axis, of the
+//! same extent, touching or with a gap between them. No condition is known for other faces and for
+//! rims.
 
 use crate::{
     exact::{Condition, Problem, Violation, meets},
@@ -16,12 +17,12 @@ use crate::{
 /// Refuses truths that are those of one body.
 ///
 /// # Errors
-/// A complaint about the first such truth.
-pub(crate) fn refuse(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
+/// A diagnostic of the first such truth.
+pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
-        ("manufactured", words.manufactured.is_some()),
-        ("equilibrium", words.equilibrium.is_some()),
-        ("reference", words.has_fem_reference()),
+        ("manufactured", spec.manufactured.is_some()),
+        ("equilibrium", spec.equilibrium.is_some()),
+        ("reference", spec.has_fem_reference()),
     ];
     let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
     let message = format!("`{key}` speaks of one body, and the scene has several");
@@ -32,7 +33,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Resu
 /// Checks the `problems` of all bodies of a scene, each by `check`, and the faces where they meet.
 ///
 /// # Errors
-/// A complaint of `check`, or what `diagnostic` makes of a violation; and one about bodies for which no
+/// A diagnostic of `check`, or of a violation by `diagnostic`; and one about bodies for which no
 /// condition is known.
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,

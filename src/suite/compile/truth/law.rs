@@ -33,24 +33,24 @@ pub(crate) fn manufactured(material: &MaterialPlan) -> Result<Equation, &'static
 /// Refuses an FEM bar, a method or the reference, of a material that it has no law for.
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     let name = scene.material.name();
     let elastic = scene.material.elasticity().is_some();
     let of_fluid = || format!("the reference FEM is a solid bar, `{name}` has no Young's modulus");
-    if words.has_fem_reference() && !elastic {
+    if spec.has_fem_reference() && !elastic {
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &of_fluid()));
     }
     let foreign = |law: EquationName| {
         let known = BarLaw::find(law.name()).is_some();
         (!known).then(|| format!("the reference FEM has no `{}`", law.name()))
     };
-    let reference = words.reference.as_ref().and_then(|reference| reference.equation);
+    let reference = spec.reference.as_ref().and_then(|reference| reference.equation);
     if let Some(message) = reference.and_then(foreign) {
         return Err(evaluator.diagnostic(&Path::top("reference").then("equation"), &message));
     }
-    for (i, method) in words.methods.iter().enumerate() {
+    for (i, method) in spec.methods.iter().enumerate() {
         let MethodSpec::Fem { law, .. } = method else { continue };
         let path = Path::top("methods").then(i);
         if !elastic {

@@ -70,7 +70,7 @@ fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     }
 }
 
-/// What this front door refuses although it is YAML.
+/// YAML that the reader refuses.
 fn refused_on_purpose(message: &str) -> bool {
     ["not supported", "second document", "not allowed", "tab used"]
         .iter()

@@ -1,7 +1,7 @@
-//! From values of the parameters to a set-up.
+//! Set-up of a run, from values of the parameters.
 //!
-//! Any parameter can be swept, because nothing is computed before its value is known: the words of the
-//! suite are read once more for every value.
+//! Any parameter can be swept, because nothing is computed before its value is known: the
+//! specification is evaluated once more for every value.
 
 use super::scales::scales;
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
             BoundaryCondition, Scene,
             grid_size::{cell_size, grid_axis, per_axis},
             refine_plan::LevelPlan,
-            stability::{LatticeEdits, Recipe},
+            stability::{LatticeEdits, SetupTemplate},
         },
         yaml::{Diagnostic, NumberText},
     },
@@ -25,12 +25,12 @@ use crate::{
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
 const PERTURBATION: f64 = 1e-9;
 
-/// Values of parameters, by name.
-pub(crate) type Values<'a> = [(&'a str, f64)];
+/// ParameterValues of parameters, by name.
+pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
 
 /// One run, ready to be made.
 #[derive(Debug, Clone)]
-pub(crate) struct Setting {
+pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
     pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
@@ -47,35 +47,38 @@ pub(crate) struct Setting {
     pub(crate) scales: Scales,
 }
 
-impl Recipe {
+impl SetupTemplate {
     /// The names of the suite with `values` in the place of what it says.
-    pub(crate) fn evaluator(&self, values: &Values<'_>) -> Result<Evaluator<'_>, Diagnostic> {
+    pub(crate) fn evaluator(
+        &self,
+        values: &ParameterValues<'_>,
+    ) -> Result<Evaluator<'_>, Diagnostic> {
         let replace = |parameters: crate::suite::yaml::Ordered<NumberText>,
                        (name, value): &(&str, f64)| {
             parameters.with(name, NumberText::Number(*value))
         };
-        let parameters = values.iter().fold(self.words.parameters.clone(), replace);
-        Ok(Evaluator::new(&self.source, &parameters, &self.words.functions)?.0)
+        let parameters = values.iter().fold(self.spec.parameters.clone(), replace);
+        Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
     /// The run with these values.
-    pub(crate) fn setting(&self, values: &Values<'_>) -> Result<Setting, Diagnostic> {
-        setting(&self.evaluator(values)?, &self.words)
+    pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
+        setup(&self.evaluator(values)?, &self.spec)
     }
 }
 
-/// The run that `words` describe.
-pub(crate) fn setting(
+/// The set-up that `spec` describes.
+pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
-) -> Result<Setting, Diagnostic> {
-    let scene = scene::scene(evaluator, &words.scene)?;
+    spec: &StabilitySpec,
+) -> Result<RunSetup, Diagnostic> {
+    let scene = scene::scene(evaluator, &spec.scene)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");
-    let cells = evaluator.count(&at, &words.particles.cells, "the number of cells")?;
+    let cells = evaluator.count(&at, &spec.particles.cells, "the number of cells")?;
     let ppc_at = particles.then("ppc");
-    let ppc = evaluator.count(&ppc_at, &words.particles.ppc, "the number of particles per cell")?;
+    let ppc = evaluator.count(&ppc_at, &spec.particles.ppc, "the number of particles per cell")?;
     if per_axis(ppc, d).is_none() {
         let message = format!("{ppc} particles per cell are not equally spaced in {d}-D");
         return Err(evaluator.diagnostic(&ppc_at, &message).with_label("expected a whole power"));
@@ -92,15 +95,15 @@ pub(crate) fn setting(
         Err(evaluator.diagnostic(&at, &message).with_label("expected a positive number"))
     };
     let at_dt = run.then("dt");
-    let rule = step_rule::share(evaluator, &at_dt, &words.run.dt)?;
-    let dt = length("dt", &step_rule::formula_text(evaluator, &at_dt, &words.run.dt, &scene)?)?;
-    let every = turns(evaluator, words)?;
-    if let (Some(_), Some(_)) = (rule, &words.run.alternate) {
+    let rule = step_rule::share(evaluator, &at_dt, &spec.run.dt)?;
+    let dt = length("dt", &step_rule::formula_text(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
+    let every = turns(evaluator, spec)?;
+    if let (Some(_), Some(_)) = (rule, &spec.run.alternate) {
         let message = "steps of a length chosen by a rule take no turns with others";
         return Err(evaluator.diagnostic_at_key(&run.then("alternate"), message));
     }
     let mut steps_of = vec![dt; every];
-    if let Some(text) = &words.run.alternate {
+    if let Some(text) = &spec.run.alternate {
         steps_of.extend(std::iter::repeat_n(length("alternate", text)?, every));
     }
     let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
@@ -109,34 +112,34 @@ pub(crate) fn setting(
         return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
     }
     size::held_faces(evaluator, &at, &scene, cells)?;
-    let steps = evaluator.count(&run.then("steps"), &words.run.steps, "the number of steps")?;
-    let full_steps = words.run.full_steps.as_ref().map_or(Ok(steps), |text| {
+    let steps = evaluator.count(&run.then("steps"), &spec.run.steps, "the number of steps")?;
+    let full_steps = spec.run.full_steps.as_ref().map_or(Ok(steps), |text| {
         evaluator.count(&run.then("full_steps"), text, "the number of steps")
     });
-    let setting = Setting {
-        lattice: lattice(evaluator, words, &scene, h)?,
+    let setup = RunSetup {
+        lattice: lattice(evaluator, spec, &scene, h)?,
         level,
         dt: steps_of,
         rule,
         steps,
         full_steps: full_steps?,
-        frozen: words.run.frozen,
-        perturb: perturbation(evaluator, words)?,
-        scales: scales(evaluator, words, &scene)?,
+        frozen: spec.run.frozen,
+        perturb: perturbation(evaluator, spec)?,
+        scales: scales(evaluator, spec, &scene)?,
         scene,
     };
-    if setting.frozen {
-        at_rest(evaluator, &setting.scene)?;
+    if setup.frozen {
+        at_rest(evaluator, &setup.scene)?;
     }
-    Ok(setting)
+    Ok(setup)
 }
 
 /// Steps of one length before it is the turn of the other; one where all are of one length.
-fn turns(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<usize, Diagnostic> {
+fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagnostic> {
     const MOST: u64 = 1000;
-    let Some(text) = &words.run.every else { return Ok(1) };
+    let Some(text) = &spec.run.every else { return Ok(1) };
     let path = Path::top("run").then("every");
-    if words.run.alternate.is_none() {
+    if spec.run.alternate.is_none() {
         let diagnostic = evaluator.diagnostic_at_key(&path, "steps of one length take no turns");
         return Err(diagnostic.with_help("say what the other length is: `alternate`"));
     }
@@ -150,19 +153,19 @@ fn turns(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<usize, Diag
 
 fn lattice(
     evaluator: &Evaluator<'_>,
-    words: &StabilitySpec,
+    spec: &StabilitySpec,
     scene: &Scene,
     h: f64,
 ) -> Result<LatticeEdits, Diagnostic> {
     let (path, d) = (Path::top("particles"), scene.dimension());
-    if !(scene.bodies.is_empty() || words.particles.extra.is_empty()) {
+    if !(scene.bodies.is_empty() || spec.particles.extra.is_empty()) {
         let message = "a further particle is of one body, and the scene has several";
         return Err(evaluator.diagnostic_at_key(&path.then("extra"), message));
     }
-    let shift = words.particles.shift.as_ref();
+    let shift = spec.particles.shift.as_ref();
     let shift = shift.map(|texts| evaluator.point(&path.then("shift"), texts, d)).transpose()?;
     let mut extra = Vec::new();
-    for (i, texts) in words.particles.extra.iter().enumerate() {
+    for (i, texts) in spec.particles.extra.iter().enumerate() {
         let at = path.then("extra").then(i);
         let place = evaluator.point(&at, texts, d)?;
         for (axis, x) in place.iter().enumerate() {
@@ -179,11 +182,10 @@ fn lattice(
     Ok(LatticeEdits { shift: shift.unwrap_or_default(), extra })
 }
 
-fn perturbation(evaluator: &Evaluator<'_>, words: &StabilitySpec) -> Result<f64, Diagnostic> {
-    let default = if words.run.frozen { PERTURBATION } else { 0.0 };
+fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, Diagnostic> {
+    let default = if spec.run.frozen { PERTURBATION } else { 0.0 };
     let path = Path::top("run").then("perturb");
-    words
-        .run
+    spec.run
         .perturb
         .as_ref()
         .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))

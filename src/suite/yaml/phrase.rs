@@ -1,9 +1,9 @@
-//! Plain words for what serde and the parser say.
+//! Messages of serde and of the parser, in plain English.
 
 /// Names farther from what was written than this part of their length are no suggestion.
 const NEAR: usize = 3;
 
-/// What was expected, without the names of Rust types.
+/// The expected value, without the names of Rust types.
 pub(crate) fn expected(serde: &str) -> String {
     let words = match serde {
         "f64" | "f32" => "a number",
@@ -41,7 +41,7 @@ fn is_list(serde: &str) -> bool {
         .any(|list| serde.starts_with(list))
 }
 
-/// What was found instead.
+/// The value that was found.
 pub(crate) fn found(serde: &str) -> String {
     match serde {
         "sequence" => return "a list".to_owned(),
