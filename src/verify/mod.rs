@@ -30,8 +30,6 @@ mod expectation;
 pub(crate) mod order;
 mod outcome;
 mod stability;
-#[cfg(test)]
-mod tests;
 pub(crate) mod verdict;
 
 pub use conservation::{Conserved, Drift};

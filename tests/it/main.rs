@@ -10,5 +10,8 @@ mod conservation;
 mod determinism;
 mod documents;
 mod effects;
+mod figure;
+mod formula;
+mod judge;
 mod motions;
 mod pitfalls;

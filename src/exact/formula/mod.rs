@@ -62,9 +62,6 @@ mod slope;
 mod split;
 mod unary;
 
-#[cfg(test)]
-mod tests;
-
 pub use ast::Expr;
 pub use binary::Binary;
 pub use bound::Formula;

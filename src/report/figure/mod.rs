@@ -41,9 +41,6 @@ mod map;
 mod series;
 mod work;
 
-#[cfg(test)]
-mod tests;
-
 pub use convergence::Convergence;
 pub use history::{Curve, History};
 pub use levels::{Mark, Point};

@@ -3,7 +3,7 @@
 use rstest::rstest;
 
 use super::bind;
-use crate::exact::formula::{Formula, Jet, Number, Slope};
+use mpm_verify::exact::formula::{Formula, Jet, Number, Slope};
 
 const X: [&str; 2] = ["x", "y"];
 

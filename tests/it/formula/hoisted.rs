@@ -7,7 +7,7 @@ use super::{
     bind,
     random::{grow, same, tree},
 };
-use crate::exact::formula::{Formula, Hoisted, Jet};
+use mpm_verify::exact::formula::{Formula, Hoisted, Jet};
 
 /// The variables of `grow`: y is the one that stands for the time.
 const VARIABLES: usize = 2;

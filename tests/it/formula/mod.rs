@@ -12,7 +12,7 @@ mod limits;
 mod random;
 mod several;
 
-use super::{Expr, Formula, FormulaError, Scope};
+use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Scope};
 
 /// Binds `source` to `variables`, with the constants of a bar in scope.
 fn bind(source: &str, variables: &[&str]) -> Result<Formula, FormulaError> {

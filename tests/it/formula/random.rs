@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::{bar, declare};
-use crate::exact::formula::{Expr, Formula, FormulaError, Jet};
+use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Jet};
 
 const TOKENS: &[&str] = &[
     "1",

@@ -1,6 +1,6 @@
 //! Figures which the tests share.
 
-use crate::report::figure::{Convergence, Curve, History, Mark, Point, Series};
+use mpm_verify::report::figure::{Convergence, Curve, History, Mark, Point, Series};
 
 /// Halved cell sizes from 1/4 m.
 fn sizes(count: usize) -> impl Iterator<Item = f64> {

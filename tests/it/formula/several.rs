@@ -7,7 +7,7 @@ use super::{
     bind,
     random::{grow, same, tree},
 };
-use crate::exact::formula::{Formula, NumberBatch};
+use mpm_verify::exact::formula::{Formula, NumberBatch};
 
 /// Holds the values at eight places against those at each of them, bit for bit.
 fn agree(formula: &Formula, x: &[f64], y: f64) -> Result<(), TestCaseError> {

@@ -3,7 +3,7 @@
 use rstest::rstest;
 
 use super::{Expr, Formula, Scope, bind, declare};
-use crate::exact::formula::Jet;
+use mpm_verify::exact::formula::Jet;
 
 /// The longest chain that the limit of tokens permits.
 fn chain(link: &str) -> String {

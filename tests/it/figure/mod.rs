@@ -1,6 +1,6 @@
 //! What holds for every figure.
 
-use super::*;
+use mpm_verify::report::figure::*;
 use proptest::prelude::*;
 use rstest::rstest;
 use xml::{well_formed, without_bad_numbers};

@@ -8,7 +8,7 @@ mod series;
 
 use std::f64::consts::PI;
 
-use super::{Judgement, Level, OrderHypothesis, judge};
+use mpm_verify::verify::{Judgement, Level, OrderHypothesis, judge};
 
 /// Spacings 1, 1/2, 1/4, ... with these errors.
 fn halvings(errors: &[f64]) -> Vec<Level> {

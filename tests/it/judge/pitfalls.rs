@@ -4,7 +4,9 @@ use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
 use super::{Random, halved, judged};
-use crate::verify::{Level, Norms, OrderHypothesis, Richardson, RichardsonClass, Verdict, judge};
+use mpm_verify::verify::{
+    Level, Norms, OrderHypothesis, Richardson, RichardsonClass, Verdict, judge,
+};
 
 #[test]
 fn a_growing_error_has_a_negative_order() {

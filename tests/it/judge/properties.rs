@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::Random;
-use crate::verify::{Level, OrderHypothesis, Verdict, judge};
+use mpm_verify::verify::{Level, OrderHypothesis, Verdict, judge};
 
 /// Series of all kinds: falling, flat, growing, with a floor, with noise from none to wild.
 fn series() -> impl Strategy<Value = Vec<Level>> {

@@ -3,11 +3,11 @@
 use approx::assert_relative_eq;
 use rstest::rstest;
 
-use crate::verify::{Richardson, RichardsonClass, SAFETY_FACTOR};
 use RichardsonClass::{
     Degenerate, Exact, Failed, MonotoneConvergent, MonotoneDivergent, OscillatoryConvergent,
     OscillatoryDivergent,
 };
+use mpm_verify::verify::{Richardson, RichardsonClass, SAFETY_FACTOR};
 
 #[rstest]
 #[case([16.0, 4.0, 1.0], 4.0, MonotoneConvergent)]

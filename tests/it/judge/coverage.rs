@@ -1,7 +1,7 @@
 //! Does the interval that the judge reports contain the true order as often as it says?
 
 use super::Random;
-use crate::verify::{Level, OrderHypothesis, judge};
+use mpm_verify::verify::{Level, OrderHypothesis, judge};
 
 const SERIES: usize = 10_000;
 

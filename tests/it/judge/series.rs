@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
 use super::{Random, halved, judged};
-use crate::verify::{Level, OrderHypothesis, Verdict, judge};
+use mpm_verify::verify::{Level, OrderHypothesis, Verdict, judge};
 
 const POWERS_OF_4: [f64; 6] = [1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25, 0.000_976_562_5];
 

@@ -4,7 +4,7 @@ use super::{
     WorkPrecision, any_value, marks, samples,
     xml::{well_formed, without_bad_numbers},
 };
-use crate::report::figure::{Mark, Point, Series};
+use mpm_verify::report::figure::{Mark, Point, Series};
 use proptest::prelude::*;
 
 fn diagram() -> WorkPrecision {
