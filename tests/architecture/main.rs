@@ -166,8 +166,49 @@ fn results_have_the_same_bits_everywhere() {
     );
 }
 
-/// Folders and documents whose words, names and comments are being rewritten.
-const BEING_REWRITTEN: &[&str] = &["src/"];
+/// Rooms whose words, names and comments are being rewritten: take a room off when it is clean.
+const BEING_REWRITTEN: &[&str] = &[
+    "src/cli/",
+    "src/exact/",
+    "src/exact/check/",
+    "src/exact/formula/",
+    "src/exact/heat/",
+    "src/exact/law/",
+    "src/fem/",
+    "src/fem/tests/",
+    "src/lib.rs",
+    "src/mpm/",
+    "src/mpm/basis/",
+    "src/mpm/kernel/",
+    "src/mpm/material/",
+    "src/mpm/packed_grid/",
+    "src/report/columns/",
+    "src/report/compare/",
+    "src/report/figure/",
+    "src/report/json/",
+    "src/report/page/",
+    "src/report/text/",
+    "src/study/",
+    "src/study/build/",
+    "src/study/cache/",
+    "src/study/convergence/",
+    "src/study/cost/",
+    "src/study/describe/",
+    "src/study/stability/",
+    "src/subject/",
+    "src/suite/compile/",
+    "src/suite/grammar/",
+    "src/suite/model/",
+    "src/suite/yaml/",
+    "src/verify/",
+    "src/verify/cost/",
+    "src/verify/error/",
+    "src/verify/expectation/",
+    "src/verify/order/",
+    "src/verify/stability/",
+    "src/verify/tests/",
+    "src/verify/verdict/",
+];
 
 /// Like [`hold`], but for what stands in folders that are being rewritten.
 fn hold_elsewhere(rule: &str, why: &str, mut breaches: Vec<Breach>) {
