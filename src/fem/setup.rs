@@ -1,4 +1,4 @@
-//! What a bar is made of, and what is refused.
+//! Set-up of a bar, and what is refused.
 
 use thiserror::Error;
 
@@ -12,8 +12,8 @@ use crate::{
 pub type Field = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type History = Box<dyn Fn(f64) -> f64 + Send>;
-/// A function of time and reference position, at many positions at once: given t (s) and positions X
-/// (m), which are the same in every call, it fills in the values.
+/// A function of time and reference position, at many positions at once: given t (s) and positions
+/// X (m), which are the same in every call, it fills in the values.
 pub type Load = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send>;
 
 /// The load that has the value `f(X, t)` at each position.

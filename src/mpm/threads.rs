@@ -1,5 +1,5 @@
-//! Work that threads share by halves, each half again, down to a least size. Which thread computes a
-//! number does not change it.
+//! Work that threads share by halves, each half again, down to a least size. Which thread computes
+//! a number does not change it.
 
 /// Runs both, at once if there is a thread to spare. Where there is none, nothing goes to another
 /// thread, which would have to be woken.

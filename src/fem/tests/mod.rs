@@ -1,4 +1,4 @@
-//! What the finite element method promises, held against this one.
+//! Promises of the finite element method, held against this one.
 
 mod discretisation;
 mod equilibrium;

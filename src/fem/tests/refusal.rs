@@ -1,4 +1,4 @@
-//! What is no bar, and what stops being one.
+//! Set-ups that are no bar, and bars that stop being one.
 
 use rstest::rstest;
 
