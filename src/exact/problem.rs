@@ -21,19 +21,19 @@ pub enum Condition {
     Fixed,
     /// u . n = 0, and no traction along the face.
     Roller,
-    /// u . n = 0 and no pull; along the face a traction of mu times the pressure against the velocity,
-    /// and at most as much where the face rests.
+    /// u . n = 0 and no pull; along the face a traction of mu times the pressure against the
+    /// velocity, and at most as much where the face rests.
     Friction(f64),
     /// u_t = v(X, t), one formula of the coordinates and t for each component (m/s).
     Velocity(Vec<Formula>),
-    /// x lies one period further along the axis than on the opposite face, and grad u is that of it.
+    /// x lies one period further along the axis than on the opposite face, and grad u is the same.
     /// The period (m) is the length of the axis on which the body moves; that of the body itself,
     /// unless it starts deformed.
     Periodic(f64),
     /// P n = p0(X, t), one formula of the coordinates and t for each component (Pa).
     Traction(Vec<Formula>),
-    /// P n = -p(X, t) J F^-T n, the pressure p a formula of the coordinates and t (Pa): it stays normal
-    /// to the face as that moves. Where strains are small, P n = -p n.
+    /// P n = -p(X, t) J F^-T n, the pressure p a formula of the coordinates and t (Pa): it stays
+    /// normal to the moving face. Where strains are small, P n = -p n.
     Pressure(Formula),
     /// Another body is there; [`meets`](super::meets) holds the two against each other.
     Met,
@@ -50,11 +50,11 @@ pub struct Face {
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
-    /// What holds there.
+    /// Condition on the motion there.
     pub condition: Condition,
 }
 
-/// An initial-boundary-value problem on a box or a round body, with the motion that claims to solve it.
+/// An initial-boundary-value problem on a box or a round body, with its claimed solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// Lowest corner of the body, or of the box around it (m).

@@ -12,7 +12,7 @@ use crate::{
         model::{
             ConvergencePlan, ReferencePlan, Scene,
             grid_size::cell_size,
-            load::{SceneLoad, Target},
+            load::{LoadTarget, SceneLoad},
             method::Method,
         },
     },
@@ -49,7 +49,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
 
 /// Stated and manufactured forces of a bar, if it has any.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
-    let on_face = |load: &&Arc<dyn SceneLoad>| matches!(load.target(), Target::Face(_));
+    let on_face = |load: &&Arc<dyn SceneLoad>| matches!(load.target(), LoadTarget::Face(_));
     let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
     if stated.is_empty() && made.is_none() {
         return None;
@@ -84,7 +84,7 @@ fn add_stated(loads: &[Arc<dyn SceneLoad>], t: f64, places: &[f64], values: &mut
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
 fn end_traction(scene: &Scene, end: usize) -> Option<fem::History> {
     let x = if end == 0 { scene.from[0] } else { scene.to[0] };
-    match scene.loads_on(Target::Face(end)).find_map(|load| load.condition())? {
+    match scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.condition())? {
         // In uniaxial strain a face keeps its area, so a pressure is a traction.
         Condition::Pressure(value) => Some(Box::new(move |t| -value.eval(&[x, t]))),
         Condition::Traction(value) => {
@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    /// P (Pa) of the MPM's material in a bar that has been stretched in one step and is still again.
+    /// P (Pa) of the MPM's material in a bar that has been stretched in one step and is at rest.
     fn piola_at(plan: &MaterialPlan, stretch: f64) -> f64 {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut one = Particles::<1>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);

@@ -30,7 +30,7 @@ impl Initial {
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// What the scene states, and nothing else.
+    /// The stated initial state alone.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));

@@ -13,7 +13,7 @@ use crate::{
     suite::model::{
         ConvergencePlan, Scene,
         grid_size::{cell_size, grid_axis, per_axis},
-        load::{self, BodySite, SceneLoad, Target},
+        load::{self, BodySite, LoadTarget, SceneLoad},
         method::Method,
         refine_plan::LevelPlan,
         stability::LatticeEdits,
@@ -21,11 +21,11 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// What a body is at the start.
+/// A body at the start of a run.
 pub(crate) struct Body<'a> {
-    /// What all bodies have in common: the grid and its walls, and sets.
+    /// The scene of all bodies, with the grid and its walls.
     pub(crate) scene: &'a Scene,
-    /// What is its own: place, material and loads.
+    /// The scene of this body, with its place, material and loads.
     pub(crate) own: &'a Scene,
     pub(crate) initial: Initial,
     /// The problem whose force is manufactured.
@@ -53,7 +53,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// What the solver of `body` is made of, on the cells of `level`.
+/// The parts of the solver of `body`, on the cells of `level`.
 ///
 /// # Errors
 /// One line that says why there is no such solver.
@@ -138,7 +138,7 @@ fn effects<const D: usize>(
     (grid, basis): (&Grid<D>, BasisName),
     particles: &mut Particles<D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, String> {
-    let on_set = |load: &Arc<dyn SceneLoad>| matches!(load.target(), Target::Set(_));
+    let on_set = |load: &Arc<dyn SceneLoad>| matches!(load.target(), LoadTarget::Set(_));
     let loads = &body.own.loads;
     let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
     let site = BodySite { grid, basis, heat: body.heat, particles };

@@ -1,4 +1,4 @@
-//! What a step of a case takes, with all that its scene lists and without one effect of it.
+//! Cost profile of a step of a case, with all effects of its scene and without one of them.
 
 use crate::{
     study::build::dispatch,
@@ -33,7 +33,7 @@ impl Dispensable {
     }
 }
 
-/// What a step of `case` takes on the coarsest level.
+/// Cost profile of a step of `case` on the coarsest level.
 pub(crate) fn of(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }

@@ -1,10 +1,10 @@
-//! What a suite computes, in rows of name and value, for reports and `explain`.
+//! The statement of a problem in rows of name and value, for reports and `explain`.
 
 use crate::{
     mpm::{MaterialPlan, Parameter},
     suite::{
         compile::load::fields::sources,
-        model::{BoundaryCondition, Scene, Suite, load::Target},
+        model::{BoundaryCondition, Scene, Suite, load::LoadTarget},
     },
 };
 
@@ -83,13 +83,13 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
         push(rows, "material", &material(&scene.material));
     }
     for (number, face) in scene.faces.iter().enumerate() {
-        rows.extend(scene.loads_on(Target::Face(number)).flat_map(|load| load.rows()));
-        let is_loaded = scene.loads_on(Target::Face(number)).next().is_some();
+        rows.extend(scene.loads_on(LoadTarget::Face(number)).flat_map(|load| load.rows()));
+        let is_loaded = scene.loads_on(LoadTarget::Face(number)).next().is_some();
         push(rows, face.name, &if is_loaded { String::new() } else { held(&face.hold) });
     }
     let (on_body, on_parts): (Vec<_>, Vec<_>) =
-        scene.loads.iter().partition(|load| load.target() == Target::Body);
-    let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), Target::Set(_)));
+        scene.loads.iter().partition(|load| load.target() == LoadTarget::Body);
+    let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), LoadTarget::Set(_)));
     rows.extend(on_sets.chain(on_body).flat_map(|load| load.rows()));
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
     if one {

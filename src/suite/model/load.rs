@@ -10,7 +10,7 @@ use std::{any::Any, sync::Arc};
 
 /// Part of the scene that a load acts on. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Target {
+pub(crate) enum LoadTarget {
     /// The whole body.
     Body,
     /// A face, by its number.
@@ -48,8 +48,8 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     fn name(&self) -> &'static str;
 
     /// Where it acts.
-    fn target(&self) -> Target {
-        Target::Body
+    fn target(&self) -> LoadTarget {
+        LoadTarget::Body
     }
 
     /// Rows of name and value for reports.
@@ -65,7 +65,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         None
     }
 
-    /// Whether it sets a body in motion that rests without stress, or changes how such a body moves.
+    /// Whether it sets a body in motion that rests without stress, or damps its motion.
     fn disturbs_rest(&self) -> bool {
         true
     }

@@ -35,7 +35,7 @@ pub struct Suite {
     pub title: String,
     /// Where the problem comes from.
     pub source: String,
-    /// What a reader should know, as the author put it.
+    /// Remarks of the author for a reader.
     pub about: String,
     /// Every parameter: name, what the file says, value.
     pub parameters: Vec<(String, String, f64)>,
@@ -60,15 +60,15 @@ pub struct ConvergencePlan {
     pub reference: Option<ReferencePlan>,
     /// Time step (s) of the same method, to compare with in a study of time steps.
     pub same_method_dt: Option<f64>,
-    /// What is refined, level by level.
+    /// The levels of refinement.
     pub refine: RefinePlan,
     /// Instants at which the error is taken.
     pub instants: u64,
     /// The error that is judged.
     pub norm: NormName,
-    /// What it is an error of.
+    /// Quantity of which the error is taken.
     pub of: Quantity,
-    /// What it is divided by, if anything.
+    /// Size by which the error is divided, if any.
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.
     pub crossing_levels: CrossingLevels,
@@ -87,11 +87,11 @@ pub struct Case {
     pub method: Method,
     /// End of the run (s).
     pub until: f64,
-    /// What the errors are taken against.
+    /// Truth against which errors are taken.
     pub against: Against,
-    /// What is expected.
+    /// Expectation on a usual run.
     pub expectation: Expectation,
-    /// What is expected of a full run, if that differs.
+    /// Expectation on a full run, if that differs.
     pub expectation_in_full: Option<Expectation>,
 }
 

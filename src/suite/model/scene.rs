@@ -3,7 +3,7 @@
 use super::{
     boundary::BoundaryCondition,
     heat::SceneHeat,
-    load::{SceneLoad, Target},
+    load::{LoadTarget, SceneLoad},
 };
 use crate::{
     exact::{Region, Round, Term, formula::Formula},
@@ -50,13 +50,13 @@ pub struct Scene {
 /// One face of the body.
 #[derive(Debug, Clone)]
 pub struct SceneFace {
-    /// What suites call it.
+    /// Name that suites give it.
     pub name: &'static str,
     /// Axis of its normal.
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
-    /// What holds it.
+    /// Condition on its motion.
     pub hold: BoundaryCondition,
 }
 
@@ -75,7 +75,7 @@ impl Scene {
     }
 
     /// The loads on one part of the scene.
-    pub(crate) fn loads_on(&self, target: Target) -> impl Iterator<Item = &Arc<dyn SceneLoad>> {
+    pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &Arc<dyn SceneLoad>> {
         self.loads.iter().filter(move |load| load.target() == target)
     }
 

@@ -11,7 +11,7 @@ use crate::{
             scene::{face::face, sets},
         },
         model::{
-            load::{SceneLoad, Target},
+            load::{LoadTarget, SceneLoad},
             scene::Scene,
         },
         yaml::{Diagnostic, NumberText},
@@ -117,7 +117,7 @@ impl LoadEntry<'_> {
         sets::refuse_surface_load(evaluator, &path, load, name, &scene.sets)?;
         let number = face(evaluator, &path, name, self.dimension(), false)?;
         let hold = &scene.faces[number].hold;
-        let taken = scene.loads_on(Target::Face(number)).next();
+        let taken = scene.loads_on(LoadTarget::Face(number)).next();
         let has = match taken {
             _ if !hold.is_free() => hold.verb().to_owned(),
             Some(other) => format!("has a {} already", other.name()),
@@ -130,7 +130,7 @@ impl LoadEntry<'_> {
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = sets::number(self.evaluator, &path, name, &self.scene.sets)?;
-        match self.scene.loads_on(Target::Set(number)).next() {
+        match self.scene.loads_on(LoadTarget::Set(number)).next() {
             None => Ok(LoadedSet { number, region: self.scene.sets[number].clone() }),
             Some(other) => {
                 let message = format!("the set `{name}` has a {} already", other.name());

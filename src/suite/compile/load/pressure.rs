@@ -8,7 +8,7 @@ use crate::{
     exact::{Condition, Term, formula::Formula},
     mpm::{Effect, Placement, Pressure},
     suite::{
-        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -52,8 +52,8 @@ impl SceneLoad for PressureLoad {
         "pressure"
     }
 
-    fn target(&self) -> Target {
-        Target::Face(self.face.number)
+    fn target(&self) -> LoadTarget {
+        LoadTarget::Face(self.face.number)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

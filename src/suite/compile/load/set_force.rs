@@ -8,7 +8,7 @@ use crate::{
     exact::{Term, formula::Formula},
     mpm::{Effect, SetForce},
     suite::{
-        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -61,8 +61,8 @@ impl SceneLoad for SetForceLoad {
         "force"
     }
 
-    fn target(&self) -> Target {
-        Target::Set(self.set.number)
+    fn target(&self) -> LoadTarget {
+        LoadTarget::Set(self.set.number)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

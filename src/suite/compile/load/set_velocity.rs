@@ -8,7 +8,7 @@ use crate::{
     exact::{Region, Term, formula::Formula},
     mpm::{Effect, PrescribedVelocity},
     suite::{
-        model::load::{BodySite, BuildEffect, SceneLoad, Target},
+        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -49,8 +49,8 @@ impl SceneLoad for SetVelocityLoad {
         "velocity"
     }
 
-    fn target(&self) -> Target {
-        Target::Set(self.set.number)
+    fn target(&self) -> LoadTarget {
+        LoadTarget::Set(self.set.number)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

@@ -50,8 +50,8 @@ pub(crate) fn faces(
     Ok(faces)
 }
 
-/// Temperatures are held, and heat enters, at the nodes of the grid's face: the body must end there,
-/// and stay.
+/// Temperatures are held, and heat enters, at the nodes of the grid's face: the body must end
+/// there, and stay.
 fn on_grid(
     entry: &LoadEntry<'_>,
     path: &Path,

@@ -1,7 +1,7 @@
 //! Several bodies in a scene, from words.
 //!
-//! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the loads
-//! are those of the scene: they act on every body.
+//! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
+//! loads are those of the scene: they act on every body.
 
 use crate::{
     mpm::MaterialSpec,
@@ -56,7 +56,7 @@ pub(crate) fn listed<'w>(
     Ok(vec![Listed { at, body, material, initial_velocity }])
 }
 
-/// What a scene cannot say of all bodies at once.
+/// Refuses words that speak of one body beside a list of bodies.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,

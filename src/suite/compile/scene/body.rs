@@ -15,8 +15,8 @@ use crate::{
     },
 };
 
-/// What a body is.
-pub(crate) enum Shape<'a> {
+/// Shape of a body.
+pub(crate) enum BodyShape<'a> {
     /// A box, whose words are read by [`corners`].
     Box(&'a BoxSpec),
     /// A round body.
@@ -25,7 +25,7 @@ pub(crate) enum Shape<'a> {
     Quadrilateral(Quadrilateral),
 }
 
-/// What kind of body `words` describe.
+/// The shape that `words` describe.
 ///
 /// # Errors
 /// A complaint about a body that makes no sense in `dimension` dimensions.
@@ -34,7 +34,7 @@ pub(crate) fn shape<'a>(
     path: &Path,
     words: &'a BodySpec,
     dimension: usize,
-) -> Result<Shape<'a>, Diagnostic> {
+) -> Result<BodyShape<'a>, Diagnostic> {
     let of_kind = |kind: &str, flat: usize| {
         let at = path.then(kind);
         if dimension == flat {
@@ -46,10 +46,10 @@ pub(crate) fn shape<'a>(
         Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help))
     };
     let (at, centre, radii) = match words {
-        BodySpec::Box(words) => return Ok(Shape::Box(words)),
+        BodySpec::Box(words) => return Ok(BodyShape::Box(words)),
         BodySpec::Quadrilateral(words) => {
             let at = of_kind("quadrilateral", 2)?;
-            return quadrilateral(evaluator, &at, words, dimension).map(Shape::Quadrilateral);
+            return quadrilateral(evaluator, &at, words, dimension).map(BodyShape::Quadrilateral);
         }
         BodySpec::Annulus(AnnulusSpec { centre, inner, outer }) => {
             let radii = [Some(("inner", inner)), Some(("outer", outer))];
@@ -62,7 +62,7 @@ pub(crate) fn shape<'a>(
             (of_kind("ball", 3)?, centre, [None, Some(("radius", radius))])
         }
     };
-    round(evaluator, &at, centre, radii, dimension).map(Shape::Round)
+    round(evaluator, &at, centre, radii, dimension).map(BodyShape::Round)
 }
 
 /// The round body at `path`, with an inner radius if it has one.

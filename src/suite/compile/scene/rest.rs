@@ -21,8 +21,8 @@ use crate::{
     },
 };
 
-/// Lets every face be at rest that has no opposite one to be one with, and refuses words that hold or
-/// move the body. `path` is that of the scene.
+/// Sets every face at rest that is not periodic, and refuses words that hold or move the body.
+/// `path` is that of the scene.
 pub(crate) fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,

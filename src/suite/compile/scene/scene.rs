@@ -1,7 +1,7 @@
 //! The body and what acts on it, from words.
 
 use super::{
-    bodies, bodies::Listed, body, body::Shape, boundary, material::material,
+    bodies, bodies::Listed, body, body::BodyShape, boundary, material::material,
     quadrilateral::faces_are_sides, rest, sets,
 };
 use crate::{
@@ -48,14 +48,14 @@ fn body(
     let at = own.at.then("body");
     let (mut round, mut quadrilateral) = (None, None);
     let (from, to) = match body::shape(evaluator, &at, own.body, dimension)? {
-        Shape::Box(words) => body::corners(evaluator, &at.then("box"), words, dimension)?,
-        Shape::Round(found) => {
+        BodyShape::Box(words) => body::corners(evaluator, &at.then("box"), words, dimension)?,
+        BodyShape::Round(found) => {
             if words.bodies.is_none() {
                 body::rims_are_free(evaluator, &path, words, &found)?;
             }
             round.insert(found).corners()
         }
-        Shape::Quadrilateral(found) => {
+        BodyShape::Quadrilateral(found) => {
             faces_are_sides(evaluator, &path, words, &found)?;
             quadrilateral.insert(found).ends()
         }

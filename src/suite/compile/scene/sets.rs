@@ -9,7 +9,7 @@ use crate::{
             wording::{shown, suggestion},
         },
         model::{
-            load::Target,
+            load::LoadTarget,
             scene::{FACES, Scene},
         },
         yaml::Diagnostic,
@@ -89,7 +89,7 @@ pub(crate) fn refuse_idle(
     path: &Path,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    let idle = |i: &usize| scene.loads_on(Target::Set(*i)).next().is_none();
+    let idle = |i: &usize| scene.loads_on(LoadTarget::Set(*i)).next().is_none();
     let Some(i) = (0..scene.sets.len()).find(idle) else { return Ok(()) };
     let name = &scene.sets[i].name;
     let path = path.then("sets").then(name.as_str());

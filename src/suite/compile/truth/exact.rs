@@ -12,7 +12,7 @@ use crate::{
             scene::quadrilateral::refuse_truth,
         },
         grammar::{ConvergenceSpec, EquationName, ExactSpec},
-        model::{BoundaryCondition, Scene, load::Target},
+        model::{BoundaryCondition, Scene, load::LoadTarget},
         yaml::{Diagnostic, NumberText},
     },
 };
@@ -245,7 +245,7 @@ fn face(scene: &Scene, number: usize) -> Face {
         BoundaryCondition::Velocity(value) => Condition::Velocity(value.clone()),
         BoundaryCondition::Periodic => Condition::Periodic(scene.period(face.axis)),
         BoundaryCondition::Free => {
-            let mut loads = scene.loads_on(Target::Face(number));
+            let mut loads = scene.loads_on(LoadTarget::Face(number));
             loads.find_map(|load| load.condition()).unwrap_or(Condition::Free)
         }
     };
