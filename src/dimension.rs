@@ -23,8 +23,8 @@ macro_rules! with_dimension {
 }
 pub(crate) use with_dimension;
 
-/// Declares the trait `$every`, which all types have that have `$contract<D>` in every dimension: an
-/// object of it can be built in any of them.
+/// Declares the trait `$every` of all types that have `$contract<D>` in every dimension: an object
+/// of it can be built in any of them.
 macro_rules! in_every_dimension {
     ($(#[$meta:meta])* $every:ident: $contract:ident) => {
         $(#[$meta])*
