@@ -25,8 +25,9 @@ impl Equation {
         tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
     }
 
-    /// What becomes of a unit of area on a face of the reference body, normal to `axis`, outwards on
-    /// its `high` or low side: `J F^-T N` (Nanson's formula). Where strains are small, N.
+    /// Present area vector of a unit of area on a face of the reference body, normal to `axis`,
+    /// outwards on its `high` or low side: `J F^-T N` (Nanson's formula). Where strains are small,
+    /// N.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {

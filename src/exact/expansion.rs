@@ -6,7 +6,7 @@
 
 use super::{
     formula::{Number, Slope},
-    heat::Warmth,
+    heat::TemperatureDerivatives,
     law::Equation,
     tensor::{Tensor, sum, tensor, unit},
 };
@@ -29,7 +29,7 @@ pub(super) struct Swelling {
 
 impl Expansion {
     /// The stretch at a temperature, and its gradient.
-    pub(super) fn of(&self, now: &Warmth) -> Swelling {
+    pub(super) fn of(&self, now: &TemperatureDerivatives) -> Swelling {
         Swelling {
             theta: 1.0 + self.coefficient * (now.value - self.reference),
             grad: now.grad.map(|slope| self.coefficient * slope),

@@ -2,8 +2,8 @@
 
 use super::formula::Number;
 
-/// Stress or gradient; what lies beyond the dimension D is zero, so a motion in fewer dimensions than
-/// three is one of plane or uniaxial strain.
+/// Stress or gradient; what lies beyond the dimension D is zero, so a motion in fewer dimensions
+/// than three is one of plane or uniaxial strain.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
 /// Largest number of terms of the series below: enough for stretches up to about ten.
@@ -67,9 +67,9 @@ pub(super) fn product<T: Number, const D: usize>(
 /// The logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
 ///
 /// From `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse, `X + X^3/3 + X^5/5 + ...`
-/// (Higham 2008, *Functions of Matrices*, section 11.4): no eigenvalues, whose derivatives would not
-/// exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears, and with
-/// no derivative either, the strains are logarithms, which is quicker.
+/// (Higham 2008, *Functions of Matrices*, section 11.4): no eigenvalues, whose derivatives would
+/// not exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears,
+/// and with no derivative either, the strains are logarithms, which is quicker.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     let zero = T::from(0.0);
     let sheared = |i: usize| (0..D).any(|j| j != i && f[i][j] != zero);

@@ -99,7 +99,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// What a run asks for, all places at one time after another, has the bits of a single question.
+/// A run evaluates all places at one time after another, with the bits of a single evaluation.
 #[rstest]
 fn the_force_of_a_run_is_the_force(#[values(1, 2, 3)] dimension: usize) {
     let (problem, mut random) = (held(dimension), Random::new(1));
@@ -127,8 +127,8 @@ fn bar(displacement: &str, right: Condition) -> Problem {
     }
 }
 
-/// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by what acts on
-/// its top, where P N = mu (F - F^-T) N.
+/// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by what
+/// acts on its top, where P N = mu (F - F^-T) N.
 fn sheared(top: Condition) -> Problem {
     let names = ["X", "Y", "t"];
     let face = |name, axis, high, condition| Face { name, axis, high, condition };
@@ -154,8 +154,8 @@ fn a_traction_may_depend_on_the_place() {
     assert!(found.condition.contains("top is loaded, traction in X"), "{found}");
 }
 
-/// A cube under a uniform pressure shrinks alike on all sides, `P N = -p J F^-T N`: with a stretch of s
-/// its faces have s^2 of their area, which a dead load does not know.
+/// A cube under a uniform pressure shrinks alike on all sides, `P N = -p J F^-T N`: with a stretch
+/// of s its faces have s^2 of their area, which a dead load does not know.
 #[test]
 fn a_pressure_acts_on_the_present_area() {
     let names = ["X", "Y", "Z", "t"];

@@ -1,4 +1,4 @@
-//! What the judge asks of a truth.
+//! Truth: a known solution, as the judge reads it.
 
 /// A solution that is known: closed form, manufactured, or a much finer computation.
 pub trait Truth: Send + Sync {

@@ -1,4 +1,4 @@
-//! What a wrong exact solution is told.
+//! Violation: the condition that a wrong exact solution breaks.
 
 use std::fmt;
 
@@ -11,9 +11,9 @@ pub struct Violation {
     pub label: Vec<f64>,
     /// Time (s).
     pub t: f64,
-    /// What the condition asks for, where that is one number.
+    /// Value that the condition asks for, where that is one number.
     pub expected: Option<f64>,
-    /// What the solution gives.
+    /// Value of the solution.
     pub found: f64,
     /// Unit of both.
     pub unit: &'static str,

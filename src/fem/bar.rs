@@ -3,7 +3,7 @@
 use super::{
     mass::BarMassMatrix,
     mesh::{Mesh, dot},
-    setup::{BarSetup, Field, SetupError},
+    setup::{BarSetup, ScalarFunction, SetupError},
 };
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
@@ -238,7 +238,7 @@ fn quadrature(mesh: &Mesh) -> Vec<f64> {
 }
 
 /// Nodal values of a field, and zero where the bar is held.
-fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &Field) -> Vec<f64> {
+fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f64> {
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == nodes.len());
     let value = |(i, &x): (usize, &f64)| if is_fixed(i) { 0.0 } else { field(x) };
     nodes.iter().enumerate().map(value).collect()

@@ -1,6 +1,6 @@
 //! Laws of the bar in uniaxial strain, `P(F)`, written apart from those of MPM and of the truth.
 
-use super::setup::Field;
+use super::setup::ScalarFunction;
 use crate::named::named;
 
 named! {
@@ -24,7 +24,7 @@ impl BarLaw {
     }
 
     /// P(F) (Pa), from Young's modulus (Pa) and Poisson's ratio.
-    pub fn piola(self, young: f64, poisson: f64) -> Field {
+    pub fn piola(self, young: f64, poisson: f64) -> ScalarFunction {
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         let mu = young / (2.0 * (1.0 + poisson));
         let modulus = lambda + 2.0 * mu;

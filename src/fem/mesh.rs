@@ -4,7 +4,7 @@ use super::element::{Element, PerNode};
 
 /// A quadrature point, the same in every element.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct MeshPoint {
     /// Place within the element, 0 at its left end and 1 at its right end.
     pub(super) place: f64,
     /// Shape functions.
@@ -22,14 +22,14 @@ pub(super) struct Mesh {
     to: f64,
     cells: usize,
     element: Element,
-    points: Vec<Point>,
+    points: Vec<MeshPoint>,
 }
 
 impl Mesh {
     /// `from < to` and `cells > 0` have been checked.
     pub(super) fn new(from: f64, to: f64, cells: usize, element: Element) -> Self {
         let half = 0.5 * (to - from) / cells as f64; // dX/dxi
-        let points = element.quadrature().iter().map(|gauss| Point {
+        let points = element.quadrature().iter().map(|gauss| MeshPoint {
             place: 0.5 * (1.0 + gauss.xi),
             shape: element.shape(gauss.xi),
             gradient: element.gradient(gauss.xi).map(|slope| slope / half),
@@ -56,7 +56,7 @@ impl Mesh {
 
     /// Quadrature points of an element.
     #[inline]
-    pub(super) fn points(&self) -> &[Point] {
+    pub(super) fn points(&self) -> &[MeshPoint] {
         &self.points
     }
 

@@ -46,4 +46,6 @@ mod tests;
 pub use bar::Bar;
 pub use element::Element;
 pub use law::BarLaw;
-pub use setup::{BarSetup, Field, History, Load, Mass, Sampling, SetupError, pointwise};
+pub use setup::{
+    BarLoad, BarSetup, Mass, Sampling, ScalarFunction, SetupError, TimeFunction, pointwise,
+};

@@ -9,15 +9,15 @@ use crate::{
 };
 
 /// A function of the reference position X, or of the deformation gradient F.
-pub type Field = Box<dyn Fn(f64) -> f64 + Send>;
+pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
-pub type History = Box<dyn Fn(f64) -> f64 + Send>;
+pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time and reference position, at many positions at once: given t (s) and positions
 /// X (m), which are the same in every call, it fills in the values.
-pub type Load = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send>;
+pub type BarLoad = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send>;
 
 /// The load that has the value `f(X, t)` at each position.
-pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> Load {
+pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> BarLoad {
     Box::new(move |t, places, values| {
         for (value, x) in values.iter_mut().zip(places) {
             *value = f(*x, t);
@@ -60,21 +60,21 @@ pub struct BarSetup {
     /// Reference density rho0 (kg/m3).
     pub density: f64,
     /// First Piola-Kirchhoff stress `P(F)` (Pa).
-    pub law: Field,
+    pub law: ScalarFunction,
     /// Whether the left and the right end are held at zero displacement. There the initial fields
     /// are not asked.
     pub fixed: [bool; 2],
     /// Body force `b(X, t)` per unit mass (m/s2); with `None`, no such term is computed.
-    pub body_force: Option<Load>,
+    pub body_force: Option<BarLoad>,
     /// Piola stress `p0(t)` (Pa) that is applied to the left and to the right end: tension is
     /// positive at both. Only a free end can take it.
-    pub traction: [Option<History>; 2],
+    pub traction: [Option<TimeFunction>; 2],
     /// Displacement `u(X)` at t = 0 (m).
-    pub initial_displacement: Field,
+    pub initial_displacement: ScalarFunction,
     /// Velocity `v(X)` at t = 0 (m/s). Like the displacement it is interpolated at the nodes: the
     /// interpolant is accurate to order k + 1, so it keeps the order of the element, it needs no
     /// second factorisation where the mass is lumped, and it keeps `v` at a fixed end.
-    pub initial_velocity: Field,
+    pub initial_velocity: ScalarFunction,
     /// Meaning of the initial velocity in the first step.
     pub start: Start,
     /// Where the state is seen.

@@ -62,8 +62,8 @@ pub use kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleFi
 pub use kernel::scalar_contract::Scalars;
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
-    Hencky, J2, LinearElastic, Material, MaterialPlan, MaterialProperties, MaterialSpec,
-    NeoHookean, Newtonian, Parameter, Range, Rigid,
+    Hencky, J2, LinearElastic, Material, MaterialParameter, MaterialPlan, MaterialProperties,
+    MaterialSpec, NeoHookean, Newtonian, Range, Rigid,
 };
 pub use multibody::Bodies;
 pub use particles::{Block, Particles};

@@ -12,8 +12,8 @@ use crate::exact::{
     violation::Violation,
 };
 
-/// What the residuals of a condition are compared with.
-struct Sizes {
+/// Magnitudes that residuals of boundary conditions are compared with.
+struct Magnitudes {
     displacement: f64,
     velocity: f64,
     gradient: f64,
@@ -23,7 +23,7 @@ struct Sizes {
 /// Every face of the body, at random points and times.
 pub(crate) fn boundary(problem: &Problem) -> Result<(), Violation> {
     let gradient = scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max));
-    let sizes = Sizes {
+    let sizes = Magnitudes {
         displacement: scale(problem, |_, d| largest(&d.u)),
         velocity: scale(problem, |_, d| largest(&d.velocity)),
         gradient,
@@ -40,13 +40,18 @@ pub(crate) fn boundary(problem: &Problem) -> Result<(), Violation> {
     Ok(())
 }
 
-fn on_face(problem: &Problem, face: &Face, event: &Event, sizes: &Sizes) -> Result<(), Violation> {
+fn on_face(
+    problem: &Problem,
+    face: &Face,
+    event: &Event,
+    sizes: &Magnitudes,
+) -> Result<(), Violation> {
     let all = problem.motion.derivatives(&event.label, event.t);
     if let Condition::Periodic(period) = face.condition {
         return periodic(problem, face, event, period, &all, sizes);
     }
     if let Condition::Friction(coefficient) = face.condition {
-        let Sizes { displacement, velocity, stress, .. } = *sizes;
+        let Magnitudes { displacement, velocity, stress, .. } = *sizes;
         let sizes = [displacement, velocity, stress];
         return friction::at_wall(problem, face, event, (coefficient, &all), sizes);
     }
@@ -97,7 +102,7 @@ fn traction(
     event: &Event,
     (i, what, pulled): (usize, &str, f64),
     all: &Derivatives,
-    sizes: &Sizes,
+    sizes: &Magnitudes,
 ) -> Result<(), Violation> {
     let normal = if face.high { 1.0 } else { -1.0 };
     let found = normal * problem.piola(&event.label, event.t, all)[i][face.axis];
@@ -114,7 +119,7 @@ fn periodic(
     event: &Event,
     period: f64,
     here: &Derivatives,
-    sizes: &Sizes,
+    sizes: &Magnitudes,
 ) -> Result<(), Violation> {
     let mut opposite = event.label.clone();
     opposite[face.axis] = if face.high { problem.from[face.axis] } else { problem.to[face.axis] };

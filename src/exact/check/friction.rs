@@ -14,7 +14,7 @@ use crate::exact::{
 /// Residuals are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
 ///
 /// # Errors
-/// What the motion does that the wall does not.
+/// The first violation.
 pub(crate) fn at_wall(
     problem: &Problem,
     face: &Face,
@@ -44,7 +44,7 @@ pub(crate) fn at_wall(
     coulomb(event, (axis, d), &rub, [allowed, tolerance * velocity], condition)
 }
 
-/// What passes between two surfaces at a point.
+/// Traction between two surfaces at a point.
 pub(crate) struct InterfaceTraction {
     /// On the surface in question (Pa).
     pub(crate) traction: [f64; 3],

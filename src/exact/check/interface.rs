@@ -1,8 +1,8 @@
 //! Two bodies face to face, checked at points of the faces.
 //!
-//! Bodies that share one velocity field are one: displacement and traction go on across the faces. Bodies
-//! in contact do not enter each other and do not pull; they push only where they touch, with equal and
-//! opposite tractions, and what slides is resisted by friction.
+//! Bodies that share one velocity field are one: displacement and traction go on across the faces.
+//! Bodies in contact do not enter each other and do not pull; they push only where they touch, with
+//! equal and opposite tractions, and what slides is resisted by friction.
 //!
 //! One formula may speak of several bodies and jump where they meet: each is looked at from its own
 //! inside, a billionth of its length from the face.
@@ -16,8 +16,8 @@ use crate::exact::{motion::Derivatives, problem::Problem, random::Random, violat
 /// How far inside a face is looked at, in lengths of the body.
 const INSIDE: f64 = 1e-9;
 
-/// Holds the high face of `one` on `axis` against the low face of `other`, which lies opposite: in contact
-/// with a coefficient of friction, or, without one, as one body.
+/// Holds the high face of `one` on `axis` against the low face of `other`, which lies opposite: in
+/// contact with a coefficient of friction, or, without one, as one body.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -27,7 +27,7 @@ pub fn meets(
     axis: usize,
     friction: Option<f64>,
 ) -> Result<(), Violation> {
-    let pair = Pair { one, other, axis, sizes: sizes(one, other) };
+    let pair = BodyPair { one, other, axis, sizes: sizes(one, other) };
     let mut random = Random::new(8);
     for _ in 0..POINTS {
         let label = random.point(&one.from, &one.to);
@@ -55,14 +55,14 @@ fn sizes(one: &Problem, other: &Problem) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-struct Pair<'a> {
+struct BodyPair<'a> {
     one: &'a Problem,
     other: &'a Problem,
     axis: usize,
     sizes: [f64; 3],
 }
 
-impl Pair<'_> {
+impl BodyPair<'_> {
     fn condition(&self, what: &str) -> String {
         format!("where two bodies meet along {}, {what}", AXES[self.axis])
     }

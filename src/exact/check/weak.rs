@@ -18,14 +18,15 @@ pub(crate) const TOLERANCE: f64 = 0.005;
 const WAVES: f64 = 4.0;
 
 /// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
-/// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten points
-/// on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07 %.
-pub(crate) struct Patch {
+/// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten
+/// points on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07
+/// %.
+pub(crate) struct SpaceTimePatch {
     pub(crate) centre: Vec<f64>,
     half: Vec<f64>,
 }
 
-impl Patch {
+impl SpaceTimePatch {
     fn draw(random: &mut Random, problem: &Problem) -> Self {
         let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
         match &problem.round {
@@ -62,11 +63,11 @@ impl Patch {
     }
 
     /// Equally spaced points on the axis `a`, time being the last one.
-    pub(crate) fn axis(&self, a: usize, points: usize) -> Vec<Point> {
+    pub(crate) fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
         let point = |index: usize| {
             let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
             let inside = 1.0 - xi * xi;
-            Point {
+            AxisPoint {
                 at: self.centre[a] + self.half[a] * xi,
                 factor: inside * inside * inside,
                 slope: -6.0 * xi * inside * inside / self.half[a],
@@ -79,14 +80,14 @@ impl Patch {
 /// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
 /// derivative.
 #[derive(Clone, Copy)]
-pub(crate) struct Point {
+pub(crate) struct AxisPoint {
     pub(crate) at: f64,
     factor: f64,
     slope: f64,
 }
 
 /// phi and its derivatives along every axis, where the points of all axes meet.
-pub(crate) fn bump(points: &[Point]) -> (f64, [f64; 4]) {
+pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     let factors = |except: usize| {
         let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
         others.map(|(_, point)| point.factor).product::<f64>()
@@ -116,7 +117,7 @@ fn crossing(problem: &Problem) -> f64 {
 pub(crate) fn momentum(problem: &Problem) -> Result<(), Violation> {
     let mut random = Random::new(6);
     for _ in 0..PATCHES {
-        balance(problem, &Patch::draw(&mut random, problem))?;
+        balance(problem, &SpaceTimePatch::draw(&mut random, problem))?;
     }
     Ok(())
 }
@@ -129,7 +130,7 @@ pub(crate) struct Sums {
     pub(crate) size: f64,
 }
 
-fn balance(problem: &Problem, patch: &Patch) -> Result<(), Violation> {
+fn balance(problem: &Problem, patch: &SpaceTimePatch) -> Result<(), Violation> {
     let d = problem.dimension();
     for sums in &sums(problem, patch)[..d] {
         if !((sums.gain - sums.loss).abs() <= TOLERANCE * sums.size) {
@@ -149,10 +150,10 @@ fn balance(problem: &Problem, patch: &Patch) -> Result<(), Violation> {
 }
 
 /// The balance of every component, by the midpoint rule on a raster of the patch.
-fn sums(problem: &Problem, patch: &Patch) -> [Sums; 3] {
+fn sums(problem: &Problem, patch: &SpaceTimePatch) -> [Sums; 3] {
     let d = problem.dimension();
     let per_axis = [0, 64, 20, 10][d];
-    let axes: Vec<Vec<Point>> = (0..=d).map(|a| patch.axis(a, per_axis)).collect();
+    let axes: Vec<Vec<AxisPoint>> = (0..=d).map(|a| patch.axis(a, per_axis)).collect();
     let spot = |k: usize| {
         axes[..d].iter().scan(k, |k, axis| {
             let point = axis[*k % per_axis];
@@ -160,7 +161,8 @@ fn sums(problem: &Problem, patch: &Patch) -> [Sums; 3] {
             Some(point)
         })
     };
-    let spots: Vec<Vec<Point>> = (0..per_axis.pow(d as u32)).map(|k| spot(k).collect()).collect();
+    let spots: Vec<Vec<AxisPoint>> =
+        (0..per_axis.pow(d as u32)).map(|k| spot(k).collect()).collect();
     let labels: Vec<Vec<f64>> = spots.iter().map(|s| s.iter().map(|p| p.at).collect()).collect();
     let mut places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
     let (mut all, mut now) = ([Sums::default(); 3], Derivatives::default());

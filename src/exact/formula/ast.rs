@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{binary::Binary, unary::Unary};
 
-/// A parsed formula, not yet bound: its names stand for nothing so far.
+/// A parsed formula, not yet bound: its names have no meaning yet.
 #[derive(Debug, Clone)]
 pub struct Expr {
     source: String,
@@ -16,13 +16,13 @@ pub struct Expr {
 /// One node of the tree, with the bytes it was read from.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
-    pub(super) kind: Kind,
+    pub(super) kind: NodeKind,
     pub(super) span: Range<usize>,
 }
 
-/// What a node is. Children are given by their position in the list of nodes.
+/// Kinds of nodes. Children are given by their position in the list of nodes.
 #[derive(Debug, Clone)]
-pub(super) enum Kind {
+pub(super) enum NodeKind {
     Number(f64),
     /// A constant, a variable or the parameter of a function.
     Name(String),
@@ -60,7 +60,7 @@ impl Expr {
     /// functions and the indices of sums are not free names.
     pub fn names(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
-            Kind::Name(name) => Some(name),
+            NodeKind::Name(name) => Some(name),
             _ => None,
         })
     }
@@ -68,7 +68,7 @@ impl Expr {
     /// Every call of a user function and the span of its name, in reading order.
     pub fn calls(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
-            Kind::Call(name, _) => Some(name),
+            NodeKind::Call(name, _) => Some(name),
             _ => None,
         })
     }
@@ -84,12 +84,12 @@ impl Expr {
     /// The sums of the formula, wherever they stand.
     pub(super) fn sums(&self) -> impl Iterator<Item = &Sum> {
         self.nodes.iter().filter_map(|node| match &node.kind {
-            Kind::Sum(sum) => Some(sum),
+            NodeKind::Sum(sum) => Some(sum),
             _ => None,
         })
     }
 
-    fn collect(&self, pick: impl Fn(&Kind) -> Option<&String>) -> Vec<(String, Range<usize>)> {
+    fn collect(&self, pick: impl Fn(&NodeKind) -> Option<&String>) -> Vec<(String, Range<usize>)> {
         let mut found: Vec<_> = self
             .nodes
             .iter()

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{
     ast::Expr,
-    bind::Binder,
+    bind::ProgramBuilder,
     error::FormulaError,
     number::Number,
     program::{Instruction, Operand, read, run},
@@ -42,15 +42,15 @@ impl Formula {
                 return Err(FormulaError::new(0..variable.len(), message));
             }
         }
-        let mut binder = Binder::new(scope);
-        let result = binder.formula(expr, variables)?;
+        let mut builder = ProgramBuilder::new(scope);
+        let result = builder.formula(expr, variables)?;
         Ok(Self {
             source: expr.source().to_owned(),
-            uses: binder.uses,
+            uses: builder.uses,
             variables: variables.len(),
-            code: binder.code,
-            registers: binder.registers,
-            operations: binder.operations,
+            code: builder.code,
+            registers: builder.registers,
+            operations: builder.operations,
             result,
         })
     }

@@ -6,7 +6,7 @@ use super::{binary::Binary, unary::Unary};
 pub(super) const PI: &str = "pi";
 const SUM: &str = "sum";
 
-/// What a builtin name calls.
+/// Meaning of a builtin name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Builtin {
     Unary(Unary),

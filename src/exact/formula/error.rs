@@ -1,4 +1,4 @@
-//! What is wrong with a formula, and where.
+//! Errors in formulas, with their place.
 
 use std::ops::Range;
 
@@ -8,12 +8,12 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct FormulaError {
-    /// What is wrong, in one line.
+    /// The fault, in one line.
     pub message: String,
     /// The bytes at fault. They count in the source of the formula, or in the body of the function
     /// named by `within`; for a declared name that is refused, in that name itself.
     pub span: Range<usize>,
-    /// What to write instead, where that can be said.
+    /// A correction, where one is known.
     pub help: Option<String>,
     /// The user function in whose body the fault lies, if it is not in the formula itself.
     pub within: Option<String>,

@@ -1,4 +1,4 @@
-//! What may have been meant by an unknown name.
+//! Suggestions for unknown names.
 
 use strsim::damerau_levenshtein;
 
@@ -10,7 +10,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("heaviside", "the unit step is `step`"),
 ];
 
-/// What to write for the unknown `name`, if it resembles a candidate or is known elsewhere.
+/// Correction of the unknown `name`, if it resembles a candidate or is known elsewhere.
 pub(super) fn hint<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     let elsewhere = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
     if let Some((_, help)) = elsewhere {

@@ -10,17 +10,17 @@ use super::{
 /// Formulas of the same variables, the last of which is the time, evaluated at the same places
 /// again and again.
 ///
-/// What depends on the place only is computed once for each place, what depends on the time only
-/// once for each time. The values have the bits that [`Formula::eval`] gives.
+/// Terms of the place only are computed once for each place, terms of the time only once for each
+/// time. The values have the bits that [`Formula::eval`] gives.
 #[derive(Debug, Clone)]
 pub struct Hoisted<T> {
     split: Split,
     /// The variables: the coordinates last added, and the present time.
     variables: Vec<T>,
     registers: Vec<T>,
-    /// What the rest reads: first what is kept of the time, then that of one place.
+    /// Inputs of the remaining steps: values kept for the time, then those of one place.
     inputs: Vec<T>,
-    /// What is kept of each place, place after place.
+    /// Values kept for each place, place after place.
     kept: Vec<T>,
 }
 

@@ -7,8 +7,8 @@
 //! 2. [`Formula::bind`] resolves every name against a [`Scope`] and a list of variables, puts the
 //!    bodies of user functions in place, folds what is constant and leaves a flat program.
 //! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
-//!    first and second derivatives along. [`NumberBatch`] does so at some places at once, and [`Hoisted`]
-//!    at many places and times, at less cost.
+//!    first and second derivatives along. [`NumberBatch`] does so at some places at once, and
+//!    [`Hoisted`] at many places and times, at less cost.
 //!
 //! # Language
 //!

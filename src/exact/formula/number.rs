@@ -1,4 +1,4 @@
-//! What formulas compute with.
+//! Numbers that formulas compute with.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

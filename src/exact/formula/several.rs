@@ -7,9 +7,9 @@ use super::{number::Number, unary::Unary};
 /// So many numbers: enough that reading an instruction costs little beside what it does with them.
 const MANY: usize = 8;
 
-/// The values of one formula at some places and times. A formula that is evaluated over them reads each
-/// of its instructions once for all, and the compiler does sums and products two at a time or more. The
-/// operations on each number, and so its bits, are those of `f64`.
+/// The values of one formula at some places and times. A formula that is evaluated over them reads
+/// each of its instructions once for all, and the compiler does sums and products two at a time or
+/// more. The operations on each number, and so its bits, are those of `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberBatch([f64; MANY]);
 

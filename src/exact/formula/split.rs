@@ -1,7 +1,7 @@
 //! A program taken apart by what its steps depend on: the place, the time, or both.
 //!
 //! Sums are written out and registers named anew, so that each step is a node that is computed once
-//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node needs the place or the
+//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node dependence the place or the
 //! time if one of its arguments does. Each part of the split keeps its nodes in their old order, so
 //! that every number is computed by the operations that would compute it without the split: it has
 //! the same bits.
@@ -14,30 +14,30 @@ use super::{
     program::{Action, Instruction, Operand},
 };
 
-/// What a node depends on; two of them together, on what either does.
-type Needs = usize;
-const NOTHING: Needs = 0;
-const PLACE: Needs = 1;
-const TIME: Needs = 2;
-const BOTH: Needs = 3;
+/// Dependence of a node on place and time, as bits: two nodes together depend on the union.
+type Dependence = usize;
+const NOTHING: Dependence = 0;
+const PLACE: Dependence = 1;
+const TIME: Dependence = 2;
+const BOTH: Dependence = 3;
 
 /// The steps of some formulas. One that is taken twice, be it in two formulas, is one node.
 #[derive(Default)]
 struct Nodes {
-    list: Vec<Node>,
+    list: Vec<SsaNode>,
     /// The number of each node under its text, which tells 0 from -0 as `==` does not.
     known: BTreeMap<String, usize>,
 }
 
 /// A step, whose registers are the numbers of nodes.
-struct Node {
+struct SsaNode {
     action: Action,
-    needs: Needs,
+    dependence: Dependence,
 }
 
 /// A program that leaves what others need of it in its first registers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Part {
+pub(super) struct PartProgram {
     pub(super) code: Vec<Instruction>,
     pub(super) registers: usize,
     /// Number of values that are left for the rest.
@@ -47,12 +47,12 @@ pub(super) struct Part {
 /// Formulas of the same variables, time being the last of them, in three parts.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
-    /// What depends on the place only, over the variables.
-    pub(super) place: Part,
-    /// What depends on the time at most, over the variables.
-    pub(super) time: Part,
+    /// Steps that depend on the place only, over the variables.
+    pub(super) place: PartProgram,
+    /// Steps that depend on the time at most, over the variables.
+    pub(super) time: PartProgram,
     /// The rest. Its variables are the values kept by `time`, followed by those kept by `place`.
-    pub(super) rest: Part,
+    pub(super) rest: PartProgram,
     /// Where the rest leaves the values of the formulas.
     pub(super) results: Vec<Operand>,
 }
@@ -61,8 +61,8 @@ impl Split {
     pub(super) fn new(formulas: &[Formula], variables: usize) -> Self {
         let mut nodes = Nodes::default();
         for i in 0..variables {
-            let needs = if i + 1 == variables { TIME } else { PLACE };
-            nodes.list.push(Node { action: Action::Copy(Operand::Variable(i)), needs });
+            let dependence = if i + 1 == variables { TIME } else { PLACE };
+            nodes.list.push(SsaNode { action: Action::Copy(Operand::Variable(i)), dependence });
         }
         let results: Vec<Operand> =
             formulas.iter().map(|formula| unroll(formula, &mut nodes)).collect();
@@ -83,11 +83,12 @@ impl Nodes {
         let next = self.list.len();
         let node = *self.known.entry(format!("{action:?}")).or_insert(next);
         if node == next {
-            let needs = action.arguments().fold(NOTHING, |needs, operand| match operand {
-                Operand::Register(node) => needs | self.list[node].needs,
-                _ => needs,
-            });
-            self.list.push(Node { action, needs });
+            let dependence =
+                action.arguments().fold(NOTHING, |dependence, operand| match operand {
+                    Operand::Register(node) => dependence | self.list[node].dependence,
+                    _ => dependence,
+                });
+            self.list.push(SsaNode { action, dependence });
         }
         Operand::Register(node)
     }
@@ -125,7 +126,7 @@ fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
 
 /// Where every node is computed, part by part, and in which register.
 struct Homes {
-    needs: Vec<Needs>,
+    dependence: Vec<Dependence>,
     /// For each part, the register of each node that it computes.
     registers: [Vec<Option<usize>>; 4],
     kept: [usize; 4],
@@ -133,16 +134,16 @@ struct Homes {
 
 impl Homes {
     /// From the results back: whatever is needed, where it is computed.
-    fn of(nodes: &[Node], results: &[Operand]) -> Self {
+    fn of(nodes: &[SsaNode], results: &[Operand]) -> Self {
         let mut homes = Self {
-            needs: nodes.iter().map(|node| node.needs).collect(),
+            dependence: nodes.iter().map(|node| node.dependence).collect(),
             registers: std::array::from_fn(|_| vec![None; nodes.len()]),
             kept: [0; 4],
         };
         let mut wanted: [Vec<bool>; 4] = std::array::from_fn(|_| vec![false; nodes.len()]);
-        let mut ask = |operand: Operand, reader: Needs, wanted: &mut [Vec<bool>; 4]| {
+        let mut ask = |operand: Operand, reader: Dependence, wanted: &mut [Vec<bool>; 4]| {
             let Operand::Register(node) = operand else { return };
-            let home = home(homes.needs[node], reader);
+            let home = home(homes.dependence[node], reader);
             wanted[home][node] = true;
             if home != reader && homes.registers[home][node].is_none() {
                 homes.registers[home][node] = Some(homes.kept[home]);
@@ -174,7 +175,7 @@ impl Homes {
     }
 
     /// The nodes of one part as a program.
-    fn part(&self, nodes: &[Node], part: Needs) -> Part {
+    fn part(&self, nodes: &[SsaNode], part: Dependence) -> PartProgram {
         let mut code = Vec::new();
         for (node, register) in nodes.iter().zip(&self.registers[part]) {
             if let Some(to) = *register {
@@ -182,13 +183,13 @@ impl Homes {
                 code.push(Instruction { action, to });
             }
         }
-        Part { registers: code.len(), code, kept: self.kept[part] }
+        PartProgram { registers: code.len(), code, kept: self.kept[part] }
     }
 
     /// Where the part `reader` finds an argument.
-    fn seen(&self, operand: Operand, reader: Needs) -> Operand {
+    fn seen(&self, operand: Operand, reader: Dependence) -> Operand {
         let Operand::Register(node) = operand else { return operand };
-        let home = home(self.needs[node], reader);
+        let home = home(self.dependence[node], reader);
         let register = self.registers[home][node].unwrap_or_default();
         match home {
             _ if home == reader => Operand::Register(register),
@@ -200,10 +201,10 @@ impl Homes {
 
 /// The part that computes what `reader` reads. What depends on nothing is computed where it is
 /// read; for the rest, which runs most often, it is computed with what depends on the time.
-fn home(needs: Needs, reader: Needs) -> Needs {
-    match (needs, reader) {
+fn home(dependence: Dependence, reader: Dependence) -> Dependence {
+    match (dependence, reader) {
         (NOTHING, BOTH) => TIME,
         (NOTHING, _) => reader,
-        _ => needs,
+        _ => dependence,
     }
 }

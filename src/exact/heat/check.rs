@@ -2,7 +2,7 @@
 
 use super::{
     equation,
-    field::Warmth,
+    field::TemperatureDerivatives,
     problem::{Conduction, HeatFace, ThermalCondition},
     weak,
 };
@@ -33,9 +33,9 @@ impl Conduction {
     }
 }
 
-type Point = (Event, Derivatives, Warmth);
+type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
 
-fn interior(problem: &Conduction, seed: u64) -> Vec<Point> {
+fn interior(problem: &Conduction, seed: u64) -> Vec<HeatPoint> {
     let mut random = Random::new(seed);
     let mut point = || {
         let label = random.point(&problem.from, &problem.to);
@@ -47,7 +47,7 @@ fn interior(problem: &Conduction, seed: u64) -> Vec<Point> {
 }
 
 /// Largest value of a quantity over the interior points; NaN if any is.
-fn scale(problem: &Conduction, quantity: impl Fn(&Point) -> f64) -> f64 {
+fn scale(problem: &Conduction, quantity: impl Fn(&HeatPoint) -> f64) -> f64 {
     interior(problem, 1)
         .iter()
         .map(|point| quantity(point).abs())
@@ -57,7 +57,7 @@ fn scale(problem: &Conduction, quantity: impl Fn(&Point) -> f64) -> f64 {
 /// The temperature is a number everywhere inside, and not zero everywhere.
 fn presence(problem: &Conduction) -> Result<(), Violation> {
     let points = interior(problem, 1);
-    let wrong = |(event, _, now): &Point, what: &str| Violation {
+    let wrong = |(event, _, now): &HeatPoint, what: &str| Violation {
         condition: format!("the demand that the temperature is {what}"),
         label: event.label.clone(),
         t: event.t,
@@ -92,15 +92,15 @@ fn at(formula: &Formula, event: &Event) -> f64 {
     formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
-/// What the residuals of a condition are compared with.
-struct Sizes {
+/// Magnitudes that residuals of boundary conditions are compared with.
+struct HeatMagnitudes {
     value: f64,
     inflow: f64,
 }
 
 /// Every face of the body, at random points and times.
 fn boundary(problem: &Conduction) -> Result<(), Violation> {
-    let sizes = Sizes {
+    let sizes = HeatMagnitudes {
         value: scale(problem, |(_, _, now)| now.value),
         inflow: scale(problem, |(_, motion, now)| largest(&problem.inflow(motion, now))),
     };
@@ -119,7 +119,7 @@ fn on_face(
     problem: &Conduction,
     face: &HeatFace,
     event: &Event,
-    sizes: &Sizes,
+    sizes: &HeatMagnitudes,
 ) -> Result<(), Violation> {
     let (motion, now) = problem.now(&event.label, event.t);
     let normal = if face.high { 1.0 } else { -1.0 };
@@ -213,7 +213,7 @@ fn differences(problem: &Conduction, event: &Event, rate: f64) -> Result<(), Vio
 /// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, as powers per unit of mass: that which the
 /// temperature needs, and that which is stated.
 fn equation(problem: &Conduction) -> Result<(), Violation> {
-    let terms = |(event, motion, now): &Point| {
+    let terms = |(event, motion, now): &HeatPoint| {
         let needed = problem.balance(motion, now);
         (needed, problem.source(&event.label, event.t, motion, now))
     };

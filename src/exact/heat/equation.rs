@@ -1,10 +1,10 @@
 //! The flow of heat in a deformed body, seen from its reference configuration.
 //!
-//! Fourier's law holds where the body is now, `q = -k grad T` per current area. Per reference area it
-//! is `Q = -k J C^-1 Grad T`, `C = F^T F` (Holzapfel 2000, *Nonlinear Solid Mechanics*, section 7.1),
-//! and the balance is `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
+//! Fourier's law holds where the body is now, `q = -k grad T` per current area. Per reference area
+//! it is `Q = -k J C^-1 Grad T`, `C = F^T F` (Holzapfel 2000, *Nonlinear Solid Mechanics*, section
+//! 7.1), and the balance is `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
 
-use super::field::Warmth;
+use super::field::TemperatureDerivatives;
 use crate::exact::{
     formula::{Number, Slope},
     motion::Derivatives,
@@ -22,12 +22,16 @@ fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) 
 }
 
 /// `J C^-1 Grad T` (K/m), what flows in through a reference area is k times it along the normal.
-pub(super) fn slope(motion: &Derivatives, now: &Warmth) -> [f64; 3] {
+pub(super) fn slope(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
     pulled_back::<f64, 3>(&motion.grad, &now.grad)
 }
 
 /// `Div (J C^-1 Grad T)` (K/m2), where nothing varies beyond the first `dimension` axes.
-pub(super) fn divergence(dimension: usize, motion: &Derivatives, now: &Warmth) -> f64 {
+pub(super) fn divergence(
+    dimension: usize,
+    motion: &Derivatives,
+    now: &TemperatureDerivatives,
+) -> f64 {
     match dimension {
         1 => {
             let [x] = divergence_in(motion, now);
@@ -45,7 +49,7 @@ pub(super) fn divergence(dimension: usize, motion: &Derivatives, now: &Warmth) -
 }
 
 /// The terms of the divergence in D dimensions.
-fn divergence_in<const D: usize>(motion: &Derivatives, now: &Warmth) -> [f64; D] {
+fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; D] {
     let bent = |i: usize, j: usize| std::array::from_fn(|axis| motion.second[i][j][axis]);
     let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));
     let curved = |a: usize| std::array::from_fn(|axis| now.second[a][axis]);

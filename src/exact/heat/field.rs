@@ -17,7 +17,7 @@ pub struct Temperature {
 
 /// A temperature at one point and time, with its derivatives; axes beyond the dimension are zero.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Warmth {
+pub struct TemperatureDerivatives {
     /// T (K).
     pub value: f64,
     /// T_t (K/s).
@@ -45,7 +45,7 @@ impl Temperature {
     }
 
     /// All derivatives, by automatic differentiation.
-    pub fn derivatives(&self, label: &[f64], t: f64) -> Warmth {
+    pub fn derivatives(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
         with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
@@ -53,11 +53,11 @@ impl Temperature {
     pub(super) fn at_places<'a>(
         &self,
         labels: impl Iterator<Item = &'a [f64]>,
-    ) -> Box<dyn WarmPlaces> {
+    ) -> Box<dyn TemperaturePlaces> {
         with_dimension!(self.dimension, D => Box::new(self.hoisted::<{ D + 1 }>(labels)))
     }
 
-    fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Warmth {
+    fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
         let seeds: [Jet<N>; N] =
             std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
         gather(&self.formula.eval(&seeds))
@@ -78,28 +78,32 @@ impl Temperature {
 }
 
 /// A temperature at places that have been given once, at one time after another.
-pub(super) trait WarmPlaces: Send {
+pub(super) trait TemperaturePlaces: Send {
     /// Moves on to the time `t` (s).
     fn set_time(&mut self, t: f64);
 
     /// The derivatives at a place, in the order in which they were given. Allocates nothing.
-    fn derivatives(&mut self, place: usize) -> Warmth;
+    fn derivatives(&mut self, place: usize) -> TemperatureDerivatives;
 }
 
-impl<const N: usize> WarmPlaces for Hoisted<Jet<N>> {
+impl<const N: usize> TemperaturePlaces for Hoisted<Jet<N>> {
     fn set_time(&mut self, t: f64) {
         self.set_time(Jet::variable(t, N - 1));
     }
 
-    fn derivatives(&mut self, place: usize) -> Warmth {
-        self.eval(place).next().map_or_else(Warmth::default, |jet| gather(&jet))
+    fn derivatives(&mut self, place: usize) -> TemperatureDerivatives {
+        self.eval(place).next().map_or_else(TemperatureDerivatives::default, |jet| gather(&jet))
     }
 }
 
 /// The derivatives from a jet, whose last variable is the time.
-fn gather<const N: usize>(jet: &Jet<N>) -> Warmth {
+fn gather<const N: usize>(jet: &Jet<N>) -> TemperatureDerivatives {
     let time = N - 1;
-    let mut all = Warmth { value: jet.value(), rate: jet.d(time), ..Warmth::default() };
+    let mut all = TemperatureDerivatives {
+        value: jet.value(),
+        rate: jet.d(time),
+        ..TemperatureDerivatives::default()
+    };
     for a in 0..time {
         all.grad[a] = jet.d(a);
         for b in 0..time {

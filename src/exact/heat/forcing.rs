@@ -1,12 +1,12 @@
 //! The manufactured source of a run: at the same places, step after step.
 
-use super::{field::WarmPlaces, problem::Conduction};
+use super::{field::TemperaturePlaces, problem::Conduction};
 use crate::exact::motion::{Derivatives, Places};
 
 /// The manufactured source of heat at places that have been given once.
 pub struct HeatForcing {
     problem: Conduction,
-    warm: Box<dyn WarmPlaces>,
+    warm: Box<dyn TemperaturePlaces>,
     motion: Option<Box<dyn Places>>,
 }
 

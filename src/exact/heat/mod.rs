@@ -9,6 +9,6 @@ mod problem;
 mod tests;
 mod weak;
 
-pub use field::{Temperature, Warmth};
+pub use field::{Temperature, TemperatureDerivatives};
 pub use forcing::HeatForcing;
 pub use problem::{Conduction, HeatFace, ThermalCondition};

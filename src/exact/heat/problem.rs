@@ -2,7 +2,7 @@
 
 use super::{
     equation::{divergence, slope},
-    field::{Temperature, Warmth},
+    field::{Temperature, TemperatureDerivatives},
 };
 use crate::exact::{
     formula::Formula,
@@ -11,7 +11,7 @@ use crate::exact::{
     truth::Truth,
 };
 
-/// What holds on a face of the body; formulas are of the coordinates and t.
+/// Thermal condition on a face of the body; formulas are of the coordinates and t.
 #[derive(Debug, Clone)]
 pub enum ThermalCondition {
     /// No heat flows.
@@ -40,12 +40,12 @@ pub struct HeatFace {
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
-    /// What holds there.
+    /// Its condition.
     pub condition: ThermalCondition,
 }
 
-/// An initial-boundary-value problem of heat in a box, `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`,
-/// with the temperature that claims to solve it.
+/// An initial-boundary-value problem of heat in a box, `rho0 c T_t = Div (k J C^-1 Grad T) + rho0
+/// s`, with the temperature that claims to solve it.
 #[derive(Debug, Clone)]
 pub struct Conduction {
     /// Lowest corner of the body (m).
@@ -83,14 +83,14 @@ impl Conduction {
     }
 
     /// The motion and the temperature at one point and time.
-    pub(super) fn now(&self, label: &[f64], t: f64) -> (Derivatives, Warmth) {
+    pub(super) fn now(&self, label: &[f64], t: f64) -> (Derivatives, TemperatureDerivatives) {
         let still = Derivatives::default;
         let motion = self.motion.as_ref().map_or_else(still, |motion| motion.derivatives(label, t));
         (motion, self.temperature.derivatives(label, t))
     }
 
     /// The source that the temperature needs, `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
-    pub(super) fn balance(&self, motion: &Derivatives, now: &Warmth) -> f64 {
+    pub(super) fn balance(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
         self.capacity * now.rate
             - self.conductivity * divergence(self.dimension(), motion, now) / self.density
     }
@@ -102,7 +102,13 @@ impl Conduction {
     }
 
     /// The source of the problem (W/kg), manufactured or stated.
-    pub(super) fn source(&self, label: &[f64], t: f64, motion: &Derivatives, now: &Warmth) -> f64 {
+    pub(super) fn source(
+        &self,
+        label: &[f64],
+        t: f64,
+        motion: &Derivatives,
+        now: &TemperatureDerivatives,
+    ) -> f64 {
         if self.manufactured {
             return self.balance(motion, now);
         }
@@ -111,7 +117,7 @@ impl Conduction {
     }
 
     /// `k J C^-1 Grad T` (W/m^(D-1)): minus the flow per reference area.
-    pub(super) fn inflow(&self, motion: &Derivatives, now: &Warmth) -> [f64; 3] {
+    pub(super) fn inflow(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
         slope(motion, now).map(|slope| self.conductivity * slope)
     }
 

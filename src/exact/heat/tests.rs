@@ -162,7 +162,7 @@ fn shear_turns_the_flow() {
     refused(&Conduction { motion: None, ..sheared }, "heat equation");
 }
 
-/// What a run asks for has the bits of a single question.
+/// A run evaluates the source with the bits of a single evaluation.
 #[rstest]
 fn the_source_of_a_run_is_the_source(
     #[values(1, 2, 3)] dimension: usize,

@@ -6,7 +6,7 @@
 
 use super::problem::Conduction;
 use crate::exact::{
-    check::weak::{PATCHES, Patch, Sums, TOLERANCE, bump},
+    check::weak::{PATCHES, SpaceTimePatch, Sums, TOLERANCE, bump},
     random::Random,
     violation::Violation,
 };
@@ -16,13 +16,13 @@ pub(super) fn balance(problem: &Conduction) -> Result<(), Violation> {
     let mut random = Random::new(6);
     for _ in 0..PATCHES {
         let ends = (&problem.from[..], &problem.to[..]);
-        let patch = Patch::in_box(&mut random, ends, problem.until, f64::INFINITY);
+        let patch = SpaceTimePatch::in_box(&mut random, ends, problem.until, f64::INFINITY);
         on_patch(problem, &patch)?;
     }
     Ok(())
 }
 
-fn on_patch(problem: &Conduction, patch: &Patch) -> Result<(), Violation> {
+fn on_patch(problem: &Conduction, patch: &SpaceTimePatch) -> Result<(), Violation> {
     let (d, sums) = (problem.dimension(), sums(problem, patch));
     if (sums.gain - sums.loss).abs() <= TOLERANCE * sums.size {
         return Ok(());
@@ -40,7 +40,7 @@ fn on_patch(problem: &Conduction, patch: &Patch) -> Result<(), Violation> {
 }
 
 /// The balance by the midpoint rule on a raster of the patch.
-fn sums(problem: &Conduction, patch: &Patch) -> Sums {
+fn sums(problem: &Conduction, patch: &SpaceTimePatch) -> Sums {
     let d = problem.dimension();
     let per_axis = [0, 64, 20, 10][d];
     let axes: Vec<_> = (0..=d).map(|a| patch.axis(a, per_axis)).collect();

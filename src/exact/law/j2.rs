@@ -1,10 +1,10 @@
 //! J2 plasticity with linear hardening, under loading that never reverses.
 //!
-//! As long as the logarithmic strain `eps` grows along one direction, what has flowed is a function of
-//! it, and the law is one of the whole deformation (Hencky 1924; it is the flow theory's integral for
-//! proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, `s = 2 mu` up to
-//! `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that `q = Y + H alpha`,
-//! `3 mu alpha = q_elastic - q`. In uniaxial strain, where this is used, all loading is along one
+//! As long as the logarithmic strain `eps` grows along one direction, what has flowed is a function
+//! of it, and the law is one of the whole deformation (Hencky 1924; it is the flow theory's
+//! integral for proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, `s
+//! = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that `q = Y + H alpha`, `3 mu
+//! alpha = q_elastic - q`. In uniaxial strain, where this is used, all loading is along one
 //! direction; that it never reverses is checked (`loading`).
 
 use super::contract::{ConstitutiveLaw, Lame};

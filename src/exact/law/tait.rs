@@ -15,7 +15,8 @@ pub struct TaitLaw {
 }
 
 impl TaitLaw {
-    /// From the bulk modulus at rest (Pa) and the viscosity (Pa s), which stresses a fluid in motion.
+    /// From the bulk modulus at rest (Pa) and the viscosity (Pa s), which stresses a fluid in
+    /// motion.
     pub fn new(bulk: f64, viscosity: f64) -> Self {
         Self { bulk, viscosity }
     }

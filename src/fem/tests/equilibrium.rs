@@ -24,7 +24,7 @@ fn a_uniform_stretch_stays(
 ) {
     let held_at = if fixed[1] { 2.0 } else { 0.0 };
     let stretched = move |x| (STRETCH - 1.0) * (x - held_at);
-    let pull = |fixed: bool| -> Option<crate::fem::History> {
+    let pull = |fixed: bool| -> Option<crate::fem::TimeFunction> {
         (!fixed).then(|| Box::new(|_| neo_hookean(STRETCH)) as _)
     };
     let bar = run(

@@ -61,16 +61,16 @@ pub trait Material<const D: usize>: Send {
     /// Whether the law reads F: the column exists only then, or if the basis asks for it.
     fn reads_deformation(&self) -> bool;
 
-    /// What the law remembers of each particle.
+    /// State of each particle that the law keeps.
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
 
-    /// Shows what the law remembers.
+    /// Visits the state that the law keeps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Energy that all particles store, over the whole body (J); `None` where what stress has done is
-    /// no function of the state. What a law dissipates is not stored.
+    /// Energy that all particles store, over the whole body (J); `None` where the
+    /// work of the stress is no function of the state. Dissipated energy is not stored.
     fn energy(&self, _: &Particles<D>) -> Option<f64> {
         None
     }

@@ -2,8 +2,8 @@
 //!
 //! `F = Fe Fp`, Kirchhoff stress `tau = J sigma = K tr(eps) I + 2 mu dev(eps)` of the elastic
 //! strain `eps = ln(be)/2`, yield where `sqrt(3/2) |dev tau| > Y + H alpha` (Simo 1992; de Souza
-//! Neto, Peric & Owen 2008, chapter 14): in `eps`, the radial return of small strain. What has
-//! flowed is kept as `Cp^-1` of `be = F Cp^-1 F^T`: the trial state follows from F alone, so a body
+//! Neto, Peric & Owen 2008, chapter 14): in `eps`, the radial return of small strain. The plastic
+//! flow is kept as `Cp^-1` of `be = F Cp^-1 F^T`: the trial state follows from F alone, so a body
 //! that starts deformed needs no more than its F, and nothing drifts while it is elastic.
 //!
 //! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
@@ -33,7 +33,7 @@ pub struct J2 {
     flowed: Vec<Flowed>,
 }
 
-/// What a particle remembers.
+/// Plastic state of a particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Flowed {
     /// `Cp^-1`, the inverse of the plastic right Cauchy-Green tensor.
@@ -72,7 +72,7 @@ impl J2 {
         Self { lambda, bulk, mu, yield_stress, hardening, flowed: Vec::new() }
     }
 
-    /// The Kirchhoff stress at F after return to the yield surface, and what has flowed then.
+    /// The Kirchhoff stress at F after return to the yield surface, and the plastic flow then.
     fn kirchhoff(&self, f: &Matrix<3>, before: Flowed) -> (Matrix<3>, Flowed) {
         let trial = f * before.inverse_metric * f.transpose();
         let (squares, axes) = spectral(&trial);

@@ -66,8 +66,8 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// What a material says that it stores is what its stress derives from, from nothing at rest, and to
-/// second order in small strains although it is a difference of numbers that are not small.
+/// The stored energy is the one that stress derives from, zero at rest, and accurate to second
+/// order in small strains although it is a difference of numbers that are not small.
 fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
@@ -120,7 +120,7 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm());
 }
 
-/// What has been kept of a step, plastic flow too, gives the same stress again.
+/// The state kept after a step, plastic flow too, gives the same stress again.
 fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     let mut specimen = Specimen::<D>::new(plan);
     let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
@@ -128,7 +128,7 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
-/// Bit for bit: what it has flowed, hardened or heated is all in its checkpoint.
+/// Bit for bit: plastic flow and hardening are in the checkpoint.
 fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
     for dt in [SLOW, 1.0, FAST] {

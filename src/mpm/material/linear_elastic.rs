@@ -5,9 +5,9 @@
 //! dt -> 0 the 1-D form integrates to `sigma = E ln F`: it agrees with small-strain elasticity to
 //! first order in the strain only, which reports separate from the error of the discretisation.
 //!
-//! The rate is the plain one, without the terms of Jaumann or Green & Naghdi: a spin adds no stress,
-//! to first order in the step, but neither does it turn the stress that is there. Objective for
-//! small rotations only, in more than one dimension.
+//! The rate is the plain one, without the terms of Jaumann or Green & Naghdi: a spin adds no
+//! stress, to first order in the step, but neither does it turn the stress that is there. Objective
+//! for small rotations only, in more than one dimension.
 
 use super::contract::{Material, MaterialProperties};
 use crate::mpm::{
@@ -79,9 +79,10 @@ impl<const D: usize> Material<D> for LinearElastic {
         false
     }
 
-    /// Along a line the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per reference
-    /// volume, of `J sigma d eps`, to `M (eps e^eps - e^eps + 1)`; here with the eps of the stress,
-    /// which is what pushes. In a plane or in space the work depends on the way: no energy.
+    /// Along a line the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per
+    /// reference volume, of `J sigma d eps`, to `M (eps e^eps - e^eps + 1)`; here with the eps of
+    /// the stress, which is what pushes. In a plane or in space the work depends on the way: no
+    /// energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;
         let stored = |(sigma, vol0): (&Matrix<D>, &f64)| {
@@ -173,7 +174,7 @@ mod tests {
         }
     }
 
-    /// What an objective law would do, and this one does not.
+    /// An objective law would turn the stress; this one does not.
     #[test]
     fn spin_does_not_turn_the_stress() {
         let mut solid = one_particle::<2>();

@@ -22,7 +22,7 @@ mod spectral;
 #[cfg(test)]
 use contract::ClosedForms;
 pub use contract::{Material, MaterialProperties};
-pub use parameter::{Parameter, Range};
+pub use parameter::{MaterialParameter, Range};
 
 use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
 use registry::{key, materials};

@@ -32,8 +32,8 @@ impl NeoHookean {
         Matrix::identity() * pressure + f * f.transpose() * (self.mu / j)
     }
 
-    /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), of `H = F - I`: where strains are
-    /// small, F : F - D and 2 ln J are nearly the same.
+    /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), of `H = F - I`: where strains
+    /// are small, F : F - D and 2 ln J are nearly the same.
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let h = f - Matrix::identity();
         let trace = h.trace();

@@ -1,19 +1,19 @@
-//! Parameters of materials: what they are, what they may be, and how reports write them.
+//! Parameters of materials: name, symbol, unit and range.
 
 /// A parameter that a suite gives to a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Parameter {
-    /// What it is, for complaints: `Young's modulus`.
+pub struct MaterialParameter {
+    /// Its name in messages: `Young's modulus`.
     pub what: &'static str,
     /// Its letter in reports: `E`.
     pub symbol: &'static str,
     /// Its unit, empty for a ratio.
     pub unit: &'static str,
-    /// What it may be.
+    /// Its valid values.
     pub range: Range,
 }
 
-/// Values that make sense.
+/// Valid values of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Range {
     /// Above zero.
@@ -29,16 +29,21 @@ const fn parameter(
     symbol: &'static str,
     unit: &'static str,
     range: Range,
-) -> Parameter {
-    Parameter { what, symbol, unit, range }
+) -> MaterialParameter {
+    MaterialParameter { what, symbol, unit, range }
 }
 
-pub(super) const YOUNG: Parameter = parameter("Young's modulus", "E", "Pa", Range::Positive);
-pub(super) const POISSON: Parameter = parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
-pub(super) const YIELD: Parameter = parameter("the yield stress", "Y", "Pa", Range::Positive);
-pub(super) const HARDENING: Parameter =
+pub(super) const YOUNG: MaterialParameter =
+    parameter("Young's modulus", "E", "Pa", Range::Positive);
+pub(super) const POISSON: MaterialParameter =
+    parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
+pub(super) const YIELD: MaterialParameter =
+    parameter("the yield stress", "Y", "Pa", Range::Positive);
+pub(super) const HARDENING: MaterialParameter =
     parameter("the hardening modulus", "H", "Pa", Range::NotNegative);
-pub(super) const BULK: Parameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
-pub(super) const VISCOSITY: Parameter =
+pub(super) const BULK: MaterialParameter =
+    parameter("the bulk modulus", "K", "Pa", Range::Positive);
+pub(super) const VISCOSITY: MaterialParameter =
     parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
-pub(super) const DENSITY: Parameter = parameter("the density", "rho0", "kg/m^D", Range::Positive);
+pub(super) const DENSITY: MaterialParameter =
+    parameter("the density", "rho0", "kg/m^D", Range::Positive);

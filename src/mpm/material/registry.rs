@@ -1,19 +1,19 @@
-//! Registration: one line makes a material known by name, with the words for its parameters.
+//! Registration: one line makes a material known by name, with the keys of its parameters.
 
 /// Declares the family of materials. A line
 ///
 /// `"hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON },`
 ///
 /// names the material, its type and its parameters in the order in which `Hencky::new` takes them.
-/// Each word is the key that suites write; `#[serde(default)]` before it makes the key optional
-/// and zero. The density, which every material has and no law reads, is added to the words.
+/// Each field is the key that suites write; `#[serde(default)]` before it makes the key optional
+/// and zero. The density, which every material has and no law reads, is added to the keys.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
     },)+) => {
         $(pub use $file::$member;)+
 
-        /// What suites write for a material: its name, its parameters and its density, each
+        /// A material as suites write it: its name, its parameters and its density, each
         /// an `N`, which stands for a number.
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -55,14 +55,14 @@ macro_rules! materials {
                 }
             }
 
-            /// The material and its density, once `number` has made a number of every word. It is
-            /// told the key and what stands there.
+            /// The material and its density, once `number` has evaluated every parameter, from
+            /// its key and the text of the suite.
             ///
             /// # Errors
             /// The first that `number` returns.
             pub fn numbers<E>(
                 &self,
-                mut number: impl FnMut(&'static str, &Parameter, &N) -> Result<f64, E>,
+                mut number: impl FnMut(&'static str, &MaterialParameter, &N) -> Result<f64, E>,
             ) -> Result<(MaterialPlan, f64), E> {
                 match self {
                     $(Self::$member { $($field,)* density } => {
@@ -108,7 +108,7 @@ macro_rules! materials {
             }
 
             /// Every parameter with its value, in the order of registration.
-            pub fn parameters(&self) -> Vec<(Parameter, f64)> {
+            pub fn parameters(&self) -> Vec<(MaterialParameter, f64)> {
                 match self {
                     $(Self::$member { $($field),* } => vec![$(($parameter, *$field)),*],)+
                 }
@@ -123,7 +123,7 @@ macro_rules! materials {
 
             /// One of every registered material: what enrols them in the law tests.
             #[cfg(test)]
-            pub(crate) fn every(value: impl Fn(&Parameter) -> f64) -> Vec<Self> {
+            pub(crate) fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }
         }

@@ -1,16 +1,16 @@
-//! No law at all: a body that neither deforms nor moves, in which heat may flow.
+//! Rigid bodies at rest: no law, a body that neither deforms nor moves, in which heat may flow.
 
 use super::contract::{Material, MaterialProperties};
 #[cfg(test)]
 use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
 
-/// A rigid body at rest. Nothing is computed for its motion, so that nobody asks for its stress.
+/// A rigid body at rest. Nothing is computed for its motion, and its stress is never read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rigid;
 
 impl Rigid {
-    /// It has no parameter.
+    /// Without parameters.
     #[allow(clippy::new_without_default)]
     pub fn new() -> Self {
         Self

@@ -48,7 +48,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
 }
 
 /// Stated and manufactured forces of a bar, if it has any.
-fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::Load> {
+fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     let on_face = |load: &&Arc<dyn SceneLoad>| matches!(load.target(), LoadTarget::Face(_));
     let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
     if stated.is_empty() && made.is_none() {
@@ -82,7 +82,7 @@ fn add_stated(loads: &[Arc<dyn SceneLoad>], t: f64, places: &[f64], values: &mut
 }
 
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
-fn end_traction(scene: &Scene, end: usize) -> Option<fem::History> {
+fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
     let x = if end == 0 { scene.from[0] } else { scene.to[0] };
     match scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.condition())? {
         // In uniaxial strain a face keeps its area, so a pressure is a traction.
@@ -97,7 +97,7 @@ fn end_traction(scene: &Scene, end: usize) -> Option<fem::History> {
 }
 
 /// P(F) (Pa) of a bar in uniaxial strain.
-fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::Field, String> {
+fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFunction, String> {
     let (young, poisson) = material.elasticity().ok_or("the material has no Young's modulus")?;
     let law = BarLaw::find(law.name())
         .ok_or_else(|| format!("the reference FEM has no `{}`", law.name()))?;

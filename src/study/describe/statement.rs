@@ -1,7 +1,7 @@
 //! The statement of a problem in rows of name and value, for reports and `explain`.
 
 use crate::{
-    mpm::{MaterialPlan, Parameter},
+    mpm::{MaterialParameter, MaterialPlan},
     suite::{
         compile::load::fields::sources,
         model::{BoundaryCondition, Scene, Suite, load::LoadTarget},
@@ -114,7 +114,7 @@ fn held(condition: &BoundaryCondition) -> String {
 
 /// The material's name and parameters: `linear elastic, E = 100 Pa, nu = 0`.
 fn material(plan: &MaterialPlan) -> String {
-    let written = |(Parameter { symbol, unit, .. }, value): (Parameter, f64)| {
+    let written = |(MaterialParameter { symbol, unit, .. }, value): (MaterialParameter, f64)| {
         format!(", {symbol} = {value} {unit}").trim_end().to_owned()
     };
     let parameters: String = plan.parameters().into_iter().map(written).collect();

@@ -1,4 +1,4 @@
-//! What is said of a wrong formula, and where the caret stands.
+//! Messages for wrong formulas, and the place of the caret.
 
 use std::ops::Range;
 

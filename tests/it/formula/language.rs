@@ -1,4 +1,4 @@
-//! What formulas mean.
+//! Values of formulas: operators, precedence, names.
 
 use std::f64::consts::PI;
 

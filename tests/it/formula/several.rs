@@ -30,7 +30,7 @@ proptest! {
     }
 }
 
-/// What each number decides for itself, and what all have in common.
+/// Branches that each number takes for itself, and those that all have in common.
 #[rstest]
 #[case("min(x,t)+2*max(x,t)")]
 #[case("x^t")]

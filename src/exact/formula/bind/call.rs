@@ -1,9 +1,9 @@
 //! Calls of user functions, whose bodies are put in place.
 
-use super::{Binder, Frame, above};
+use super::{Frame, ProgramBuilder, above};
 use crate::exact::formula::{ast::Node, builtin, error::FormulaError, program::Operand};
 
-impl<'a> Binder<'a> {
+impl<'a> ProgramBuilder<'a> {
     /// Compiles the arguments, each once, and then the body with its parameters standing for them.
     pub(super) fn call(
         &mut self,

@@ -11,7 +11,7 @@ mod sum;
 use std::collections::BTreeSet;
 
 use super::{
-    ast::{Expr, Kind, Node},
+    ast::{Expr, Node, NodeKind},
     binary::Binary,
     error::FormulaError,
     number::whole,
@@ -37,7 +37,7 @@ struct Frame<'a> {
 }
 
 /// A program under construction.
-pub(super) struct Binder<'a> {
+pub(super) struct ProgramBuilder<'a> {
     scope: &'a Scope,
     pub(super) code: Vec<Instruction>,
     pub(super) registers: usize,
@@ -51,7 +51,7 @@ pub(super) struct Binder<'a> {
     pub(super) operations: u64,
 }
 
-impl<'a> Binder<'a> {
+impl<'a> ProgramBuilder<'a> {
     pub(super) fn new(scope: &'a Scope) -> Self {
         Self {
             scope,
@@ -90,7 +90,7 @@ impl<'a> Binder<'a> {
         self.depth += 1;
         let mut pending = Vec::new();
         let mut node = root;
-        while let Kind::Binary(function, left, right) = expr.node(node).kind {
+        while let NodeKind::Binary(function, left, right) = expr.node(node).kind {
             self.count(expr.node(node))?;
             pending.push((function, right));
             node = left;
@@ -113,20 +113,20 @@ impl<'a> Binder<'a> {
     ) -> Result<Operand, FormulaError> {
         self.count(node)?;
         match &node.kind {
-            Kind::Number(value) => Ok(Operand::Constant(*value)),
-            Kind::Index(level) => Ok(frame.indices[*level]),
-            Kind::Name(name) => self.name(frame, node, name),
-            Kind::Negate(a) => {
+            NodeKind::Number(value) => Ok(Operand::Constant(*value)),
+            NodeKind::Index(level) => Ok(frame.indices[*level]),
+            NodeKind::Name(name) => self.name(frame, node, name),
+            NodeKind::Negate(a) => {
                 let a = self.compile(frame, *a, at)?;
                 Ok(self.emit(Action::Negate(a), at))
             }
-            Kind::Unary(function, a) => {
+            NodeKind::Unary(function, a) => {
                 let a = self.compile(frame, *a, at)?;
                 Ok(self.emit(Action::Unary(*function, a), at))
             }
-            Kind::Call(name, arguments) => self.call(frame, node, name, arguments, at),
-            Kind::Sum(sum) => self.sum(frame, sum, at),
-            Kind::Binary(..) => unreachable!("`compile` walks binary operations itself"),
+            NodeKind::Call(name, arguments) => self.call(frame, node, name, arguments, at),
+            NodeKind::Sum(sum) => self.sum(frame, sum, at),
+            NodeKind::Binary(..) => unreachable!("`compile` walks binary operations itself"),
         }
     }
 

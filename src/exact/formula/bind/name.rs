@@ -1,11 +1,11 @@
 //! Names of a formula: what they stand for, and what is said of those that stand for nothing.
 
-use super::{Binder, Frame};
+use super::{Frame, ProgramBuilder};
 use crate::exact::formula::{
     ast::Node, builtin, error::FormulaError, hint::hint, program::Operand,
 };
 
-impl Binder<'_> {
+impl ProgramBuilder<'_> {
     /// The value that a name stands for.
     pub(super) fn name(
         &mut self,

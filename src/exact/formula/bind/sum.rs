@@ -1,6 +1,6 @@
 //! Sums, which become loops.
 
-use super::{Binder, Frame};
+use super::{Frame, ProgramBuilder};
 use crate::exact::formula::{
     ast::Sum,
     error::FormulaError,
@@ -11,7 +11,7 @@ use crate::exact::formula::{
 /// Most terms of a sum.
 const MAX_TERMS: f64 = 100_000.0;
 
-impl<'a> Binder<'a> {
+impl<'a> ProgramBuilder<'a> {
     /// Compiles a sum to a loop, whose total is kept at `at` and whose index in the next register.
     pub(super) fn sum(
         &mut self,

@@ -1,10 +1,10 @@
-//! What begins with a name: constants, variables and calls.
+//! Terms that begin with a name: constants, variables and calls.
 
 use std::ops::Range;
 
 use super::Parser;
 use crate::exact::formula::{
-    ast::{Kind, Sum},
+    ast::{NodeKind, Sum},
     builtin,
     builtin::{Builtin, PI},
     error::FormulaError,
@@ -14,7 +14,7 @@ use crate::exact::formula::{
 const SUM_FORM: &str = "the form is `sum(index, from, to, body)`";
 
 impl<'a> Parser<'a> {
-    /// What begins with a name: a call if a parenthesis follows, a value otherwise.
+    /// A term that begins with a name: a call if a parenthesis follows, a value otherwise.
     pub(super) fn named(
         &mut self,
         name: &'a str,
@@ -23,11 +23,11 @@ impl<'a> Parser<'a> {
         let called = self.peek() == Token::Symbol('(');
         if let Some(level) = self.indices.iter().position(|&index| index == name) {
             let role = "the index of a sum";
-            return self.plain(Kind::Index(level), called, name, span, role);
+            return self.plain(NodeKind::Index(level), called, name, span, role);
         }
         match Builtin::find(name) {
             _ if name == PI => {
-                self.plain(Kind::Number(std::f64::consts::PI), called, name, span, "a number")
+                self.plain(NodeKind::Number(std::f64::consts::PI), called, name, span, "a number")
             }
             Some(builtin) if called => {
                 self.at += 1;
@@ -38,16 +38,16 @@ impl<'a> Parser<'a> {
             None if called => {
                 self.at += 1;
                 let arguments = self.arguments()?;
-                Ok(self.push(Kind::Call(name.to_owned(), arguments), self.since(span.start)))
+                Ok(self.push(NodeKind::Call(name.to_owned(), arguments), self.since(span.start)))
             }
-            None => Ok(self.push(Kind::Name(name.to_owned()), span)),
+            None => Ok(self.push(NodeKind::Name(name.to_owned()), span)),
         }
     }
 
     /// A name that is a value and so cannot be called.
     fn plain(
         &mut self,
-        kind: Kind,
+        kind: NodeKind,
         called: bool,
         name: &str,
         span: Range<usize>,
@@ -69,12 +69,12 @@ impl<'a> Parser<'a> {
         let (needed, given) = match builtin {
             Builtin::Sum => return self.sum(span.start),
             Builtin::Unary(function) => match self.arguments()?[..] {
-                [x] => return Ok(self.push(Kind::Unary(function, x), self.since(span.start))),
+                [x] => return Ok(self.push(NodeKind::Unary(function, x), self.since(span.start))),
                 ref other => (1, other.len()),
             },
             Builtin::Binary(function) => match self.arguments()?[..] {
                 [a, b] => {
-                    return Ok(self.push(Kind::Binary(function, a, b), self.since(span.start)));
+                    return Ok(self.push(NodeKind::Binary(function, a, b), self.since(span.start)));
                 }
                 ref other => (2, other.len()),
             },
@@ -114,7 +114,7 @@ impl<'a> Parser<'a> {
         let body = self.parenthesised()?;
         self.indices.pop();
         let sum = Sum { index: index.to_owned(), index_span, from, to, body };
-        Ok(self.push(Kind::Sum(sum), self.since(start)))
+        Ok(self.push(NodeKind::Sum(sum), self.since(start)))
     }
 
     fn index(&mut self) -> Result<&'a str, FormulaError> {

@@ -5,7 +5,7 @@ mod call;
 use std::ops::Range;
 
 use super::{
-    ast::{Expr, Kind, Node},
+    ast::{Expr, Node, NodeKind},
     binary::Binary,
     error::FormulaError,
     lexer::{Lexeme, Token, tokens},
@@ -75,7 +75,7 @@ impl<'a> Parser<'a> {
             self.at += 1;
             let right = self.expression(to_right)?;
             let span = self.nodes[left].span.start..self.nodes[right].span.end;
-            left = self.push(Kind::Binary(operator, left, right), span);
+            left = self.push(NodeKind::Binary(operator, left, right), span);
         }
         self.depth -= 1;
         Ok(left)
@@ -86,7 +86,7 @@ impl<'a> Parser<'a> {
         match self.peek() {
             Token::Number(value) => {
                 self.at += 1;
-                Ok(self.push(Kind::Number(value), span))
+                Ok(self.push(NodeKind::Number(value), span))
             }
             Token::Name(name) => {
                 self.at += 1;
@@ -96,7 +96,7 @@ impl<'a> Parser<'a> {
                 self.at += 1;
                 let operand = self.expression(MINUS)?;
                 let end = self.nodes[operand].span.end;
-                Ok(self.push(Kind::Negate(operand), span.start..end))
+                Ok(self.push(NodeKind::Negate(operand), span.start..end))
             }
             Token::Symbol('(') => {
                 self.at += 1;
@@ -115,7 +115,7 @@ impl<'a> Parser<'a> {
         Err(self.missing_operator("`)`"))
     }
 
-    fn push(&mut self, kind: Kind, span: Range<usize>) -> usize {
+    fn push(&mut self, kind: NodeKind, span: Range<usize>) -> usize {
         self.nodes.push(Node { kind, span });
         self.nodes.len() - 1
     }

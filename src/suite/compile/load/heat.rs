@@ -9,7 +9,7 @@ use crate::{
     exact::{
         Round, Term,
         formula::Formula,
-        heat::{Conduction, HeatForcing, Temperature, Warmth},
+        heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives},
     },
     mpm::{Effect, Heat, HeatSource, Particles, Vector},
     suite::{
@@ -103,7 +103,7 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
         let start = initial::<D>(site.heat, self.initial.as_ref());
         let heat = Heat::new((self.conductivity, self.capacity), site.particles, |x0| {
-            let Warmth { value, grad, .. } = start(x0.as_slice());
+            let TemperatureDerivatives { value, grad, .. } = start(x0.as_slice());
             (value, Vector::from_fn(|axis, _| grad[axis]))
         });
         let heat = heat.with_faces(thermal_face::build(&self.faces, site));
@@ -121,10 +121,14 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
 fn initial<const D: usize>(
     problem: Option<&Conduction>,
     stated: Option<&Formula>,
-) -> impl Fn(&[f64]) -> Warmth + use<D> {
+) -> impl Fn(&[f64]) -> TemperatureDerivatives + use<D> {
     let stated = stated.map(|formula| Temperature::new(formula.clone(), D));
     let field = stated.or_else(|| Some(problem?.temperature.clone()));
-    move |label| field.as_ref().map_or_else(Warmth::default, |field| field.derivatives(label, 0.0))
+    move |label| {
+        field
+            .as_ref()
+            .map_or_else(TemperatureDerivatives::default, |field| field.derivatives(label, 0.0))
+    }
 }
 
 /// The source as the scene states it.
