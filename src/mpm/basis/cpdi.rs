@@ -23,9 +23,9 @@
 
 use super::{
     contract::{Basis, Domain},
-    corner_batch::Corners,
     patch::{NodeWeight, Patch, WeightMoments},
     product::Product,
+    product_batch::ProductBatch,
     weights_1d::Weights1d,
 };
 use crate::mpm::{
@@ -93,12 +93,12 @@ fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weight
 }
 
 impl<const D: usize> Patch<D> for Corner<D> {
-    type Batch = Corners<D>;
+    type Batch = ProductBatch<D, 2, 1>;
 
     #[inline(always)]
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut Corners<D>) {
-        self.hats.put(lane, layout, &mut patches.hats);
-        patches.outward[lane] = self.outward;
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch) {
+        self.hats.put_into(lane, layout, patches);
+        patches.outward[0][lane] = self.outward;
     }
 
     #[inline(always)]

@@ -4,7 +4,6 @@
 mod bspline;
 mod cell_locator;
 mod contract;
-mod corner_batch;
 mod cpdi;
 mod domain_1d;
 mod gimp;
@@ -21,8 +20,7 @@ mod weights_1d_batch;
 
 pub use cell_locator::{CellLocator, WeightNeeds};
 pub use contract::{Basis, Domain};
-pub use corner_batch::Corners;
-pub use patch::{NodeWeight, Patch, PatchBatch, WeightMoments};
+pub use patch::{NodeTerm, NodeWeight, Patch, PatchBatch, WeightMoments};
 pub use product::Product;
 pub use product_batch::ProductBatch;
 pub use weights_1d::Weights1d;

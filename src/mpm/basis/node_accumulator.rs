@@ -1,9 +1,8 @@
-//! Where patches add to nodes. Along one axis the sums of the nodes at hand are kept in registers from
-//! particle to particle.
+//! Sums of nodes under way. Along one axis they stay in registers from particle to particle.
 //!
-//! Neighbours in memory mostly see the same few nodes. In several dimensions other nodes are added to while
-//! the sum of one is on its way to memory and back; along one axis there are none, and each particle would wait
-//! for the one before. The sums are the same, in the same order.
+//! Neighbours in memory mostly have the same few nodes. In 2-D and 3-D the loads of one node overlap
+//! with the sums of others; in 1-D there are no others, and each particle would wait for the store of
+//! the one before. The sums are the same, in the same order.
 
 use crate::mpm::{
     algebra::array,
@@ -11,12 +10,12 @@ use crate::mpm::{
     simd::Simd,
 };
 
-/// A field that is added to, and the sums of K nodes in a row.
+/// Field under way, with the sums of K nodes in a row.
 #[derive(Debug)]
-pub struct NodeAccumulator<'a, S: Simd, const K: usize> {
+pub(super) struct NodeAccumulator<'a, S: Simd, const K: usize> {
     pub(in crate::mpm) simd: S,
     pub(in crate::mpm) field: FieldViewMut<'a>,
-    /// The first of the nodes whose sums are at hand, if there are any.
+    /// First of the nodes whose sums are in registers, or [`NONE`].
     start: usize,
     sums: [S::F64x4; K],
 }
@@ -30,23 +29,26 @@ impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
         Self { simd, field, start: NONE, sums: [simd.splat(0.0); K] }
     }
 
-    /// Adds to row `j` of plane `k` of the box of nodes from `start` on.
+    /// Adds to row `j` of plane `k` of the box of nodes from `start` on, in D dimensions.
+    /// [`flush`](Self::flush) must follow the last call.
     #[inline(always)]
-    pub(in crate::mpm) fn add(
+    pub(in crate::mpm) fn add<const D: usize>(
         &mut self,
         start: usize,
         (j, k): (usize, usize),
         term: impl Fn(usize) -> S::F64x4,
     ) {
+        if D == 1 {
+            return self.add_in_registers(start, array(self.sums[0], term));
+        }
         let row = self.field.row::<K>(start + self.field.layout.row(j, k));
         for (i, PackedNode(node)) in row.iter_mut().enumerate() {
             *node = (self.simd.load(*node) + term(i)).into();
         }
     }
 
-    /// Adds to the nodes from `start` on, in registers: [`flush`](Self::flush) must follow the last.
     #[inline(always)]
-    pub(in crate::mpm) fn add_in_registers(&mut self, start: usize, terms: [S::F64x4; K]) {
+    fn add_in_registers(&mut self, start: usize, terms: [S::F64x4; K]) {
         if start != self.start {
             self.flush();
             let row = self.field.row::<K>(start);
@@ -58,7 +60,7 @@ impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
         }
     }
 
-    /// Puts the sums at hand to their nodes.
+    /// Stores the sums in registers to their nodes.
     #[inline(always)]
     pub(in crate::mpm) fn flush(&mut self) {
         if self.start != NONE {

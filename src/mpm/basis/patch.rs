@@ -1,10 +1,10 @@
 //! What loops do with the nodes that a particle sees.
 
 use crate::mpm::{
-    algebra::{Matrix, Vector},
+    algebra::{Matrix, Vector, array},
     grid::Grid,
     packed_grid::{FieldView, FieldViewMut, Layout},
-    simd::Simd,
+    simd::{F64x4, Simd},
 };
 use std::{fmt::Debug, ops::Range};
 
@@ -50,22 +50,49 @@ pub trait Patch<const D: usize>: Copy {
     fn visit(&self, grid: &Grid<D>, visit: impl FnMut(NodeWeight<'_, D>));
 }
 
-/// Several patches. What depends on weights only is computed for four at once, each lane of a register
-/// one of them; the loops over nodes go from patch to patch. Fields of nodes hold four numbers each,
-/// and so do particles: each method does the same to all four.
-pub trait PatchBatch<const D: usize>: Debug {
-    /// Where they add to nodes.
-    type NodeAccumulator<'a, S: Simd>;
+/// What a particle adds to each of its nodes,
+/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, four components at
+/// once. Parts that are absent cost nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct NodeTerm<F, const D: usize> {
+    /// Constant part.
+    pub value: Option<F>,
+    /// Affine part; needs a value, which may be zero.
+    pub slope: Option<[F; D]>,
+    /// Part along the gradient.
+    pub flux: Option<[F; D]>,
+}
 
-    /// No patches.
+impl<F: F64x4, const D: usize> NodeTerm<F, D> {
+    /// No part.
+    pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
+
+    /// Momentum of an affine velocity field: `value` is m v, `slope` C.
+    #[inline(always)]
+    pub(in crate::mpm) fn affine(value: F, slope: [F; D], m: f64) -> Self {
+        let slope = array(slope[0], |axis| slope[axis] * m);
+        Self { value: Some(value), slope: Some(slope), flux: None }
+    }
+
+    /// Part along the gradient alone.
+    #[inline(always)]
+    pub(in crate::mpm) fn flux(flux: [F; D]) -> Self {
+        Self { flux: Some(flux), ..Self::NONE }
+    }
+}
+
+/// Patches of a batch of particles. Weights are computed for four particles at once; the loops over
+/// nodes take one patch after another, four components of a node at once.
+pub trait PatchBatch<const D: usize>: Debug {
+    /// Empty batch.
     fn none() -> Self;
 
-    /// Prepares what `scatter` and its likes need of these patches.
+    /// Computes the products of weights that [`PatchBatch::scatter`] needs.
     fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
-    /// Prepares what is affine of these patches: levers `x_i - x_p - mean` about `mean`, or about the mean of the
-    /// nodes of each patch, which then is all that its particle sees; and for these the inverse of
-    /// the inertia tensor (1/m^2), `h` being the cell size (m).
+    /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
+    /// cells of size `h` (m). Without `mean`, that of the nodes of each patch is taken, which then
+    /// must be the only patch of its particle.
     fn compute_offsets<S: Simd>(
         &mut self,
         simd: S,
@@ -77,49 +104,19 @@ pub trait PatchBatch<const D: usize>: Debug {
     /// The matrix with these columns, times the inverse inertia tensor of patch `lane`.
     fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
-    /// A field to be added to.
-    fn accumulator<S: Simd>(simd: S, field: FieldViewMut<'_>) -> Self::NodeAccumulator<'_, S>;
-
-    /// Ends what was added.
-    fn flush<S: Simd>(accumulator: Self::NodeAccumulator<'_, S>);
-
-    /// Adds `value N_i` to the nodes of patch `lane`.
-    fn scatter<S: Simd>(
+    /// Adds the terms of particles, each with its lane, to their nodes in `field`.
+    fn scatter<S: Simd, T>(
         &self,
-        lane: usize,
-        value: S::F64x4,
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    );
-
-    /// Adds `(value + sum_a slope_a lever_a) N_i` to the nodes.
-    fn scatter_affine<S: Simd>(
-        &self,
-        lane: usize,
-        value_and_slope: (S::F64x4, &[S::F64x4; D]),
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    );
-
-    /// Adds `sum_a flux_a dN_i/dx_a` to the nodes.
-    fn scatter_flux<S: Simd>(
-        &self,
-        lane: usize,
-        flux: &[S::F64x4; D],
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    );
-
-    /// What the others add, in one visit: `(value + slope lever) N_i + flux dN_i/dx`. Along one axis only.
-    fn scatter_all<S: Simd>(
-        &self,
-        lane: usize,
-        value_and_slope: (S::F64x4, Option<S::F64x4>),
-        flux: S::F64x4,
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
+        simd: S,
+        field: FieldViewMut<'_>,
+        particles: impl Iterator<Item = (usize, T)>,
+        term: impl Fn(usize, T) -> NodeTerm<S::F64x4, D>,
     );
 
     /// `sum_i field_i N_i`.
     fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
 
-    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i lever_a N_i`.
+    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i (x_i - x_p - mean)_a N_i`.
     fn gather_moment<S: Simd>(
         &self,
         simd: S,

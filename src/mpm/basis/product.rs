@@ -15,16 +15,29 @@ use crate::mpm::{
 #[derive(Debug, Clone, Copy)]
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
-impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
-    type Batch = ProductBatch<D, K>;
-
+impl<const D: usize, const K: usize> Product<D, K> {
+    /// Stores the functions as patch `lane` of a batch.
     #[inline(always)]
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, K>) {
+    pub(super) fn put_into<const OUTWARD: usize>(
+        &self,
+        lane: usize,
+        layout: &Layout,
+        patches: &mut ProductBatch<D, K, OUTWARD>,
+    ) {
         let first = array::<D, _>(0, |axis| self.0[axis].first);
         patches.start[lane] = layout.number(&first) as u32;
         for (along, axis) in self.0.iter().zip(&mut patches.axes) {
             axis.put(lane, along);
         }
+    }
+}
+
+impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
+    type Batch = ProductBatch<D, K>;
+
+    #[inline(always)]
+    fn put(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, K>) {
+        self.put_into(lane, layout, patches);
     }
 
     #[inline(always)]

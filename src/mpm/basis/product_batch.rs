@@ -1,41 +1,52 @@
-//! Several products of functions along the axes, and the loops over their nodes.
-//!
-//! The weights along each axis are computed once for a particle. Sums over the K^D nodes are sums
-//! axis by axis, so that a node costs a product and a sum for each function, not one for each axis.
+//! Batch of tensor-product patches, and the loop of P2G over their nodes.
 
 use super::{
-    node_accumulator::NodeAccumulator, patch::PatchBatch, weights_1d_batch::Weights1dBatch,
+    node_accumulator::NodeAccumulator,
+    patch::{NodeTerm, PatchBatch},
+    weights_1d_batch::Weights1dBatch,
 };
 use crate::mpm::{
     algebra::{Vector, array},
     packed_grid::{FieldView, FieldViewMut},
-    simd::{BATCH, F64Batch, LANES, Simd, registers_of},
+    simd::{BATCH, F64Batch, F64x4, LANES, Simd, registers_of},
 };
 use std::ops::Range;
 
-/// Several [`Product`](super::Product)s.
+/// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its weight
+/// times a vector of the patch, as for the corners of [CPDI](super::Cpdi); with 0 it is the derivative.
 #[derive(Debug)]
-pub struct ProductBatch<const D: usize, const K: usize> {
-    /// Where the first node of each is in a packed field.
+pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
+    /// Index of the first node of each patch in a packed field.
     pub(in crate::mpm) start: [u32; BATCH],
-    /// The functions along each axis.
+    /// Functions along each axis.
     pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
+    /// Vectors that turn weights into gradients (1/m).
+    pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
     /// Weights of the rows of a plane times those of the planes.
     row_weights: [[F64Batch; K]; K],
 }
 
-/// Functions `k` of patch `lane`.
+/// Functions of patch `lane`.
 #[inline(always)]
 pub(in crate::mpm) fn of<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
     array(0.0, |k| functions[k].get(lane))
 }
 
-impl<const D: usize, const K: usize> ProductBatch<D, K> {
+/// The sum of the parts that are present.
+#[inline(always)]
+fn plus<F: F64x4>(sum: Option<F>, term: F) -> Option<F> {
+    match sum {
+        Some(sum) => Some(sum + term),
+        None => Some(term),
+    }
+}
+
+impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
     /// Rows of a plane, and planes: one where there is no such axis.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
-    /// Puts the starts of four.
+    /// Stores the starts of four patches.
     #[inline(always)]
     pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
         self.start[lane % BATCH / LANES * LANES..][..LANES].copy_from_slice(&starts);
@@ -57,15 +68,112 @@ impl<const D: usize, const K: usize> ProductBatch<D, K> {
     fn row_weight(&self, lane: usize, j: usize, k: usize) -> f64 {
         if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
     }
+
+    /// `flux . grad` of row `j` in plane `k` without the factor of the first axis.
+    #[inline(always)]
+    fn flux_across<F: F64x4>(&self, lane: usize, flux: &[F; D], j: usize, k: usize) -> F {
+        let slope = self.axes[1].slope[j].get(lane);
+        let mut across = flux[1] * (slope * self.weight(lane, 2, k));
+        if D > 2 {
+            let slope = self.axes[2].slope[k].get(lane);
+            across += flux[2] * (slope * self.weight(lane, 1, j));
+        }
+        across
+    }
+
+    /// The flux as a part of the value, where gradients are weights times a vector.
+    #[inline(always)]
+    fn fold_flux<F: F64x4>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
+        let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
+        let outward = &outward[lane % BATCH];
+        let mut value = flux[0] * outward[0];
+        for axis in 1..D {
+            value += flux[axis] * outward[axis];
+        }
+        NodeTerm { value: plus(term.value, value), flux: None, ..term }
+    }
+
+    /// Adds the term of particle `lane` to its nodes: row after row, each part factorised by axes,
+    /// so that a node costs a product and a sum for each part, not for each axis.
+    #[inline(always)]
+    fn add<S: Simd>(
+        &self,
+        lane: usize,
+        term: NodeTerm<S::F64x4, D>,
+        accumulator: &mut NodeAccumulator<'_, S, K>,
+    ) {
+        let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
+        let (start, x, zero) = (self.start(lane), &self.axes[0], accumulator.simd.splat(0.0));
+        let weights = of(&x.weight, lane);
+        // The parts along the first axis are the same for all rows.
+        let (mut growth, mut rise, mut along) = (None, None, None);
+        if let Some(slope) = &slope {
+            growth = Some(array::<K, _>(zero, |i| slope[0] * x.weighted_offset[i].get(lane)));
+            if D > 1 {
+                let y = &self.axes[1];
+                rise = Some(array::<K, _>(zero, |j| slope[1] * y.offset_from_mean[j].get(lane)));
+            }
+        }
+        if let Some(flux) = &flux {
+            along = Some(array::<K, _>(zero, |i| flux[0] * x.slope[i].get(lane)));
+        }
+        for k in 0..Self::PLANES {
+            let mut of_plane = value;
+            if D > 2
+                && let (Some(value), Some(slope)) = (value, &slope)
+            {
+                let offset = self.axes[2].offset_from_mean[k].get(lane);
+                of_plane = Some(value + slope[2] * offset);
+            }
+            for j in 0..Self::ROWS {
+                let weight = self.row_weight(lane, j, k);
+                let (mut of_row, mut across) = (of_plane, None);
+                if let (Some(value), Some(rise)) = (of_plane, &rise) {
+                    of_row = Some(value + rise[j]);
+                }
+                if let (true, Some(value)) = (D > 1, of_row) {
+                    of_row = Some(value * weight);
+                }
+                if let (true, Some(flux)) = (D > 1, &flux) {
+                    across = Some(self.flux_across(lane, flux, j, k));
+                }
+                accumulator.add::<D>(
+                    start,
+                    (j, k),
+                    #[inline(always)]
+                    |i| {
+                        let mut sum = None;
+                        if let Some(value) = of_row {
+                            sum = Some(value * weights[i]);
+                        }
+                        if let Some(growth) = &growth {
+                            sum = plus(sum, if D > 1 { growth[i] * weight } else { growth[i] });
+                        }
+                        if let Some(along) = &along {
+                            sum = plus(
+                                sum,
+                                match across {
+                                    Some(across) => along[i] * weight + across * weights[i],
+                                    None => along[i],
+                                },
+                            );
+                        }
+                        if let Some(sum) = sum { sum } else { zero }
+                    },
+                );
+            }
+        }
+    }
 }
 
-impl<const D: usize, const K: usize> PatchBatch<D> for ProductBatch<D, K> {
-    type NodeAccumulator<'a, S: Simd> = NodeAccumulator<'a, S, K>;
-
+impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
+    for ProductBatch<D, K, OUTWARD>
+{
     fn none() -> Self {
         Self {
             start: [0; BATCH],
             axes: [Weights1dBatch::NONE; D],
+            outward: [[Vector::zeros(); BATCH]; OUTWARD],
             row_weights: [[F64Batch::ZERO; K]; K],
         }
     }
@@ -106,124 +214,23 @@ impl<const D: usize, const K: usize> PatchBatch<D> for ProductBatch<D, K> {
     }
 
     #[inline(always)]
-    fn accumulator<S: Simd>(simd: S, field: FieldViewMut<'_>) -> Self::NodeAccumulator<'_, S> {
-        NodeAccumulator::new(simd, field)
-    }
-
-    #[inline(always)]
-    fn flush<S: Simd>(mut accumulator: Self::NodeAccumulator<'_, S>) {
+    fn scatter<S: Simd, T>(
+        &self,
+        simd: S,
+        field: FieldViewMut<'_>,
+        particles: impl Iterator<Item = (usize, T)>,
+        term: impl Fn(usize, T) -> NodeTerm<S::F64x4, D>,
+    ) {
+        let mut accumulator = NodeAccumulator::new(simd, field);
+        for (lane, particle) in particles {
+            self.add(lane, term(lane, particle), &mut accumulator);
+        }
         accumulator.flush();
     }
 
     #[inline(always)]
-    fn scatter<S: Simd>(
-        &self,
-        lane: usize,
-        value: S::F64x4,
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    ) {
-        let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
-        if D == 1 {
-            return accumulator.add_in_registers(start, array(value, |i| value * weights[i]));
-        }
-        for k in 0..Self::PLANES {
-            for j in 0..Self::ROWS {
-                let term = value * self.row_weight(lane, j, k);
-                accumulator.add(
-                    start,
-                    (j, k),
-                    #[inline(always)]
-                    |i| term * weights[i],
-                );
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn scatter_affine<S: Simd>(
-        &self,
-        lane: usize,
-        (value, slope): (S::F64x4, &[S::F64x4; D]),
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    ) {
-        let (start, x) = (self.start(lane), &self.axes[0]);
-        let (weights, lever) = (of(&x.weight, lane), |axis: usize, k: usize| {
-            slope[axis] * self.axes[axis].offset_from_mean[k].get(lane)
-        });
-        let growth: [_; K] = array(slope[0], |i| slope[0] * x.weighted_offset[i].get(lane));
-        if D == 1 {
-            return accumulator
-                .add_in_registers(start, array(value, |i| value * weights[i] + growth[i]));
-        }
-        let rise: [_; K] = array(slope[0], |j| lever(1, j));
-        for k in 0..Self::PLANES {
-            let value = if D > 2 { value + lever(2, k) } else { value };
-            for j in 0..Self::ROWS {
-                let value = value + rise[j];
-                let weight = self.row_weight(lane, j, k);
-                let term = value * weight;
-                accumulator.add(
-                    start,
-                    (j, k),
-                    #[inline(always)]
-                    |i| term * weights[i] + growth[i] * weight,
-                );
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn scatter_flux<S: Simd>(
-        &self,
-        lane: usize,
-        flux: &[S::F64x4; D],
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    ) {
-        let (start, x) = (self.start(lane), &self.axes[0]);
-        let (weights, slopes) = (of(&x.weight, lane), of(&x.slope, lane));
-        let along: [_; K] = array(flux[0], |i| flux[0] * slopes[i]);
-        if D == 1 {
-            return accumulator.add_in_registers(start, along);
-        }
-        for k in 0..Self::PLANES {
-            for j in 0..Self::ROWS {
-                let weight = self.row_weight(lane, j, k);
-                let slope = self.axes[1].slope[j].get(lane);
-                let mut across = flux[1] * (slope * self.weight(lane, 2, k));
-                if D > 2 {
-                    let slope = self.axes[2].slope[k].get(lane);
-                    across += flux[2] * (slope * self.weight(lane, 1, j));
-                }
-                accumulator.add(
-                    start,
-                    (j, k),
-                    #[inline(always)]
-                    |i| along[i] * weight + across * weights[i],
-                );
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn scatter_all<S: Simd>(
-        &self,
-        lane: usize,
-        (value, slope): (S::F64x4, Option<S::F64x4>),
-        flux: S::F64x4,
-        accumulator: &mut Self::NodeAccumulator<'_, S>,
-    ) {
-        let x = &self.axes[0];
-        let terms = array(value, |i| {
-            let term = value * x.weight[i].get(lane);
-            let term = slope.map_or(term, |slope| term + slope * x.weighted_offset[i].get(lane));
-            term + flux * x.slope[i].get(lane)
-        });
-        accumulator.add_in_registers(self.start(lane), terms);
-    }
-
-    #[inline(always)]
     fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4 {
-        self.sum(simd, lane, field)
+        self.sums(simd, lane, field, &[[0.0; K]; D]).0
     }
 
     #[inline(always)]
@@ -233,12 +240,8 @@ impl<const D: usize, const K: usize> PatchBatch<D> for ProductBatch<D, K> {
         lane: usize,
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]) {
-        self.sums(
-            simd,
-            lane,
-            field,
-            &array([0.0; K], |axis| of(&self.axes[axis].weighted_offset, lane)),
-        )
+        let axis = |axis: usize| of(&self.axes[axis].weighted_offset, lane);
+        self.sums(simd, lane, field, &array([0.0; K], axis))
     }
 
     #[inline(always)]
@@ -248,6 +251,11 @@ impl<const D: usize, const K: usize> PatchBatch<D> for ProductBatch<D, K> {
         lane: usize,
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]) {
-        self.sums(simd, lane, field, &array([0.0; K], |axis| of(&self.axes[axis].slope, lane)))
+        if let Some(outward) = self.outward.first() {
+            let (sum, outward) = (self.gather(simd, lane, field), &outward[lane % BATCH]);
+            return (sum, array(sum, |axis| sum * outward[axis]));
+        }
+        let axis = |axis: usize| of(&self.axes[axis].slope, lane);
+        self.sums(simd, lane, field, &array([0.0; K], axis))
     }
 }

@@ -29,31 +29,8 @@ fn put<F: AddAssign>(sum: &mut F, k: usize, term: F) {
     }
 }
 
-impl<const D: usize, const K: usize> ProductBatch<D, K> {
-    /// `sum_i field_i N_i`.
-    #[inline(always)]
-    pub(super) fn sum<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4 {
-        let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
-        let (mut sum, mut plane) = (simd.splat(0.0), simd.splat(0.0));
-        for k in 0..Self::PLANES {
-            for j in 0..Self::ROWS {
-                let row = field.row::<K>(start + field.layout.row(j, k));
-                let terms = dot(simd, row, &weights);
-                if D == 1 {
-                    return terms;
-                }
-                put(&mut plane, j, terms * self.weight(lane, 1, j));
-            }
-            if D == 2 {
-                return plane;
-            }
-            put(&mut sum, k, plane * self.weight(lane, 2, k));
-        }
-        sum
-    }
-
-    /// `sum_i field_i N_i`, and the same with the functions along one axis replaced by `others`,
-    /// for each axis.
+impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
+    /// `sum_i field_i N_i`, and for each axis the same with its functions replaced by `others`.
     #[inline(always)]
     pub(super) fn sums<S: Simd>(
         &self,

@@ -164,7 +164,8 @@ fn widths_agree<B: Basis, const D: usize>(periodic: bool) {
     let mut fields = workspace.each_mut().map(|field| field.shaped(&start));
     fields.iter_mut().for_each(FieldViewMut::clear);
     let (maps, these, basis) = (&maps, 0..particles.len(), PhantomData);
-    Scatter::<D, B> { grid: &start, particles: &particles, these, maps, fields, basis }.run(Plain);
+    Scatter::<D, B> { grid: &start, particles: &particles, these, request: maps, fields, basis }
+        .run(Plain);
     for field in &mut workspace {
         field.fold(&start);
     }

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
-    basis::{Basis, PatchBatch, WeightNeeds},
+    basis::{Basis, NodeTerm, PatchBatch, WeightNeeds},
     grid::Grid,
     packed_grid::FieldViewMut,
     particles::Particles,
@@ -15,14 +15,14 @@ use crate::mpm::{
 };
 use std::{marker::PhantomData, ops::Range};
 
-/// Maps what `maps` says to the nodes of two packed fields: momentum with mass in the last lane, and
+/// Maps what `request` says to the nodes of two packed fields: momentum with mass in the last lane, and
 /// force; of one where [`has_one_field`] says so.
 pub(in crate::mpm) struct Scatter<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
     /// The particles that give.
     pub(in crate::mpm) these: Range<usize>,
-    pub(in crate::mpm) maps: &'a P2gRequest<'a, D>,
+    pub(in crate::mpm) request: &'a P2gRequest<'a, D>,
     pub(in crate::mpm) fields: [FieldViewMut<'a>; 2],
     pub(in crate::mpm) basis: PhantomData<B>,
 }
@@ -31,11 +31,10 @@ pub(in crate::mpm) struct Scatter<'a, const D: usize, B> {
 /// the force follows the momentum there.
 pub(in crate::mpm) fn has_one_field<const D: usize>(
     particles: &Particles<D>,
-    maps: &P2gRequest<'_, D>,
+    request: &P2gRequest<'_, D>,
 ) -> bool {
-    let by_gradient =
-        maps.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
-    2 * D < LANES && maps.momentum.is_some() && by_gradient
+    let by_gradient = request.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
+    2 * D < LANES && request.momentum.is_some() && by_gradient
 }
 
 /// The columns of a matrix, as fours, from lane `from` on.
@@ -76,7 +75,7 @@ fn divide<B: Basis, S: Simd, const D: usize>(
 }
 
 impl<const D: usize, B: Basis> Scatter<'_, D, B> {
-    /// Momentum, with mass in the last lane; mass alone where no momentum is shown.
+    /// Momentum, with mass in the last lane; mass alone where no momentum is asked for.
     #[inline(always)]
     fn momentum<S: Simd>(
         &mut self,
@@ -85,41 +84,47 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         patches: &Batch<B, D>,
         of_all: Option<&InertiaTensor<D>>,
     ) {
-        let (h, maps) = (self.grid.h, self.maps);
-        let mut accumulator = Batch::<B, D>::accumulator(simd, self.fields[0].reborrow());
-        let here = first + lanes.start..first + lanes.end;
-        let masses = lanes.zip(&self.particles.mass[here.clone()]);
-        let Some(shown) = &maps.momentum else {
-            for (lane, m) in masses {
-                patches.scatter(lane, simd.load([0.0, 0.0, 0.0, *m]), &mut accumulator);
-            }
-            return Batch::<B, D>::flush(accumulator);
+        let (h, here) = (self.grid.h, first + lanes.start..first + lanes.end);
+        let (field, mass) = (self.fields[0].reborrow(), &self.particles.mass[here.clone()]);
+        let Some(of) = &self.request.momentum else {
+            return patches.scatter(
+                simd,
+                field,
+                lanes.zip(mass),
+                #[inline(always)]
+                |_, m| NodeTerm { value: Some(simd.load([0.0, 0.0, 0.0, *m])), ..NodeTerm::NONE },
+            );
         };
-        let shown_here = masses.zip(&shown.v[here.clone()]);
-        match shown.affine {
-            None => {
-                for ((lane, m), v) in shown_here {
-                    patches.scatter(lane, inertial(simd, *m, v), &mut accumulator);
-                }
-            }
-            Some(Affine::Slope(c)) => {
-                for (((lane, m), v), c) in shown_here.zip(&c[here]) {
-                    let slope = columns(simd, c, 0);
-                    let slope = array(slope[0], |axis| slope[axis] * *m);
-                    patches.scatter_affine(lane, (inertial(simd, *m, v), &slope), &mut accumulator);
-                }
-            }
-            Some(Affine::Moment(b)) => {
-                for (((lane, m), v), b) in shown_here.zip(&b[here]) {
+        let particles = mass.iter().zip(&of.v[here.clone()]);
+        match of.affine {
+            None => patches.scatter(
+                simd,
+                field,
+                lanes.zip(particles),
+                #[inline(always)]
+                |_, (m, v)| NodeTerm { value: Some(inertial(simd, *m, v)), ..NodeTerm::NONE },
+            ),
+            Some(Affine::Slope(c)) => patches.scatter(
+                simd,
+                field,
+                lanes.zip(particles.zip(&c[here])),
+                #[inline(always)]
+                |_, ((m, v), c)| NodeTerm::affine(inertial(simd, *m, v), columns(simd, c, 0), *m),
+            ),
+            Some(Affine::Moment(b)) => patches.scatter(
+                simd,
+                field,
+                lanes.zip(particles.zip(&b[here])),
+                #[inline(always)]
+                |lane, ((m, v), b)| {
                     let slope = divide::<B, S, D>((simd, patches, lane), of_all, b, h);
-                    let slope = array(slope[0], |axis| slope[axis] * *m);
-                    patches.scatter_affine(lane, (inertial(simd, *m, v), &slope), &mut accumulator);
-                }
-            }
+                    NodeTerm::affine(inertial(simd, *m, v), slope, *m)
+                },
+            ),
         }
-        Batch::<B, D>::flush(accumulator);
     }
 
+    /// Internal force.
     #[inline(always)]
     fn force<S: Simd>(
         &mut self,
@@ -129,32 +134,43 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         patches: &Batch<B, D>,
         of_all: Option<&InertiaTensor<D>>,
     ) {
-        let (h, particles) = (self.grid.h, self.particles);
-        let mut accumulator = Batch::<B, D>::accumulator(simd, self.fields[1].reborrow());
-        let here = first + lanes.start..first + lanes.end;
+        let (h, particles, field) = (self.grid.h, self.particles, self.fields[1].reborrow());
         if divergence == Divergence::Fit {
-            for lane in lanes {
-                let flux = -particles.flux(first + lane);
-                let slope = divide::<B, S, D>((simd, patches, lane), of_all, &flux, h);
-                patches.scatter_affine(lane, (simd.splat(0.0), &slope), &mut accumulator);
-            }
+            patches.scatter(
+                simd,
+                field,
+                lanes.map(|lane| (lane, ())),
+                #[inline(always)]
+                |lane, ()| {
+                    let flux = -particles.flux(first + lane);
+                    let slope = divide::<B, S, D>((simd, patches, lane), of_all, &flux, h);
+                    let value = Some(simd.splat(0.0));
+                    NodeTerm { value, slope: Some(slope), flux: None }
+                },
+            );
         } else if particles.current_position.is_empty() {
-            // What `flux` does, with one look at the columns for all.
-            let sigma = lanes.zip(&particles.sigma[here.clone()]);
-            for ((lane, sigma), vol) in sigma.zip(&particles.vol[here]) {
-                let flux = columns(simd, &-(sigma * *vol), 0);
-                patches.scatter_flux(lane, &flux, &mut accumulator);
-            }
+            // `flux`, with the choice of its columns taken out of the loop.
+            let here = first + lanes.start..first + lanes.end;
+            let stresses = particles.sigma[here.clone()].iter().zip(&particles.vol[here]);
+            patches.scatter(
+                simd,
+                field,
+                lanes.zip(stresses),
+                #[inline(always)]
+                |_, (sigma, vol)| NodeTerm::flux(columns(simd, &-(sigma * *vol), 0)),
+            );
         } else {
-            for lane in lanes {
-                let flux = columns(simd, &-particles.flux(first + lane), 0);
-                patches.scatter_flux(lane, &flux, &mut accumulator);
-            }
+            patches.scatter(
+                simd,
+                field,
+                lanes.map(|lane| (lane, ())),
+                #[inline(always)]
+                |lane, ()| NodeTerm::flux(columns(simd, &-particles.flux(first + lane), 0)),
+            );
         }
-        Batch::<B, D>::flush(accumulator);
     }
 
-    /// Mass, momentum and force to one field.
+    /// Mass, momentum and force in one field.
     #[inline(always)]
     fn all<S: Simd>(
         &mut self,
@@ -164,25 +180,27 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
         of_all: Option<&InertiaTensor<D>>,
     ) {
         let (h, particles) = (self.grid.h, self.particles);
-        let Some(shown) = &self.maps.momentum else { return };
-        let mut accumulator = Batch::<B, D>::accumulator(simd, self.fields[0].reborrow());
+        let Some(of) = &self.request.momentum else { return };
         let here = first + lanes.start..first + lanes.end;
-        let inertias = lanes.zip(&particles.mass[here.clone()]).zip(&shown.v[here.clone()]);
-        let fluxes = particles.sigma[here.clone()].iter().zip(&particles.vol[here]);
-        for (((lane, m), v), (sigma, vol)) in inertias.zip(fluxes) {
-            let slope = shown.affine.map(|affine| {
-                let slope = match affine {
-                    Affine::Slope(c) => columns(simd, &c[first + lane], 0),
-                    Affine::Moment(b) => {
+        let inertias = particles.mass[here.clone()].iter().zip(&of.v[here.clone()]);
+        let stresses = particles.sigma[here.clone()].iter().zip(&particles.vol[here]);
+        patches.scatter(
+            simd,
+            self.fields[0].reborrow(),
+            lanes.zip(inertias.zip(stresses)),
+            #[inline(always)]
+            |lane, ((m, v), (sigma, vol))| {
+                let (value, flux) = (inertial(simd, *m, v), columns(simd, &-(sigma * *vol), D));
+                let slope = match of.affine {
+                    None => return NodeTerm { value: Some(value), ..NodeTerm::flux(flux) },
+                    Some(Affine::Slope(c)) => columns(simd, &c[first + lane], 0),
+                    Some(Affine::Moment(b)) => {
                         divide::<B, S, D>((simd, patches, lane), of_all, &b[first + lane], h)
                     }
                 };
-                slope[0] * *m
-            });
-            let flux = columns(simd, &-(sigma * *vol), D)[0];
-            patches.scatter_all(lane, (inertial(simd, *m, v), slope), flux, &mut accumulator);
-        }
-        Batch::<B, D>::flush(accumulator);
+                NodeTerm { flux: Some(flux), ..NodeTerm::affine(value, slope, *m) }
+            },
+        );
     }
 }
 
@@ -191,15 +209,15 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
-        let Self { grid, particles, maps, .. } = self;
+        let Self { grid, particles, request, .. } = self;
         let these = std::mem::take(&mut self.these);
-        let is_affine = maps.momentum.is_some_and(|shown| shown.affine.is_some())
-            || maps.force == Some(Divergence::Fit);
-        let wants_inertia = maps.mass || maps.momentum.is_some();
-        let has_one_field = has_one_field(particles, maps);
+        let is_affine = request.momentum.is_some_and(|shown| shown.affine.is_some())
+            || request.force == Some(Divergence::Fit);
+        let wants_inertia = request.mass || request.momentum.is_some();
+        let has_one_field = has_one_field(particles, request);
         let layout = self.fields[usize::from(!wants_inertia)].layout;
         let mut patches = Batch::<B, D>::none();
-        let slopes = maps.force == Some(Divergence::Gradient);
+        let slopes = request.force == Some(Divergence::Gradient);
         let needs = WeightNeeds { slopes, offsets: is_affine };
         let batches = ParticleBatches::<B, D>::new((grid, layout), particles, needs);
         for first in these.step_by(BATCH) {
@@ -224,7 +242,7 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
                     if wants_inertia {
                         self.momentum(simd, (first, lanes.clone()), patches, of_all);
                     }
-                    if let Some(divergence) = maps.force {
+                    if let Some(divergence) = request.force {
                         self.force(simd, divergence, (first, lanes), patches, of_all);
                     }
                 },

@@ -69,7 +69,14 @@ impl Workspace {
         let wanted = [wants_inertia, maps.force.is_some() && !columns.is_one_field];
         let add = |block: &ParticleBlock, fields: [FieldViewMut<'_>; 2]| {
             let these = block.particles.clone();
-            simd::run(Scatter::<D, B> { grid, particles, these, maps, fields, basis: PhantomData });
+            simd::run(Scatter::<D, B> {
+                grid,
+                particles,
+                these,
+                request: maps,
+                fields,
+                basis: PhantomData,
+            });
         };
         // What lies beyond a seam must come back before anything is unpacked.
         let (at_once, after) = if grid.periodic.contains(&true) {
