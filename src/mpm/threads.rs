@@ -1,8 +1,8 @@
-//! Work that threads share by halves, each half again, down to a least size. Which thread computes
-//! a number does not change it.
+//! Recursive halving of work among threads. Every number is computed by one thread from the same
+//! inputs, so that results do not depend on the number of threads.
 
-/// Runs both, at once if there is a thread to spare. Where there is none, nothing goes to another
-/// thread, which would have to be woken.
+/// Runs both, at once if there are several threads. With one thread, rayon is bypassed: it would
+/// wake another one.
 pub(super) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();
@@ -32,12 +32,12 @@ pub(super) fn split<T>(
     column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
 }
 
-/// Rows of a field, which threads share.
+/// Rows of a field, split among threads.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RowChunks {
-    /// Entries of a row; the last may have fewer.
+    /// Entries of a row; the last row may have fewer.
     pub(super) length: usize,
-    /// Entries that are not worth a thread of their own.
+    /// Most entries for one thread.
     pub(super) few: usize,
 }
 

@@ -49,8 +49,8 @@ fn mean(knots: &[f64]) -> f64 {
 /// Twice the largest degree.
 const MOST_KNOTS: usize = 6;
 
-/// The 2p knots around a cell of an axis with walls for degree `p`: p up to its low side, and p from its
-/// high side on. What is left of the array is not used.
+/// The 2p knots around a cell of an axis with walls for degree `p`: p up to its low side, and p
+/// from its high side on. The rest of the array is not used.
 fn knots_around(cell: usize, p: usize, cells: usize) -> [f64; MOST_KNOTS] {
     array(0.0, |k| knot(cell + 1 + k, p, cells, false))
 }
@@ -82,7 +82,7 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
     (value, slope)
 }
 
-/// The same where no knot is repeated, at `xi` from 0 to 1 within the cell: all spans have length 1.
+/// The same for knots that are not repeated, at `xi` from 0 to 1 within the cell: all spans are 1.
 #[inline(always)]
 fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S::F64x4; K]) {
     let zero = simd.splat(0.0);
@@ -124,8 +124,7 @@ fn along<S: Simd, const K: usize>(
     }
 }
 
-/// Whether the functions of a cell are those of repeated knots: not those of the cells in
-/// `low..high`.
+/// Range `low..high` of cells whose knots are not repeated.
 fn uniform_cells(degree: usize, cells: f64, periodic: bool) -> (f64, f64) {
     if periodic { (0.0, cells) } else { (degree as f64 - 1.0, cells - degree as f64 + 1.0) }
 }
@@ -153,7 +152,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Puts right what was computed for four particles as if there were no walls.
+/// Replaces the functions of those of four particles that are near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(

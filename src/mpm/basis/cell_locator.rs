@@ -1,4 +1,4 @@
-//! Where particles are in the cells of the grid, four at a time.
+//! Cells of particles, four at a time.
 
 use crate::mpm::{
     algebra::{Vector, array},
@@ -7,16 +7,16 @@ use crate::mpm::{
     simd::{F64x4, LANES, Simd},
 };
 
-/// What a pass needs of functions besides their values.
+/// Parts of the functions that a pass needs besides their values.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightNeeds {
-    /// Their derivatives.
+    /// Derivatives.
     pub(in crate::mpm) slopes: bool,
-    /// Where they sit, and their variance.
+    /// Offsets from the particle and their variance.
     pub(in crate::mpm) offsets: bool,
 }
 
-/// What a pass must know of the grid, without the grid.
+/// Numbers of the grid that a pass keeps in registers.
 #[derive(Debug, Clone, Copy)]
 pub struct CellLocator<const D: usize> {
     pub(super) h: f64,
@@ -25,7 +25,7 @@ pub struct CellLocator<const D: usize> {
     /// Cells along each axis.
     pub(super) ends: [f64; D],
     pub(super) periodic: [bool; D],
-    /// Where nodes are in packed fields.
+    /// Layout of packed fields.
     pub(in crate::mpm) layout: Layout,
     pub(super) needs: WeightNeeds,
 }
@@ -35,17 +35,17 @@ pub struct CellLocator<const D: usize> {
 pub(super) struct CellPositions<F, const D: usize> {
     /// Index of the cell along each axis.
     pub(super) cell: [F; D],
-    /// Place in the cell, from 0 to 1.
+    /// Position in the cell, from 0 to 1.
     pub(super) xi: [F; D],
-    /// Whether there is such a particle and it is in the grid: bit k for particle k.
+    /// Mask of particles that exist and are inside the grid: bit k for particle k.
     pub(super) inside: u32,
 }
 
-/// All four particles are there, and inside.
+/// Mask of four particles inside.
 const ALL: u32 = (1 << LANES) - 1;
 
 impl<const D: usize> CellLocator<D> {
-    /// That of `grid`, with fields of this layout, for a pass with these needs.
+    /// Locator of `grid`, with fields of this layout, for a pass with these needs.
     pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: WeightNeeds) -> Self {
         Self {
             h: grid.h,
@@ -69,7 +69,7 @@ impl<const D: usize> CellLocator<D> {
     ) -> CellPositions<S::F64x4, D> {
         let zero = simd.splat(0.0);
         let mut places = CellPositions { cell: [zero; D], xi: [zero; D], inside: ALL };
-        // Chosen by reference: numbers that went by memory one by one would be waited for.
+        // By reference: store-to-load forwarding fails for scalar stores followed by a vector load.
         let few;
         let x = if let Some(four) = x[first..].first_chunk() {
             four
@@ -91,7 +91,7 @@ impl<const D: usize> CellLocator<D> {
         places
     }
 
-    /// Where the nodes of these cells start in a packed field.
+    /// Position of the first node of these cells in a packed field.
     #[inline(always)]
     pub(super) fn starts<F: F64x4>(&self, cell: &[F; D]) -> [u32; LANES] {
         let mut start = cell[0];
@@ -104,15 +104,14 @@ impl<const D: usize> CellLocator<D> {
     }
 }
 
-/// The last few particles; not a number where there are no more.
+/// Positions of the last particles, NaN beyond them.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
     array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
 }
 
-/// Cells and places at `s` (in cells) along an axis, where some are at its end, beyond it or not
-/// numbers.
+/// Cells and positions at `s` (in cells) along an axis, some of them at its end, beyond it, or NaN.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

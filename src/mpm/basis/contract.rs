@@ -1,4 +1,4 @@
-//! What a basis is to the rest of the solver.
+//! Contract of a basis with the loops.
 
 use super::{
     cell_locator::CellLocator,
@@ -10,47 +10,46 @@ use crate::mpm::{
     simd::{LANES, Simd},
 };
 
-/// What a basis must know of a particle besides its position.
+/// Particle domain over which a basis averages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Domain {
-    /// Nothing: the particle is a point.
+    /// None: the particle is a point.
     Point,
-    /// Its domain, which keeps its reference size.
+    /// Domain of constant size.
     Fixed,
-    /// Its domain, which deforms with it.
+    /// Domain that deforms with the particle.
     Follows,
 }
 
-/// A family of basis functions N_i on the grid. Adding one: `docs/exercises/basis.md`.
+/// Basis functions N_i on the grid. Adding one: `docs/exercises/basis.md`.
 pub trait Basis: Sized + Sync + Send + 'static {
-    /// Degree p of the polynomials that the basis reproduces on a smooth field.
+    /// Degree p of the polynomials that the basis reproduces.
     const DEGREE: u8;
 
-    /// What the basis must know of a particle.
+    /// Particle domain that the basis needs.
     const DOMAIN: Domain;
 
-    /// Whether grad N_i is the derivative of N_i as the particle moves and its domain does not.
-    /// Where it is not, as in CPDI, it is the average of a gradient over the domain.
+    /// Whether grad N_i is the derivative of N_i by the position of the particle; false for CPDI,
+    /// where it is the average of a gradient over the domain.
     const GRADIENT_OF_WEIGHT: bool = true;
 
-    /// Whether a particle sees all its nodes in one patch, wherever it is.
+    /// Whether one patch has all nodes of a particle, at any position.
     const ONE_PATCH: bool = true;
 
-    /// Some of the nodes that a particle sees, with the functions there: products of functions
-    /// along the axes ([`Product`](super::Product)).
+    /// Nodes of a particle with the functions there: products of one-dimensional functions
+    /// ([`Product`](super::Product)).
     type Patch<const D: usize>: Patch<D>;
 
-    /// Functions along an axis of `cells` cells.
+    /// Number of functions along an axis of `cells` cells.
     fn count(cells: usize, periodic: bool) -> usize;
 
-    /// Where function `index` along an axis of `cells` cells sits, in cells from the wall: the
-    /// positions x_i for which sum N_i x_i = x (Greville abscissae).
+    /// Position of function `index` along an axis of `cells` cells, in cells from the wall, such
+    /// that sum N_i x_i = x (Greville abscissa).
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
-    /// Calls `see` for every patch of nodes that particle `p` sees. A node may lie in several: its
-    /// weight and its gradient are the sums. Does nothing where the particle is outside the grid: the
-    /// solver reports that when it moves particles, not here. To be `#[inline(always)]`: it is part
-    /// of the hot loop.
+    /// Calls `visit` for every patch of particle `p`. A node may lie in several patches: its weight
+    /// and gradient are the sums. A particle outside the grid has none: the solver reports it when
+    /// it moves particles. Must be `#[inline(always)]`: part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -58,10 +57,10 @@ pub trait Basis: Sized + Sync + Send + 'static {
         visit: impl FnMut(&Self::Patch<D>),
     );
 
-    /// Puts the patches of the four particles from `first` on into the lanes from `lane` on, and
-    /// returns in which there is one that is all that its particle sees: bit k for particle `first + k`.
-    /// Others are left to [`Basis::patches`], which gives the same bits. Weights that are computed for four
-    /// particles at once do not wait for one another; a basis that does not care needs no method of its own.
+    /// Stores the patches of the four particles from `first` on in the lanes from `lane` on.
+    /// Returns a mask, bit k for particle `first + k`, of those whose only patch is stored; the
+    /// others are left to [`Basis::patches`], which has the same bits. A basis overrides this to
+    /// compute the weights of four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,
@@ -70,20 +69,20 @@ pub trait Basis: Sized + Sync + Send + 'static {
         (first, lane): (usize, usize),
         patches: &mut <Self::Patch<D> as Patch<D>>::Batch,
     ) -> u32 {
-        let mut seen = 0;
+        let mut stored = 0;
         if !Self::ONE_PATCH {
-            return seen;
+            return stored;
         }
         for k in 0..LANES.min(particles.len() - first) {
             Self::patches(grid, particles, first + k, |patch| {
                 patch.put(lane + k, &locator.layout, patches);
-                seen |= 1 << k;
+                stored |= 1 << k;
             });
         }
-        seen
+        stored
     }
 
-    /// Calls `visit` for every node of every patch.
+    /// Calls `visit` for every node of every patch of particle `p`.
     #[inline(always)]
     fn visit<const D: usize>(
         grid: &Grid<D>,
@@ -94,6 +93,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Most visits to nodes that a particle makes in D dimensions: the unit of the work counter.
+    /// Largest number of nodes of a particle, counted once for each patch: the unit of the work
+    /// counter.
     fn support(dimension: usize) -> u64;
 }

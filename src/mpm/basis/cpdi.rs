@@ -1,10 +1,10 @@
 //! CPDI: convected particle domain interpolation (Sadeghirad, Brannon & Burghardt 2011, IJNME 86,
 //! 1435-1456).
 //!
-//! A particle's domain is the segment, parallelogram or parallelepiped `x + R xi`, `-1 <= xi_a <= 1`,
-//! with the columns `r_a = F r_a0` of R. On it the hats `S_i` of the grid are replaced by their
-//! multilinear interpolation between the corners `x_c = x + R s_c`, `s_c = (+-1, ...)`:
-//! `sum_c M_c(xi) S_i(x_c)`, `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain the average of `M_c` is
+//! A particle's domain is the segment, parallelogram or parallelepiped `x + R xi`, `-1 <= xi_a <=
+//! 1`, with the columns `r_a = F r_a0` of R. On it the hats `S_i` of the grid are replaced by their
+//! multilinear interpolation between the corners `x_c = x + R s_c`, `s_c = (+-1, ...)`: `sum_c
+//! M_c(xi) S_i(x_c)`, `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain the average of `M_c` is
 //! `1/2^D`, and that of `d M_c/d xi_a` is `s_ca/2^D`; by the chain rule `grad = R^-T d/d xi`. So
 //!
 //! ```text
@@ -12,10 +12,10 @@
 //! grad N_i = 2^-D sum_c S_i(x_c) R^-T s_c
 //! ```
 //!
-//! which in 2-D are the paper's, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and
-//! `(S_i(x + l) - S_i(x - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight.
-//! `grad N_i` is the average of a gradient, not the gradient of the average `N_i`. Both reproduce
-//! linear fields: `sum_i x_i N_i = x`, `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
+//! which in 2-D are the paper's, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and `(S_i(x + l) - S_i(x
+//! - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight. `grad N_i` is the
+//! average of a gradient, not the gradient of the average `N_i`. Both reproduce linear fields:
+//! `sum_i x_i N_i = x`, `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
 //! At walls the domain is squeezed along the axis until it ends there, as GIMP's is cut off: the
 //! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
@@ -39,11 +39,11 @@ use crate::mpm::{
 #[derive(Debug, Clone, Copy)]
 pub struct Cpdi;
 
-/// How far a domain may reach on a periodic axis, in cells: so far that its corners still have a
-/// place within a cell.
+/// Longest reach of a domain on a periodic axis, in cells: corners beyond it would lose their
+/// position within a cell to rounding.
 const FAR: f64 = 1e6;
 
-/// The particle's place and its domain vectors, in cells, within the walls.
+/// Centre and domain vectors of a particle, in cells, within the walls.
 fn within<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -68,8 +68,7 @@ fn within<const D: usize>(
     (centre, domain)
 }
 
-/// The hats that a corner sees, with the share of the corner, and its gradient, which is in
-/// proportion to their weights.
+/// Hats at a corner, times the share of the corner; gradients are proportional to weights.
 #[derive(Debug, Clone, Copy)]
 pub struct Corner<const D: usize> {
     hats: Product<D, 2>,
@@ -158,7 +157,7 @@ impl Basis for Cpdi {
         }
     }
 
-    /// The nodes of the cells of all corners: one that two corners see counts twice.
+    /// Nodes of the cells of all corners; a node of two corners counts twice.
     fn support(dimension: usize) -> u64 {
         4_u64.pow(dimension as u32)
     }
@@ -272,7 +271,7 @@ mod tests {
         (0..grid.nodes()).filter(|&i| is_inside(i)).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// What parallelograms are for: they tile a sheared body, and boxes do not.
+    /// Parallelograms tile a sheared body, boxes do not.
     #[test]
     fn a_uniform_stress_does_not_push_a_sheared_body() {
         assert_abs_diff_eq!(push::<Cpdi>(), 0.0, epsilon = 1e-14);

@@ -1,8 +1,8 @@
-//! Domains of GIMP along one axis, and the functions there: hats averaged over a domain, with its ends at
-//! `low` and `high`.
+//! Domains of GIMP along one axis, and the functions there: hats averaged over a domain from `low`
+//! to `high`.
 //!
-//! F64x4 at a time where no domain sees more than three nodes; one at a time, three nodes after three, where one
-//! does.
+//! Four particles at a time while their domains have at most three nodes; otherwise one particle at
+//! a time, in groups of three nodes.
 
 use super::{weights_1d::Weights1d, weights_1d_batch::WeightsSimd};
 use crate::mpm::{
@@ -11,12 +11,10 @@ use crate::mpm::{
     simd::{F64x4, LANES, Plain, Simd},
 };
 
-/// Functions along an axis that are seen at once: all of them while the domain is not longer than a
-/// cell.
+/// Functions of a group: all functions along an axis while the domain is not longer than a cell.
 pub(in crate::mpm) const AT_ONCE: usize = 3;
 
-/// Largest half-length of a domain, in cells. A particle that is stretched further is seen with
-/// this one.
+/// Largest half-length of a domain, in cells; longer domains are cut to it.
 const LONGEST: f64 = 2.5;
 
 /// The hat of a node at distance z, in cells.
@@ -37,7 +35,7 @@ pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
     at: S::F64x4,
     low: S::F64x4,
     high: S::F64x4,
-    /// The first node that it sees.
+    /// First node of the domain.
     pub(in crate::mpm) first: S::F64x4,
 }
 
@@ -53,14 +51,15 @@ impl<S: Simd> Domain1dSimd<S> {
         Self { at, low, high, first: low.floor() }
     }
 
-    /// How far the last of [`AT_ONCE`] nodes is beyond the domain. Less than nothing if there are more.
+    /// Distance of the last of [`AT_ONCE`] nodes beyond the domain, negative if there are more
+    /// nodes.
     #[inline(always)]
     pub(in crate::mpm) fn spare(&self) -> S::F64x4 {
         self.first + (AT_ONCE - 1) as f64 - self.high
     }
 
-    /// The functions of domains that end before the third node. It is known on which side of which node
-    /// the ends are: what is computed are [`integral`] and [`hat`] there, to the bit.
+    /// Functions of domains that end before the third node. The branches of [`integral`] and
+    /// [`hat`] are known there; results have the same bits.
     #[inline(always)]
     pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
@@ -97,7 +96,7 @@ impl<S: Simd> Domain1dSimd<S> {
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct Domain1d {
     extent: Domain1dSimd<Plain>,
-    /// How many times [`AT_ONCE`] nodes it sees.
+    /// Groups of [`AT_ONCE`] nodes.
     pub(in crate::mpm) groups: usize,
 }
 
@@ -132,7 +131,7 @@ impl Domain1d {
         along.take(0, grid.wrap_signed(first, axis))
     }
 
-    /// The functions of a group wherever the domain ends. Those beyond it and beyond the wall are zero.
+    /// Functions of a group of a domain of any length, zero beyond the domain and beyond a wall.
     #[inline(always)]
     fn one_of_many<const D: usize>(
         &self,
@@ -162,7 +161,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What is known of a short domain changes no bit of its functions.
+        /// The functions of a short domain have the same bits by both ways.
         #[test]
         fn a_short_domain_has_the_functions_of_any(
             at in 0.0..=5.0_f64,

@@ -29,7 +29,7 @@ pub struct UniformGimp;
 #[derive(Debug, Clone, Copy)]
 pub struct ContiguousGimp;
 
-/// Half the length (m) of the domain of particle `p`.
+/// Half-length (m) of the domain of particle `p`.
 #[inline(always)]
 fn half<const D: usize>(particles: &Particles<D>, p: usize, axis: usize, follows: bool) -> f64 {
     let followed = particles.domain.get(p).filter(|_| follows);
@@ -63,7 +63,7 @@ fn patches<const D: usize>(
     }
 }
 
-/// Those of four particles that see one group along each axis.
+/// Patches of four particles; the mask has those with one group of functions along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
     simd: S,
@@ -100,21 +100,21 @@ fn patches_x4<S: Simd, const D: usize>(
     one
 }
 
-/// Half the lengths of the last few domains.
+/// Half-lengths of the last domains.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; LANES] {
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// First nodes of domains, some of which begin before the first node of a periodic axis.
+/// First nodes of domains, some of them before the first node of a periodic axis.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {
     first.map(|first| grid.wrap_signed(first, axis) as f64)
 }
 
-/// Which of four are not below zero: bit k for the k-th.
+/// Mask of lanes that are not below zero.
 #[cold]
 #[inline(never)]
 fn not_below_zero(four: [f64; LANES]) -> u32 {

@@ -1,5 +1,4 @@
-//! The laws that every registered basis is held to, in 1-D, 2-D and 3-D, inside and at walls, and
-//! on periodic axes.
+//! Laws of every registered basis, in 1-D, 2-D and 3-D: inside, at walls, and on periodic axes.
 
 use super::{
     Basis, BasisName, CellLocator, Domain, Patch, PatchBatch, WeightNeeds, contract, product,

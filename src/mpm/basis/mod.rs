@@ -1,5 +1,4 @@
-//! Basis functions: the family. A member is one file and one line below (and the `mod` that Rust
-//! wants).
+//! Basis functions. A member is one file, one line of registration and one `mod` line.
 
 mod bspline;
 mod cell_locator;
@@ -46,7 +45,7 @@ impl BasisName {
         with_basis!(self, B => f64::from(B::DEGREE) + 1.0)
     }
 
-    /// Where function `node` of `grid` sits (m): at its Greville abscissa on every axis.
+    /// Position of function `node` of `grid` (m): its Greville abscissa on every axis.
     pub fn place<const D: usize>(self, grid: &Grid<D>, node: usize) -> Vector<D> {
         let along = |axis: usize| {
             let index = grid.index_on_axis(node, axis);

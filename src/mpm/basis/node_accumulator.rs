@@ -1,8 +1,8 @@
 //! Sums of nodes under way. Along one axis they stay in registers from particle to particle.
 //!
-//! Neighbours in memory mostly have the same few nodes. In 2-D and 3-D the loads of one node overlap
-//! with the sums of others; in 1-D there are no others, and each particle would wait for the store of
-//! the one before. The sums are the same, in the same order.
+//! Neighbours in memory mostly have the same few nodes. In 2-D and 3-D the loads of one node
+//! overlap with the sums of others; in 1-D there are no others, and each particle would wait for
+//! the store of the one before. The sums are the same, in the same order.
 
 use crate::mpm::{
     algebra::array,

@@ -1,4 +1,4 @@
-//! What loops do with the nodes that a particle sees.
+//! Patches: the nodes of a particle and the functions there.
 
 use crate::mpm::{
     algebra::{Matrix, Vector, array},
@@ -8,7 +8,7 @@ use crate::mpm::{
 };
 use std::{fmt::Debug, ops::Range};
 
-/// One node as a particle sees it.
+/// Functions of one node at a particle.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeWeight<'a, const D: usize> {
     /// Number of the node.
@@ -17,12 +17,12 @@ pub struct NodeWeight<'a, const D: usize> {
     pub weight: f64,
     /// grad N_i at the particle (1/m).
     pub gradient: &'a Vector<D>,
-    /// Where the function sits ([`Basis::abscissa`](super::Basis::abscissa)), from the particle:
+    /// Position of the function ([`Basis::abscissa`](super::Basis::abscissa)) from the particle,
     /// x_i - x_p (m).
     pub offset: Vector<D>,
 }
 
-/// Moments of weights, sums over nodes.
+/// Moments of the weights of a patch.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightMoments<const D: usize> {
     /// `sum_i (x_i - x_p) N_i` (m).
@@ -31,26 +31,26 @@ pub struct WeightMoments<const D: usize> {
     pub second: Matrix<D>,
 }
 
-/// Nodes that a particle sees, and the functions there, as a basis gives them.
+/// Nodes of a particle and the functions there.
 pub trait Patch<const D: usize>: Copy {
-    /// Several of them, as the loops use them.
+    /// Patches of a batch of particles.
     type Batch: PatchBatch<D>;
 
-    /// Takes the place of patch `lane`.
+    /// Stores this as patch `lane` of a batch.
     fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch);
 
     /// Moments of the weights.
     fn weight_moments(&self) -> WeightMoments<D>;
 
-    /// Mean of `x_i - x_p` (m) and its variance about it (m^2) along each axis, where the patch has all
-    /// nodes that the particle sees and its functions are products: there is no covariance.
+    /// Mean of `x_i - x_p` (m) and variance about it (m^2) along each axis, for the only patch of a
+    /// particle. Functions are products, so that there is no covariance.
     fn variance(&self) -> ([f64; D], [f64; D]);
 
     /// Calls `visit` for every node.
     fn visit(&self, grid: &Grid<D>, visit: impl FnMut(NodeWeight<'_, D>));
 }
 
-/// What a particle adds to each of its nodes,
+/// Contribution of a particle to each of its nodes,
 /// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, four components at
 /// once. Parts that are absent cost nothing.
 #[derive(Debug, Clone, Copy)]

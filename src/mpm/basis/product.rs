@@ -1,4 +1,4 @@
-//! ProductBatch of functions along the axes: the patch of nodes that most bases show to a particle.
+//! Products of one-dimensional functions: the patch of most bases.
 
 use super::{
     patch::{NodeWeight, Patch, WeightMoments},
@@ -11,7 +11,7 @@ use crate::mpm::{
     packed_grid::Layout,
 };
 
-/// All products of functions along the axes; at most four along each.
+/// All products of K functions along each axis, K at most 4.
 #[derive(Debug, Clone, Copy)]
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 

@@ -3,7 +3,7 @@
 use super::{
     node_accumulator::NodeAccumulator,
     patch::{NodeTerm, PatchBatch},
-    weights_1d_batch::Weights1dBatch,
+    weights_1d_batch::{Weights1dBatch, of},
 };
 use crate::mpm::{
     algebra::{Vector, array},
@@ -12,8 +12,9 @@ use crate::mpm::{
 };
 use std::ops::Range;
 
-/// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its weight
-/// times a vector of the patch, as for the corners of [CPDI](super::Cpdi); with 0 it is the derivative.
+/// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its
+/// weight times a vector of the patch, as for the corners of [CPDI](super::Cpdi); with 0 it is the
+/// derivative.
 #[derive(Debug)]
 pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
     /// Index of the first node of each patch in a packed field.
@@ -24,12 +25,6 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
     /// Weights of the rows of a plane times those of the planes.
     row_weights: [[F64Batch; K]; K],
-}
-
-/// Functions of patch `lane`.
-#[inline(always)]
-pub(in crate::mpm) fn of<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
-    array(0.0, |k| functions[k].get(lane))
 }
 
 /// The sum of the parts that are present.

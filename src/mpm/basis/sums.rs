@@ -1,7 +1,7 @@
-//! Sums over the nodes of a patch, sums axis by axis: a node costs a product and a sum for each
-//! function, not one for each axis.
+//! Sums of G2P over the nodes of a patch, factorised by axes: a node costs a product and a sum for
+//! each function, not for each axis.
 
-use super::product_batch::{ProductBatch, of};
+use super::{product_batch::ProductBatch, weights_1d_batch::of};
 use crate::mpm::{
     algebra::array,
     packed_grid::{FieldView, PackedNode},
@@ -19,7 +19,7 @@ fn dot<S: Simd, const K: usize>(simd: S, row: &[PackedNode], factors: &[f64; K])
     sum
 }
 
-/// Term `k` of a sum.
+/// Adds term `k` of a sum, which begins with term 0.
 #[inline(always)]
 fn put<F: AddAssign>(sum: &mut F, k: usize, term: F) {
     if k == 0 {

@@ -1,18 +1,18 @@
-//! Functions along one axis.
+//! Weights of a particle along one axis.
 
 /// K neighbouring functions along one axis.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1d<const K: usize> {
-    /// Index of the first. On a periodic axis the last function has the first one behind it, and
-    /// beyond a wall functions of weight zero may stand.
+    /// Index of the first. On a periodic axis the first function follows the last one; beyond a
+    /// wall indices belong to functions of weight zero.
     pub first: usize,
-    /// Their values.
+    /// Values.
     pub weight: [f64; K],
-    /// Their derivatives (1/m).
+    /// Derivatives (1/m).
     pub slope: [f64; K],
-    /// Where they sit, from the particle (m).
+    /// Positions from the particle (m).
     pub offset: [f64; K],
-    /// `sum weight offset^2` (m^2), about the mean where the particle sees no other functions along
+    /// `sum weight offset^2` (m^2), about the mean where the particle has no other functions along
     /// this axis.
     pub variance: f64,
 }
@@ -22,8 +22,7 @@ impl<const K: usize> Weights1d<K> {
     pub const NONE: Self =
         Self { first: 0, weight: [0.0; K], slope: [0.0; K], offset: [0.0; K], variance: 0.0 };
 
-    /// These functions. A basis that knows their variance in closed form puts it in the place of the
-    /// sum, which loops would have to wait for.
+    /// Functions with the variance as a sum. A closed form, where there is one, is faster.
     #[inline(always)]
     pub fn new(first: usize, weight: [f64; K], slope: [f64; K], offset: [f64; K]) -> Self {
         let mut variance = 0.0;

@@ -1,4 +1,4 @@
-//! Functions along one axis, for several particles at once.
+//! Weights of a batch of particles along one axis.
 
 use super::{cell_locator::WeightNeeds, weights_1d::Weights1d};
 use crate::mpm::{
@@ -7,21 +7,21 @@ use crate::mpm::{
     simd::{F64Batch, F64x4, Simd},
 };
 
-/// K neighbouring functions for each of four particles, in registers.
+/// K neighbouring functions of four particles, in registers.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
-    /// Their values.
+    /// Values.
     pub(in crate::mpm) weight: [S::F64x4; K],
-    /// Their derivatives (1/m).
+    /// Derivatives (1/m).
     pub(in crate::mpm) slope: [S::F64x4; K],
-    /// Where they sit, from the particle (m).
+    /// Positions from the particle (m).
     pub(in crate::mpm) offset: [S::F64x4; K],
     /// `sum weight offset^2` (m^2), about their mean.
     pub(in crate::mpm) variance: S::F64x4,
 }
 
 impl<S: Simd, const K: usize> WeightsSimd<S, K> {
-    /// To memory, what a pass needs.
+    /// Stores what `needs` lists.
     #[inline(always)]
     pub(in crate::mpm) fn put(
         self,
@@ -45,7 +45,7 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
         }
     }
 
-    /// One of the four.
+    /// Functions of one particle.
     #[inline(always)]
     pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Weights1d<K> {
         let of = |functions: &[S::F64x4; K]| array(0.0, |k| functions[k].into()[lane]);
@@ -59,20 +59,20 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
     }
 }
 
-/// The same in memory, for several particles, with what affine fields need.
+/// K neighbouring functions of a batch of particles, in memory.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1dBatch<const K: usize> {
-    /// Their values.
+    /// Values.
     pub(in crate::mpm) weight: [F64Batch; K],
-    /// Their derivatives (1/m).
+    /// Derivatives (1/m).
     pub(in crate::mpm) slope: [F64Batch; K],
-    /// Where they sit, from the particle (m).
+    /// Positions from the particle (m).
     pub(in crate::mpm) offset: [F64Batch; K],
-    /// `sum weight offset^2` (m^2), about their mean where they are all that a particle sees.
+    /// `sum weight offset^2` (m^2), about the mean where a particle has no other functions.
     pub(in crate::mpm) variance: F64Batch,
-    /// Offsets from a mean (m).
+    /// Offset from a mean (m).
     pub(in crate::mpm) offset_from_mean: [F64Batch; K],
-    /// The same, times weight.
+    /// Offset from the mean times weight (m).
     pub(in crate::mpm) weighted_offset: [F64Batch; K],
     /// The inverse of the variance (1/m^2), zero where there is none.
     pub(in crate::mpm) inverse: F64Batch,
@@ -90,7 +90,7 @@ impl<const K: usize> Weights1dBatch<K> {
         inverse: F64Batch::ZERO,
     };
 
-    /// Puts functions into a lane.
+    /// Stores the functions of one particle.
     #[inline(always)]
     pub(in crate::mpm) fn put(&mut self, lane: usize, along: &Weights1d<K>) {
         for k in 0..K {
@@ -101,9 +101,9 @@ impl<const K: usize> Weights1dBatch<K> {
         self.variance.0[lane] = along.variance;
     }
 
-    /// Levers and arms about `mean` (m), or about the mean of the functions of each particle, and
-    /// the inverse of the variance. Arms are sums before any sum: near a wall the offset is small
-    /// where the weight is not, and what an inertia tensor divides must not be lost in rounding.
+    /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
+    /// the inverse of the variance. Offsets are multiplied by weights before any sum: near a wall
+    /// the offset is small where the weight is not, and rounding must not reach the inertia tensor.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,
@@ -113,10 +113,10 @@ impl<const K: usize> Weights1dBatch<K> {
         mean: Option<f64>,
     ) {
         let zero = simd.splat(0.0);
-        let four = |functions: &[F64Batch; K]| -> [S::F64x4; K] {
+        let load = |functions: &[F64Batch; K]| -> [S::F64x4; K] {
             array(zero, |k| functions[k].load(simd, register))
         };
-        let (weight, offset) = (four(&self.weight), four(&self.offset));
+        let (weight, offset) = (load(&self.weight), load(&self.offset));
         let mean = mean.map_or_else(
             || {
                 let mut mean = weight[0] * offset[0];
@@ -128,13 +128,19 @@ impl<const K: usize> Weights1dBatch<K> {
             |mean| simd.splat(mean),
         );
         for k in 0..K {
-            let lever = offset[k] - mean;
-            self.offset_from_mean[k].store(register, lever);
-            self.weighted_offset[k].store(register, lever * weight[k]);
+            let from_mean = offset[k] - mean;
+            self.offset_from_mean[k].store(register, from_mean);
+            self.weighted_offset[k].store(register, from_mean * weight[k]);
         }
         let inverse = self.variance.load(simd, register).inverse_above(SMALLEST * h * h);
         self.inverse.store(register, inverse);
     }
+}
+
+/// Functions of particle `lane` of a batch.
+#[inline(always)]
+pub(super) fn of<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
+    array(0.0, |k| functions[k].get(lane))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Particles, several at a time, with what they see.
+//! Batches of particles with their patches of nodes.
 
 use super::{inertia::inertia, moments::InertiaTensor};
 use crate::mpm::{
@@ -10,14 +10,14 @@ use crate::mpm::{
 };
 use std::{marker::PhantomData, ops::Range};
 
-/// Several patches of a basis.
+/// Batch of patches of basis `B`.
 pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Batch;
 
-/// The bits of all lanes.
+/// Mask of all lanes.
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
-/// What several particles see. The patches are not part of it: what is beside them in memory would be
-/// read anew after each of their weights is written.
+/// Batches of particles, and all that locates their patches. The patches themselves are not part of
+/// it: fields beside them would be reloaded after every store of a weight.
 pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
@@ -37,11 +37,10 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         Self { particles, grid, locator, needs, basis: PhantomData }
     }
 
-    /// Calls `see` for the patches of the particles from `first` on, in their order, with the lanes
-    /// that they are in: particle `first + k` is in lane k. One that is outside the grid is left out, and
-    /// its bit in the result is not set where patches are put, not added.
-    /// Where a particle sees several patches, their moments must be known before the first of them is seen;
-    /// where it sees one, they follow from its weights at no cost.
+    /// Calls `visit` for the patches of the batch from particle `first` on, in order, with their
+    /// range of lanes (particle `first + k` is lane k), and the moments of all patches of a
+    /// particle that has several. Returns a mask: for bases with one patch, the lanes of particles
+    /// inside the grid; otherwise [`ALL`]. Particles outside are skipped.
     #[inline(always)]
     pub(in crate::mpm) fn visit<S: Simd>(
         &self,

@@ -1,12 +1,12 @@
-//! Blocks of particles, so that threads can share the way from particles to nodes.
+//! Blocks of particles in two colours, by which threads share P2G.
 //!
-//! Particles that lie next to each other in memory mostly see neighbouring layers of nodes: those across
-//! the last axis. So the particles of a large scene are cut into blocks, and these have two colours in
-//! turn. Blocks of one colour see no node in common: each has its own stretch of the field, and they
-//! may run at once. A block of the other colour adds to what its two neighbours have left.
+//! Neighbours in memory mostly have nodes in neighbouring layers across the last axis. The
+//! particles of a large scene are cut into consecutive blocks of alternating colour. Blocks of one
+//! colour have no node in common and run at once; an odd block adds to the sums that its even
+//! neighbours left.
 //!
-//! Where blocks are cut depends on the particles alone, and never on the number of threads: the bits do not
-//! either. Particles in no order at all, and small scenes, are one block.
+//! The cuts depend on the particles only, not on the number of threads, and so do the bits. A small
+//! scene, or one whose particles are in no spatial order, is one block.
 
 use crate::mpm::{
     algebra::Matrix,
@@ -19,22 +19,22 @@ use crate::mpm::{
 };
 use std::ops::Range;
 
-/// Fewest particles of a scene that is cut: others stay near as they are.
+/// Fewest particles of a scene that is cut into blocks: smaller ones stay in the cache as they are.
 const MIN_PARTICLES: usize = 1 << 17;
 
-/// Fewest particles of a block: the nodes that its neighbours see as well must be few beside them.
+/// Fewest particles of a block: the nodes shared with its neighbours must be few in comparison.
 const MIN_BLOCK: usize = 1 << 13;
 
-/// Chunks of such a block: particles whose layers are looked up together.
+/// Chunks of such a block, the units in which layers are looked up.
 pub(in crate::mpm) const CHUNKS: usize = 8;
 
-/// Particles that are looked at together.
+/// Independent minima and maxima in one loop over positions.
 const TOGETHER: usize = 8;
 
-/// Numbers of blocks that are tried, largest first: so many that the nodes of one stay in a cache.
+/// Numbers of blocks to try, largest first: the nodes of one block should stay in the cache.
 const COUNTS: [usize; 8] = [512, 256, 128, 64, 32, 16, 8, 4];
 
-/// Particles in a row, and the nodes that they see.
+/// Consecutive particles and the layers of their nodes.
 #[derive(Debug)]
 pub(in crate::mpm) struct ParticleBlock {
     pub(in crate::mpm) particles: Range<usize>,
@@ -42,17 +42,17 @@ pub(in crate::mpm) struct ParticleBlock {
     pub(in crate::mpm) layers: Range<usize>,
 }
 
-/// How far particles reach along the last axis (m).
+/// Extent of particles along the last axis (m).
 #[derive(Debug, Clone, Copy)]
 struct Span {
     low: f64,
     high: f64,
 }
 
-/// The blocks of a scene by colour. Where all particles are one block, there is one colour.
+/// The blocks of a scene by colour; a single block is even.
 #[derive(Debug)]
 pub(in crate::mpm) struct Blocks {
-    /// Fewest particles of all blocks, and of one.
+    /// Fewest particles of a scene with several blocks, and of a block.
     pub(in crate::mpm) fewest: usize,
     pub(in crate::mpm) least: usize,
     spans: Vec<Span>,
@@ -84,11 +84,11 @@ impl Span {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// That of some particles. One whose position is not a number sees zero.
+    /// Extent of these particles. One whose position is NaN has no nodes.
     fn of<B: Basis, const D: usize>(particles: &Particles<D>, these: Range<usize>) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
-            // Several at a time: one would wait for the one before.
+            // Several chains: in one, each minimum would wait for the one before.
             let (many, rest) = x.as_chunks::<TOGETHER>();
             let mut spans = [span; TOGETHER];
             for several in many {
@@ -113,19 +113,19 @@ impl Span {
         span
     }
 
-    /// The layers of nodes that may be seen, of all that a packed field has.
+    /// Layers of the packed field that may have nodes of the extent.
     fn layers<B: Basis, const D: usize>(self, grid: &Grid<D>) -> Range<usize> {
         let axis = D - 1;
         let (cells, all) = (grid.cells[axis] as f64, layers(grid).end);
         let local = |x: f64| (x - grid.origin[axis]) * grid.inverse_h();
         let (low, high) = (local(self.low), local(self.high));
-        // Domains see whole groups of nodes, and their ends are known but for rounding.
+        // Domains have whole groups of nodes, and their ends are known up to rounding.
         let (below, above) = match B::DOMAIN {
             Domain::Point => (0.0, f64::from(B::DEGREE)),
             Domain::Fixed | Domain::Follows => (1.0, MARGIN as f64 + 1.0),
         };
         let wraps = low - below < 0.0 || high + (above - f64::from(B::DEGREE)) >= cells;
-        // Beyond a seam stand the nodes of the other end.
+        // Beyond a periodic end the nodes of the other end follow.
         if !(low <= high) || grid.periodic[axis] && wraps {
             return 0..all;
         }
@@ -136,12 +136,12 @@ impl Span {
 }
 
 impl Blocks {
-    /// Particles whose layers are looked up together: a multiple of those that a loop takes at once.
+    /// Particles of a chunk, a multiple of a batch.
     fn chunk(&self) -> usize {
         (self.least / CHUNKS).next_multiple_of(BATCH)
     }
 
-    /// Cuts the particles into blocks, if there are enough and they are in order.
+    /// Cuts the particles into blocks, if there are enough and they are in spatial order.
     pub(in crate::mpm) fn cut<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,
@@ -163,8 +163,8 @@ impl Blocks {
         }
     }
 
-    /// Cuts into so many blocks, and returns whether they lie in their order and those of a colour have no
-    /// node in common.
+    /// Cuts into `count` blocks; returns whether they are in spatial order and blocks of one colour
+    /// have no node in common.
     fn cut_into<B: Basis, const D: usize>(
         &mut self,
         count: usize,

@@ -1,4 +1,4 @@
-//! The passes over particles and nodes of which transfers, mass matrices and effects are made.
+//! Passes over particles and nodes, the building blocks of transfers, mass matrices and effects.
 //!
 //! [`Kernel`] is object-safe: one virtual call per pass, none per particle.
 
@@ -16,11 +16,11 @@ use crate::mpm::{
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
-    /// Maps what `maps` says to the nodes.
-    fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>);
+    /// All parts of `request`, from particles to nodes, in one pass.
+    fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
-    /// Takes what `takes` says from the nodes.
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>);
+    /// All parts of `request`, from nodes to particles, in one pass.
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>);
 
     /// `m_i` alone, see [`P2gRequest::mass`].
     fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
@@ -42,7 +42,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         self.p2g(particles, &P2gRequest { force, ..P2gRequest::default() }, grid);
     }
 
-    /// Adds `force` (N), which acts on particle `p`, to the nodes that the particle sees.
+    /// Adds `force` (N), which acts on particle `p`, to the forces of its nodes.
     fn p2g_point_force(
         &self,
         particles: &Particles<D>,
@@ -79,7 +79,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         moment: &mut [Matrix<D>],
     );
 
-    /// Where the nodes lie that each particle sees.
+    /// Moments of the weights of each particle.
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>);
 
     /// `matrix_p <- matrix_p D_p^-1`.
@@ -91,7 +91,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     );
 
     /// Calls `entry` with i, j and `m_p N_i(x_p) N_j(x_p)` (kg) for every particle and every pair
-    /// of nodes that it sees: the consistent mass matrix.
+    /// of its nodes: the consistent mass matrix.
     fn mass_entries(
         &self,
         grid: &Grid<D>,
@@ -99,8 +99,8 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         entry: &mut dyn FnMut(usize, usize, f64),
     );
 
-    /// Adds to the nodes that particle `p` sees the forces of a moment, `moment grad N_i(x_p)`, whose
-    /// sum is zero: `moment = f (x) d` (N m) takes the force f from the particle to the place d (m) away.
+    /// Adds the forces of a moment, `moment grad N_i(x_p)`, to the nodes of particle `p`. Their sum
+    /// is zero: `moment = f (x) d` (N m) moves the force f from the particle by d (m).
     fn p2g_point_moment(
         &self,
         particles: &Particles<D>,
@@ -109,7 +109,8 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         grid: &mut Grid<D>,
     );
 
-    /// `sum_p m_p grad N_i(x_p)` (kg/m) into `gradient`: points out of the body where its mass ends.
+    /// `sum_p m_p grad N_i(x_p)` (kg/m) into `gradient`: points out of the body where its mass
+    /// ends.
     fn p2g_mass_gradient(
         &self,
         particles: &Particles<D>,
@@ -117,10 +118,10 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Vector<D>],
     );
 
-    /// Nodes that one particle sees, at most.
+    /// Largest number of nodes of a particle.
     fn support(&self) -> u64;
 
-    /// What the basis must know of a particle.
+    /// Kind of particle domain that the basis needs.
     fn domain(&self) -> Domain;
 
     /// An empty grid with the functions of this basis.

@@ -1,5 +1,4 @@
-//! A kernel that counts its passes: what a step does, seen from outside. Parts of a pass that does
-//! several things count as if each were alone.
+//! Kernel that counts its passes. The parts of one pass are counted one by one.
 
 use super::{
     contract::Kernel,
@@ -17,7 +16,7 @@ use std::sync::{
     atomic::{AtomicU64, Ordering::Relaxed},
 };
 
-/// Particles that each kind of pass has visited.
+/// Particles visited by each kind of pass.
 #[derive(Debug, Default)]
 pub struct Tally([AtomicU64; NAMES.len()]);
 
@@ -49,41 +48,41 @@ impl Tally {
         }
     }
 
-    /// The passes since the last call, with the particles that each has visited.
+    /// Passes since the last call, with the number of particles visited.
     pub fn take(&self) -> Vec<(&'static str, u64)> {
         let sums = NAMES.iter().zip(&self.0).map(|(name, count)| (*name, count.swap(0, Relaxed)));
         sums.filter(|(_, visited)| *visited > 0).collect()
     }
 }
 
-/// A kernel whose passes are counted.
+/// Kernel whose passes are counted.
 pub struct Counted<const D: usize> {
     pub(in crate::mpm) kernel: Box<dyn Kernel<D>>,
     pub(in crate::mpm) tally: Arc<Tally>,
 }
 
 impl<const D: usize> Counted<D> {
-    /// Wraps a kernel; the tally is what the caller reads.
+    /// Wraps a kernel, with a tally for the caller to read.
     pub fn new(kernel: Box<dyn Kernel<D>>) -> (Self, Arc<Tally>) {
         let tally = Arc::new(Tally::default());
         (Self { kernel, tally: Arc::clone(&tally) }, tally)
     }
 
-    /// Wraps a kernel that adds to a tally which others add to.
+    /// Wraps a kernel, with a tally shared with other kernels.
     pub fn sharing(kernel: Box<dyn Kernel<D>>, tally: &Arc<Tally>) -> Self {
         Self { kernel, tally: Arc::clone(tally) }
     }
 }
 
 impl<const D: usize> Kernel<D> for Counted<D> {
-    fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
-        maps.parts().for_each(|name| self.tally.add(name, particles.len()));
-        self.kernel.p2g(particles, maps, grid);
+    fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
+        request.parts().for_each(|name| self.tally.add(name, particles.len()));
+        self.kernel.p2g(particles, request, grid);
     }
 
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>) {
-        takes.parts().for_each(|name| self.tally.add(name, particles.len()));
-        self.kernel.g2p_all(grid, particles, takes);
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>) {
+        request.parts().for_each(|name| self.tally.add(name, particles.len()));
+        self.kernel.g2p_all(grid, particles, request);
     }
 
     fn p2g_momentum(
@@ -157,7 +156,7 @@ impl<const D: usize> Kernel<D> for Counted<D> {
         self.kernel.mass_entries(grid, particles, entry);
     }
 
-    /// Part of what it is divided for.
+    /// Not counted: part of the pass that it prepares.
     fn divide_by_inertia(
         &self,
         grid: &Grid<D>,

@@ -1,4 +1,4 @@
-//! The passes of scalars, counted.
+//! Counted passes of scalars.
 
 use super::{counting::Counted, scalar_contract::Scalars};
 use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};

@@ -1,4 +1,4 @@
-//! From nodes to particles: velocity, first moment and gradient in one visit.
+//! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
 
 use super::{
     batch::{ALL, Batch, ParticleBatches},
@@ -14,25 +14,26 @@ use crate::mpm::{
 };
 use std::{marker::PhantomData, ops::Range};
 
-/// Takes what `takes` says from two packed fields: velocities, and accelerations; from one where
-/// [`are_beside`] says so.
+/// Pass of G2P over two packed fields, velocities and accelerations, or over one that holds both
+/// ([`are_beside`]).
 pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
-    /// The particles that take.
-    pub(in crate::mpm) these: Range<usize>,
-    pub(in crate::mpm) takes: G2pRequest<'a, D>,
+    /// Particles of the pass.
+    pub(in crate::mpm) range: Range<usize>,
+    pub(in crate::mpm) request: G2pRequest<'a, D>,
     pub(in crate::mpm) fields: [FieldView<'a>; 2],
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether velocities and accelerations stand in one field, side by side, where both are wanted: four
-/// numbers hold both in 1-D and 2-D, and the nodes are visited once.
+/// Whether one packed field holds velocities and accelerations side by side: four numbers a node
+/// hold both in 1-D and 2-D, so that nodes are visited once.
 pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
     2 * D <= LANES
 }
 
-/// Writes these columns, number by number: a matrix that went by memory as a whole would be waited for.
+/// Writes a matrix by its columns, number by number: store-to-load forwarding fails for a matrix
+/// that is stored as a whole.
 #[inline(always)]
 fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(matrix: &mut Matrix<D>, columns: &[F; D]) {
     for axis in 0..D {
@@ -43,7 +44,7 @@ fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(matrix: &mut Matrix<D>,
     }
 }
 
-/// What several particles have sums so far.
+/// Sums of a batch of particles under way.
 struct G2pSums<S: Simd, const D: usize> {
     change: [S::F64x4; BATCH],
     velocity: [S::F64x4; BATCH],
@@ -63,11 +64,11 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
         }
     }
 
-    /// Nothing for some of them.
+    /// Clears the sums of some particles.
     #[inline(always)]
-    fn reset(&mut self, simd: S, these: impl Fn(usize) -> bool) {
+    fn reset(&mut self, simd: S, left_out: impl Fn(usize) -> bool) {
         let zero = Self::zero(simd);
-        for lane in (0..BATCH).filter(|lane| these(*lane)) {
+        for lane in (0..BATCH).filter(|lane| left_out(*lane)) {
             self.change[lane] = zero.change[lane];
             self.velocity[lane] = zero.velocity[lane];
             self.moment[lane] = zero.moment[lane];
@@ -76,7 +77,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
     }
 }
 
-/// Takes what a patch gives: the sum over all patches, of which there may be one only.
+/// Adds the term of a patch, or stores it where each particle has one patch.
 #[inline(always)]
 fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
     if B::ONE_PATCH {
@@ -87,7 +88,7 @@ fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
 }
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
-    /// Adds what the nodes of patches give.
+    /// Adds the sums over the nodes of patches.
     #[inline(always)]
     fn gather_patches<S: Simd>(
         &self,
@@ -96,15 +97,15 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         (lanes, mean): (Range<usize>, Option<&Vector<D>>),
         sums: &mut G2pSums<S, D>,
     ) {
-        let ([velocity, acceleration], takes) = (&self.fields, &self.takes);
-        let beside = takes.change.is_some() && are_beside::<D>();
-        if takes.change.is_some() && !beside {
+        let ([velocity, acceleration], request) = (&self.fields, &self.request);
+        let beside = request.change.is_some() && are_beside::<D>();
+        if request.change.is_some() && !beside {
             for lane in lanes.clone() {
                 put::<B, _>(&mut sums.change[lane], patches.gather(simd, lane, acceleration));
             }
         }
-        let mut is_summed = takes.mix.is_none() && takes.advected.is_none() && !beside;
-        if takes.moment.is_some() {
+        let mut is_summed = request.mix.is_none() && request.advected.is_none() && !beside;
+        if request.moment.is_some() {
             patches.compute_offsets(simd, &lanes, self.grid.h, mean);
             for lane in lanes.clone() {
                 let (sum, moment) = patches.gather_moment(simd, lane, velocity);
@@ -117,7 +118,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             }
             is_summed = true;
         }
-        if takes.gradient.is_some() {
+        if request.gradient.is_some() {
             for lane in lanes.clone() {
                 let (sum, gradient) = patches.gather_gradient(simd, lane, velocity);
                 for axis in 0..D {
@@ -136,13 +137,13 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         }
     }
 
-    /// Gives the particles from `first` of these on what they have sums.
+    /// Writes the sums of the batch that begins at entry `first` of the request's columns.
     #[inline(always)]
     fn write<S: Simd>(&mut self, first: usize, sums: &G2pSums<S, D>) {
-        let takes = &mut self.takes;
-        if let Some(value) = &mut takes.value {
+        let request = &mut self.request;
+        if let Some(value) = &mut request.value {
             let value = value[first..].iter_mut();
-            if let Some(dt) = takes.change {
+            if let Some(dt) = request.change {
                 let (change, at) =
                     if are_beside::<D>() { (&sums.velocity, D) } else { (&sums.change, 0) };
                 for (value, change) in value.zip(change) {
@@ -150,23 +151,23 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                 }
             }
         }
-        if let (Some(value), Some((keep, factor))) = (&mut takes.value, takes.mix) {
+        if let (Some(value), Some((keep, factor))) = (&mut request.value, request.mix) {
             for (value, velocity) in value[first..].iter_mut().zip(&sums.velocity) {
                 *value = *value * keep + components::<D>(*velocity * factor, 0);
             }
         }
-        if let Some(moment) = &mut takes.moment {
+        if let Some(moment) = &mut request.moment {
             for (moment, sums) in moment[first..].iter_mut().zip(&sums.moment) {
                 put_columns(moment, sums);
             }
         }
-        if let Some(gradient) = &mut takes.gradient {
+        if let Some(gradient) = &mut request.gradient {
             for (gradient, sums) in gradient[first..].iter_mut().zip(&sums.gradient) {
                 put_columns(gradient, sums);
             }
         }
-        if let Some((dt, advected)) = &mut takes.advected {
-            let x = &self.particles.positions()[self.these.start + first..];
+        if let Some((dt, advected)) = &mut request.advected {
+            let x = &self.particles.positions()[self.range.start + first..];
             for ((advected, x), sums) in advected[first..].iter_mut().zip(x).zip(&sums.velocity) {
                 *advected = x + components::<D>(*sums * *dt, 0);
             }
@@ -175,18 +176,18 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 }
 
 impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
-    // Sums along two axes at once, with all that they are multiplied by.
+    // Sums for two axes at once, with their factors.
     const NEEDS_32_REGISTERS: bool = true;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
-        let (slopes, offsets) = (self.takes.gradient.is_some(), self.takes.moment.is_some());
+        let (slopes, offsets) = (self.request.gradient.is_some(), self.request.moment.is_some());
         let layout = self.fields[0].layout;
         let mut patches = Batch::<B, D>::none();
         let needs = WeightNeeds { slopes, offsets };
         let batches = ParticleBatches::<B, D>::new((self.grid, layout), self.particles, needs);
         let mut sums = G2pSums::zero(simd);
-        for first in self.these.clone().step_by(BATCH) {
+        for first in self.range.clone().step_by(BATCH) {
             if !B::ONE_PATCH {
                 sums = G2pSums::zero(simd);
             }
@@ -207,7 +208,7 @@ impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
             if seen != ALL {
                 sums.reset(simd, |lane| seen >> lane & 1 == 0);
             }
-            self.write(first - self.these.start, &sums);
+            self.write(first - self.range.start, &sums);
         }
     }
 }

@@ -27,6 +27,6 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
             all.second += weight_moments.second;
         }
     });
-    // What is one patch is a product.
+    // A single patch is a product of one-dimensional functions.
     if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
 }

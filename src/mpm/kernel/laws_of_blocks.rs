@@ -1,5 +1,5 @@
-//! What blocks of particles keep: passes give the same on any number of threads, and what they would give
-//! as one block but for rounding.
+//! Laws of blocks of particles: passes have the same bits on any number of threads, and the sums of
+//! one block up to rounding.
 
 use super::{
     Loops,
@@ -19,7 +19,7 @@ use rstest::rstest;
 
 const H: f64 = 0.25;
 
-/// Cuts as a scene of so few particles would not be.
+/// Loops that cut small scenes into blocks, too.
 fn cutting<B: Basis>() -> Loops<B> {
     let loops = Loops::<B>::default();
     let mut workspace = loops.workspace();
@@ -28,7 +28,7 @@ fn cutting<B: Basis>() -> Loops<B> {
     loops
 }
 
-/// A body in a grid that is long along its last axis, every column filled with numbers.
+/// A body in a grid that is long along its last axis, with numbers in all columns.
 fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
     let cells = std::array::from_fn(|axis| match (axis + 1 == D, D) {
         (true, 1) => 600,
@@ -72,7 +72,7 @@ fn sums<const D: usize>(
 ) -> Vec<f64> {
     let (mut value, mut moment) = (particles.v.clone(), particles.sigma.clone());
     let (mut gradient, mut advected) = (moment.clone(), value.clone());
-    let takes = G2pRequest {
+    let request = G2pRequest {
         change: Some(0.5),
         mix: Some((0.5, 0.5)),
         value: Some(&mut value),
@@ -80,7 +80,7 @@ fn sums<const D: usize>(
         gradient: Some(&mut gradient),
         advected: Some((0.5, &mut advected)),
     };
-    kernel.g2p_all(grid, particles, takes);
+    kernel.g2p_all(grid, particles, request);
     let matrices = moment.iter().chain(&gradient).flatten();
     value.iter().chain(&advected).flatten().chain(matrices).copied().collect()
 }
@@ -98,21 +98,24 @@ fn is_shared<B: Basis, const D: usize>(periodic: bool) {
         let pass = || (mapped(&loops, &grid, &particles), sums(&loops, &grid, &particles));
         pool.install(pass)
     };
-    let (blocks, (nodes, takes)) = (&loops.workspace, run(1));
+    let (blocks, (nodes, request)) = (&loops.workspace, run(1));
     let is_cut = blocks.lock().unwrap().blocks.colours[1].len() >= 2;
     let has_seam = periodic && B::DOMAIN != Domain::Point;
-    assert_eq!(is_cut, !has_seam, "domains beyond a seam see both ends of the field");
+    assert_eq!(
+        is_cut, !has_seam,
+        "domains beyond a periodic end have nodes at both ends of the field"
+    );
     for (shared, one) in nodes.iter().zip(&serial) {
         assert_relative_eq!(*shared, *one, epsilon = 1e-13);
     }
     for threads in [2, 3] {
         let (others, took) = run(threads);
         assert_eq!(bits(&others), bits(&nodes), "{threads} threads");
-        assert_eq!(bits(&took), bits(&takes), "{threads} threads");
+        assert_eq!(bits(&took), bits(&request), "{threads} threads");
     }
 }
 
-/// Where particles are in no order, or not where a body has them, the sums are still right.
+/// The sums are right for particles in any order and at any position.
 fn is_right_anywhere<B: Basis, const D: usize>(periodic: bool) {
     let (loops, whole) = (cutting::<B>(), Loops::<B>::default());
     let (grid, mut particles) = scene::<D>(&whole, periodic);

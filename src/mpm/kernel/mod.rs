@@ -1,9 +1,22 @@
-//! The particle-node loops: the only place where a basis meets particles and grid.
+//! The loops of P2G and G2P, compiled once for each basis and dimension.
 //!
-//! Sums run over particles in their order and over nodes in theirs, so results are the same bits
-//! everywhere. Transfers are made of these loops and need none of their own: they exist once for
-//! each basis and dimension. Fields of nodes are packed for a pass and unpacked after it, which costs
-//! as much as the nodes of some few particles.
+//! ```text
+//! particles   [ 16 particles ][ 16 particles ] ...   batch.rs: weights of a batch, four at once
+//!                  | one patch after another
+//! patch        K^D nodes   . x x x .                p2g.rs: particle -> x   g2p.rs: x -> particle
+//! (K = 3, 2-D)             . x x x .                one register holds the components of a node
+//!                          . x x x .                in rows and planes: K nodes of a row are neighbours
+//!                  |
+//! grid         packed_grid: four numbers a node, packed before a pass, unpacked after it
+//!
+//! threads      |  even 0  | odd 0 |  even 1  | odd 1 |  even 2  |      blocks along the last axis
+//!              +----------+-------+----------+-------+----------+
+//!              1. even blocks at once: they have no node in common
+//!              2. odd block k, after even blocks k and k + 1 (colouring.rs, parallel.rs)
+//! ```
+//!
+//! `reference.rs` has the same sums as textbook loops. Sums run over particles and nodes in a fixed
+//! order, so that results have the same bits on any processor and number of threads.
 
 pub(crate) mod contract;
 pub(crate) mod counting;
@@ -23,6 +36,8 @@ mod laws_of_blocks;
 mod p2g;
 mod par_split;
 mod parallel;
+#[cfg(test)]
+mod reference;
 mod scalar_loops;
 mod workspace;
 
@@ -44,7 +59,7 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-/// The kernel of the basis that a suite names.
+/// Kernel of the basis with this name.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     let kernel = kernel_in_dimension(D, basis).downcast::<Box<dyn Kernel<D>>>();
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
@@ -59,9 +74,9 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName) -> Box<dyn Any> {
     with_dimension!(dimension, D => Box::new(boxed::<D>(basis)))
 }
 
-/// The kernel of basis `B`.
+/// Kernel of basis `B`.
 struct Loops<B> {
-    /// Kept from one pass to the next. No result depends on what it holds.
+    /// Memory kept from one pass to the next; no result depends on its contents.
     workspace: Mutex<Workspace>,
     basis: PhantomData<B>,
 }
@@ -74,23 +89,23 @@ impl<B> Default for Loops<B> {
 
 impl<B> Loops<B> {
     fn workspace(&self) -> MutexGuard<'_, Workspace> {
-        // A pass that has panicked leaves numbers that the next one overwrites.
+        // After a panic: the next pass overwrites all contents.
         self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
-    fn p2g(&self, particles: &Particles<D>, maps: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
+    fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
         let mut mass = std::mem::take(&mut grid.mass);
         let mut momentum = std::mem::take(&mut grid.velocity);
         let mut force = std::mem::take(&mut grid.force);
         let columns = Columns {
-            mass: maps.mass.then_some(&mut mass),
-            momentum: maps.momentum.is_some().then_some(&mut momentum),
-            force: maps.force.is_some().then_some(&mut force),
+            mass: request.mass.then_some(&mut mass),
+            momentum: request.momentum.is_some().then_some(&mut momentum),
+            force: request.force.is_some().then_some(&mut force),
             ..Columns::default()
         };
-        self.workspace().scatter::<B, D>(particles, maps, grid, columns);
+        self.workspace().scatter::<B, D>(particles, request, grid, columns);
         (grid.mass, grid.velocity, grid.force) = (mass, momentum, force);
     }
 
@@ -101,9 +116,9 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid: &Grid<D>,
         column: &mut [Vector<D>],
     ) {
-        let maps = P2gRequest { momentum: Some(shown), ..P2gRequest::default() };
+        let request = P2gRequest { momentum: Some(shown), ..P2gRequest::default() };
         let columns = Columns { momentum: Some(column), ..Columns::default() };
-        self.workspace().scatter::<B, D>(particles, &maps, grid, columns);
+        self.workspace().scatter::<B, D>(particles, &request, grid, columns);
     }
 
     fn p2g_point_force(
@@ -118,8 +133,8 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid.force = column;
     }
 
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, takes: G2pRequest<'_, D>) {
-        self.workspace().gather::<B, D>(grid, particles, &grid.velocity, takes);
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>) {
+        self.workspace().gather::<B, D>(grid, particles, &grid.velocity, request);
     }
 
     fn g2p(

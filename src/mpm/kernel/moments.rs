@@ -1,4 +1,4 @@
-//! Where the nodes lie that a particle sees: what affine transfers need of a basis.
+//! Moments of the weights of a particle, needed by affine transfers.
 
 use crate::{
     mpm::{
@@ -8,8 +8,8 @@ use crate::{
     subject::Column,
 };
 
-/// Second moments below this share of h^2 are rounding: the particle sees the nodes of one point
-/// only along that axis, as on a node of the linear basis.
+/// Smallest second moment, as a share of h^2. Below it is rounding: along that axis all weight is
+/// on one node, as for a particle on a node of the linear basis.
 pub(in crate::mpm) const SMALLEST: f64 = 1e-13;
 
 /// Moments of the weights of each particle.
@@ -23,13 +23,13 @@ pub struct Moments<const D: usize> {
 }
 
 impl<const D: usize> Moments<D> {
-    /// Makes workspace for `particles` particles.
+    /// Resizes the columns to `particles` particles.
     pub fn resize(&mut self, particles: usize) {
         self.mean.resize(particles, Vector::zeros());
         self.second.resize(particles, Matrix::zeros());
     }
 
-    /// What is kept.
+    /// Columns for the checkpoint.
     pub(in crate::mpm) fn columns(&self) -> [Column; 2] {
         [Column::of_particles("mean", &self.mean), Column::of_particles("D", &self.second)]
     }
@@ -45,8 +45,8 @@ pub(in crate::mpm) struct InertiaTensor<const D: usize> {
 }
 
 impl<const D: usize> InertiaTensor<D> {
-    /// Of weights that are products of functions of one coordinate each, by mean and variance along
-    /// each axis: D_p is diagonal.
+    /// Of products of one-dimensional functions, from mean and variance along each axis: D_p is
+    /// diagonal.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal((mean, variance): ([f64; D], [f64; D])) -> Self {
         let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
@@ -57,7 +57,7 @@ impl<const D: usize> InertiaTensor<D> {
         inertia
     }
 
-    /// Of any weights.
+    /// Of general weights.
     #[inline(always)]
     pub(in crate::mpm) fn full(weight_moments: &WeightMoments<D>) -> Self {
         let mean = weight_moments.first;

@@ -1,4 +1,4 @@
-//! From particles to nodes: mass, momentum and internal force in one visit.
+//! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
 
 use super::{
     batch::{Batch, ParticleBatches},
@@ -15,20 +15,20 @@ use crate::mpm::{
 };
 use std::{marker::PhantomData, ops::Range};
 
-/// Maps what `request` says to the nodes of two packed fields: momentum with mass in the last lane, and
-/// force; of one where [`has_one_field`] says so.
+/// Pass of P2G to two packed fields: momentum with mass in the last lane, and force; or to one
+/// field that holds all ([`has_one_field`]).
 pub(in crate::mpm) struct Scatter<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
-    /// The particles that give.
-    pub(in crate::mpm) these: Range<usize>,
+    /// Particles of the pass.
+    pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: &'a P2gRequest<'a, D>,
     pub(in crate::mpm) fields: [FieldViewMut<'a>; 2],
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether momentum, force and mass stand in one field, if they fit, and the nodes are visited once:
-/// the force follows the momentum there.
+/// Whether one packed field holds momentum, force (in this order) and mass (in the last lane), so
+/// that nodes are visited once: in 1-D.
 pub(in crate::mpm) fn has_one_field<const D: usize>(
     particles: &Particles<D>,
     request: &P2gRequest<'_, D>,
@@ -37,7 +37,7 @@ pub(in crate::mpm) fn has_one_field<const D: usize>(
     2 * D < LANES && request.momentum.is_some() && by_gradient
 }
 
-/// The columns of a matrix, as fours, from lane `from` on.
+/// Columns of a matrix, each in a register from lane `from` on.
 #[inline(always)]
 fn columns<S: Simd, const D: usize>(simd: S, matrix: &Matrix<D>, from: usize) -> [S::F64x4; D] {
     array(simd.load([0.0; 4]), |axis| {
@@ -49,7 +49,7 @@ fn columns<S: Simd, const D: usize>(simd: S, matrix: &Matrix<D>, from: usize) ->
     })
 }
 
-/// Momentum and mass of a particle, as a four.
+/// Momentum and, in the last lane, mass of a particle.
 #[inline(always)]
 fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4 {
     let mut lanes = [0.0, 0.0, 0.0, 1.0];
@@ -59,8 +59,8 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
     simd.load(lanes) * m
 }
 
-/// `matrix D_p^-1`, as fours: D_p is that of the patch of this lane, if it has all nodes that the
-/// particle sees, or of all its patches.
+/// Columns of `matrix D_p^-1`, with the inertia tensor of all patches of the particle, or without
+/// it that of its only patch.
 #[inline(always)]
 fn divide<B: Basis, S: Simd, const D: usize>(
     (simd, patches, lane): (S, &Batch<B, D>, usize),
@@ -210,7 +210,7 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
         let Self { grid, particles, request, .. } = self;
-        let these = std::mem::take(&mut self.these);
+        let range = std::mem::take(&mut self.range);
         let is_affine = request.momentum.is_some_and(|shown| shown.affine.is_some())
             || request.force == Some(Divergence::Fit);
         let wants_inertia = request.mass || request.momentum.is_some();
@@ -220,7 +220,7 @@ impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
         let slopes = request.force == Some(Divergence::Gradient);
         let needs = WeightNeeds { slopes, offsets: is_affine };
         let batches = ParticleBatches::<B, D>::new((grid, layout), particles, needs);
-        for first in these.step_by(BATCH) {
+        for first in range.step_by(BATCH) {
             batches.visit(
                 simd,
                 first,

@@ -1,4 +1,4 @@
-//! Particles that take from nodes, shared by par_split among threads: none waits for another.
+//! Particles of G2P split among threads.
 
 use super::request::G2pRequest;
 use crate::mpm::{
@@ -7,11 +7,11 @@ use crate::mpm::{
 };
 use std::ops::Range;
 
-/// Particles that are not worth a thread of their own.
+/// Most particles for one thread.
 const FEW: usize = 1 << 14;
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// What the first `count` particles take, and what the others do.
+    /// Requests for the first `count` particles and for the others.
     fn split_at(self, count: usize) -> (Self, Self) {
         let Self { change, mix, .. } = self;
         let value = split(self.value, count);
@@ -34,20 +34,20 @@ impl<const D: usize> G2pRequest<'_, D> {
     }
 }
 
-/// Runs `work` for parts of `these` particles, each with the targets of its particles.
+/// Runs `work` for parts of `range`, each with the request for its particles.
 pub(in crate::mpm) fn par_split<const D: usize>(
-    these: Range<usize>,
-    takes: G2pRequest<'_, D>,
+    range: Range<usize>,
+    request: G2pRequest<'_, D>,
     work: &(dyn Fn(Range<usize>, G2pRequest<'_, D>) + Sync),
 ) {
-    if these.len() <= FEW {
-        return work(these, takes);
+    if range.len() <= FEW {
+        return work(range, request);
     }
-    let first = (these.len() / 2).next_multiple_of(BATCH);
-    let middle = these.start + first;
-    let (left, right) = takes.split_at(first);
+    let first = (range.len() / 2).next_multiple_of(BATCH);
+    let middle = range.start + first;
+    let (left, right) = request.split_at(first);
     join(
-        || par_split(these.start..middle, left, work),
-        || par_split(middle..these.end, right, work),
+        || par_split(range.start..middle, left, work),
+        || par_split(middle..range.end, right, work),
     );
 }

@@ -1,8 +1,8 @@
-//! The work on blocks of particles, shared among threads.
+//! Two-colour schedule of P2G on threads.
 //!
-//! The white blocks and the black ones between them make a tree: a black block comes after both its
-//! neighbours, whatever thread they were on, and no other block sees its nodes. What no block to come will add to is
-//! unpacked at once, while it is near.
+//! Even blocks and the odd ones between them form a binary tree of joins: an odd block runs after
+//! both its neighbours, on any thread, and no other block has its nodes. Layers to which no later
+//! block adds are unpacked at once, while they are in the cache.
 
 use super::colouring::ParticleBlock;
 use crate::mpm::{
@@ -12,7 +12,7 @@ use crate::mpm::{
 };
 use std::ops::Range;
 
-/// Nodes that are mapped to: two packed fields, and the columns that they are unpacked to.
+/// Target of P2G: two packed fields, and the columns to which they are unpacked.
 #[derive(Debug)]
 pub(in crate::mpm) struct Target<'a, const D: usize> {
     pub(in crate::mpm) fields: [FieldViewMut<'a>; 2],
@@ -25,7 +25,7 @@ impl<const D: usize> Target<'_, D> {
         Target { fields, columns: self.columns.reborrow() }
     }
 
-    /// The nodes before `layer`, and those from there on.
+    /// Nodes before `layer`, and nodes from there on.
     fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let [a, b] = self.fields.map(|field| field.split_at::<D>(layer));
         let columns = self.columns.split_at(grid, layer);
@@ -39,16 +39,17 @@ impl<const D: usize> Target<'_, D> {
 /// Adds a block of particles to fields that hold its nodes.
 type Add<'a> = dyn Fn(&ParticleBlock, [FieldViewMut<'_>; 2]) + Sync + 'a;
 
-/// Clears the nodes of `target`, calls `add` for all blocks, each with fields that hold its nodes, and
-/// unpacks what they leave. Black block k stands between the white blocks k and k + 1, the last one after all.
+/// Clears `target`, calls `add` for all blocks, each with fields that hold its nodes, and unpacks
+/// the sums. Two-colour schedule: odd block k runs after even blocks k and k + 1, which it shares
+/// nodes with.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize>(
     grid: &Grid<D>,
-    [white, black]: [&[ParticleBlock]; 2],
+    [even, odd]: [&[ParticleBlock]; 2],
     target: Target<'_, D>,
     add: &Add<'_>,
 ) {
-    let (between, last) = black.split_at(black.len().min(white.len().saturating_sub(1)));
-    Schedule { grid, add }.tree(0..layers(grid).end, [white, between, last], target);
+    let (between, last) = odd.split_at(odd.len().min(even.len().saturating_sub(1)));
+    Schedule { grid, add }.tree(0..layers(grid).end, [even, between, last], target);
 }
 
 struct Schedule<'a, const D: usize> {
@@ -57,41 +58,41 @@ struct Schedule<'a, const D: usize> {
 }
 
 impl<const D: usize> Schedule<'_, D> {
-    /// White blocks, those between them, and perhaps one after the last. The layers in `own` are seen by none but
-    /// these.
+    /// Even blocks, the odd ones between them, and perhaps one after the last. No other block adds
+    /// to the layers in `own`.
     fn tree(
         &self,
         own: Range<usize>,
-        [white, black, last]: [&[ParticleBlock]; 3],
+        [even, odd, last]: [&[ParticleBlock]; 3],
         mut target: Target<'_, D>,
     ) {
         let end = last.first().map_or(own.end, |last| last.layers.start);
-        let middle = white.len() / 2;
-        let (between, seen) = if middle == 0 {
+        let middle = even.len() / 2;
+        let (between, done) = if middle == 0 {
             target.fields.iter_mut().for_each(FieldViewMut::clear);
-            (white, own.start..end)
+            (even, own.start..end)
         } else {
-            let (layer, between) = (white[middle].layers.start, &black[middle - 1..middle]);
-            let seen = between[0].layers.start..layer.max(between[0].layers.end);
+            let (layer, between) = (even[middle].layers.start, &odd[middle - 1..middle]);
+            let done = between[0].layers.start..layer.max(between[0].layers.end);
             let (low, high) = target.reborrow().split_at(self.grid, layer);
-            let left = [&white[..middle], &black[..middle - 1], &[]];
-            let right = [&white[middle..], &black[middle..], &[]];
+            let left = [&even[..middle], &odd[..middle - 1], &[]];
+            let right = [&even[middle..], &odd[middle..], &[]];
             join(
-                || self.tree(own.start..seen.start, left, low),
-                || self.tree(seen.end..end, right, high),
+                || self.tree(own.start..done.start, left, low),
+                || self.tree(done.end..end, right, high),
             );
-            (between, seen)
+            (between, done)
         };
         if middle == 0 || last.is_empty() {
-            self.add(between, seen, target.reborrow());
+            self.add(between, done, target.reborrow());
             return self.add(last, end..own.end, target);
         }
-        // Two of a colour: at once.
+        // Two odd blocks: at once.
         let (low, high) = target.split_at(self.grid, end);
-        join(|| self.add(between, seen, low), || self.add(last, end..own.end, high));
+        join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
 
-    /// Adds a block, if there is one, and unpacks layers to which no other one will add.
+    /// Adds a block, if there is one, and unpacks `done`, the layers to which no later block adds.
     fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D>) {
         if let [block] = block {
             (self.add)(block, target.reborrow().fields);

@@ -1,11 +1,10 @@
-//! The passes that carry a scalar between particles and nodes, such as a temperature.
+//! Passes of a scalar, such as a temperature, between particles and nodes.
 
 use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
 
 /// Passes of P2G and G2P for scalars, of one basis.
 pub trait Scalars<const D: usize> {
-    /// `column_i = sum_p m_p (s_p + slope_p . (x_i - x_p)) N_i(x_p)`: a scalar s with its slope, as
-    /// particles show it to the nodes.
+    /// `column_i = sum_p m_p (s_p + slope_p . (x_i - x_p)) N_i(x_p)`: a scalar s with its slope.
     fn p2g_scalar(
         &self,
         particles: &Particles<D>,
@@ -14,7 +13,7 @@ pub trait Scalars<const D: usize> {
         column: &mut [f64],
     );
 
-    /// `column_i = factor sum_p V_p slope_p . grad N_i(x_p)`: what flows to the nodes along a slope.
+    /// `column_i = factor sum_p V_p slope_p . grad N_i(x_p)`: flow to the nodes along a slope.
     fn p2g_flow(
         &self,
         particles: &Particles<D>,
@@ -23,7 +22,7 @@ pub trait Scalars<const D: usize> {
         column: &mut [f64],
     );
 
-    /// Adds `amount`, which belongs to particle `p`, to the nodes that the particle sees.
+    /// Adds `amount N_i(x_p)` of particle `p` to its nodes.
     fn p2g_amount(
         &self,
         particles: &Particles<D>,

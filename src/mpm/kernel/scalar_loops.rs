@@ -1,4 +1,4 @@
-//! The particle-node loops of scalars, beside those of vectors and tensors.
+//! Loops of P2G and G2P for scalars.
 
 use super::{Loops, scalar_contract::Scalars};
 use crate::mpm::{algebra::Vector, basis::Basis, grid::Grid, particles::Particles};

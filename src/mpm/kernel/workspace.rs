@@ -1,4 +1,4 @@
-//! The two ways between particles and nodes, each a pass that threads may share, and what these keep.
+//! P2G and G2P on threads, and the memory that they keep.
 
 use super::{
     colouring::{Blocks, ParticleBlock},
@@ -18,15 +18,15 @@ use crate::mpm::{
 };
 use std::marker::PhantomData;
 
-/// What a pass needs besides particles and grid.
+/// Memory of a pass besides particles and grid.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Workspace {
-    /// Two fields of nodes, packed.
+    /// Two packed fields of nodes.
     fields: [PackedField; 2],
     pub(in crate::mpm) blocks: Blocks,
 }
 
-/// Those of two fields that are wanted, in the shape of `grid`; nothing in place of the others.
+/// Views of the wanted fields, in the shape of `grid`, empty for the others.
 fn views<'a, const D: usize>(
     fields: &'a mut [PackedField; 2],
     grid: &Grid<D>,
@@ -39,7 +39,7 @@ fn views<'a, const D: usize>(
     })
 }
 
-/// Packs velocities, and accelerations too if they are wanted.
+/// Packs velocities and, if wanted, accelerations.
 pub(in crate::mpm) fn pack<const D: usize>(
     [first, second]: &mut [PackedField; 2],
     grid: &Grid<D>,
@@ -54,31 +54,31 @@ pub(in crate::mpm) fn pack<const D: usize>(
 }
 
 impl Workspace {
-    /// What `maps` says, into `columns`.
+    /// P2G of all parts of `request` into `columns`.
     pub(in crate::mpm) fn scatter<B: Basis, const D: usize>(
         &mut self,
         particles: &Particles<D>,
-        maps: &P2gRequest<'_, D>,
+        request: &P2gRequest<'_, D>,
         grid: &Grid<D>,
         mut columns: Columns<'_, D>,
     ) {
         let Self { fields, blocks } = self;
         blocks.cut::<B, D>(grid, particles);
-        columns.is_one_field = has_one_field(particles, maps);
-        let wants_inertia = maps.mass || maps.momentum.is_some();
-        let wanted = [wants_inertia, maps.force.is_some() && !columns.is_one_field];
+        columns.is_one_field = has_one_field(particles, request);
+        let wants_inertia = request.mass || request.momentum.is_some();
+        let wanted = [wants_inertia, request.force.is_some() && !columns.is_one_field];
         let add = |block: &ParticleBlock, fields: [FieldViewMut<'_>; 2]| {
-            let these = block.particles.clone();
+            let range = block.particles.clone();
             simd::run(Scatter::<D, B> {
                 grid,
                 particles,
-                these,
-                request: maps,
+                range,
+                request,
                 fields,
                 basis: PhantomData,
             });
         };
-        // What lies beyond a seam must come back before anything is unpacked.
+        // Sums beyond a periodic end must be folded back before anything is unpacked.
         let (at_once, after) = if grid.periodic.contains(&true) {
             (None, Some(columns))
         } else {
@@ -99,19 +99,26 @@ impl Workspace {
         columns.unpack_all(grid, &views(fields, grid, wanted));
     }
 
-    /// What `takes` says, from `field` in place of the velocities of nodes.
+    /// G2P of all parts of `request`, with `field` for the velocities of nodes.
     pub(in crate::mpm) fn gather<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,
         particles: &Particles<D>,
         field: &[Vector<D>],
-        takes: G2pRequest<'_, D>,
+        request: G2pRequest<'_, D>,
     ) {
         let fields = &mut self.fields;
-        pack(fields, grid, field, takes.change.is_some());
+        pack(fields, grid, field, request.change.is_some());
         let fields = fields.each_ref().map(PackedField::view);
-        par_split(0..particles.len(), takes, &|these, takes| {
-            simd::run(Gather::<D, B> { grid, particles, these, takes, fields, basis: PhantomData });
+        par_split(0..particles.len(), request, &|range, request| {
+            simd::run(Gather::<D, B> {
+                grid,
+                particles,
+                range,
+                request,
+                fields,
+                basis: PhantomData,
+            });
         });
     }
 }

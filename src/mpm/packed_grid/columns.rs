@@ -1,4 +1,4 @@
-//! Columns of nodes, into which packed fields are unpacked.
+//! Columns of nodes to which packed fields are unpacked.
 
 use super::{FEW, MARGIN, view::FieldViewMut};
 use crate::mpm::{
@@ -9,21 +9,21 @@ use crate::mpm::{
 };
 use std::ops::Range;
 
-/// Nodes of a row where a grid has one row only: they are still near when the next column is written.
+/// Nodes of a piece of a 1-D grid, few enough to stay in the cache for all columns.
 const PIECE: usize = 1 << 9;
 
-/// What is unpacked from two fields: all nodes, or those of some layers across the last axis.
+/// Targets of unpacking two fields: all nodes, or those of some layers across the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
     /// From the last lane of the first field.
     pub(in crate::mpm) mass: Option<&'a mut [f64]>,
     /// From the first field.
     pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
-    /// From the second field, or where there is but one, from what follows the momentum.
+    /// From the second field, or from the lanes after the momentum where there is one field.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
-    /// Whether all stands in one field.
+    /// Whether one field holds all.
     pub(in crate::mpm) is_one_field: bool,
-    /// Nodes of the grid that come before the first one at hand.
+    /// Nodes of the grid before the first one of these columns.
     pub(in crate::mpm) before: usize,
 }
 
@@ -46,7 +46,7 @@ impl<const D: usize> Columns<'_, D> {
         Columns { mass, momentum, force, is_one_field: *is_one_field, before: *before }
     }
 
-    /// The nodes before `layer` of the grid, and those from there on.
+    /// Nodes before `layer` of the grid, and nodes from there on.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let Self { is_one_field, before, .. } = self;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
@@ -62,7 +62,7 @@ impl<const D: usize> Columns<'_, D> {
         )
     }
 
-    /// Unpacks these layers, which are at hand.
+    /// Unpacks these layers, which must be part of the columns.
     pub(in crate::mpm) fn unpack(
         &mut self,
         grid: &Grid<D>,
@@ -88,7 +88,7 @@ impl<const D: usize> Columns<'_, D> {
         }
     }
 
-    /// Unpacks all layers, which threads share.
+    /// Unpacks all layers, on several threads.
     pub(in crate::mpm) fn unpack_all(mut self, grid: &Grid<D>, fields: &[FieldViewMut<'_>; 2]) {
         self.par_split(grid, fields, layers(grid));
     }
@@ -127,7 +127,7 @@ impl<const D: usize> Columns<'_, D> {
         }
         let Some(force) = &mut self.force else { return };
         let column = force[to].iter_mut();
-        // Apart, so that the lane is known where it is compiled.
+        // Two branches, so that the lane is a constant in each.
         if self.is_one_field {
             column.zip(lanes(0)).for_each(|(value, lanes)| *value = components(lanes, D));
         } else {

@@ -1,9 +1,19 @@
-//! Nodal fields as the particle-node loops see them: the components of a node side by side, four to a
-//! node, in rows without a seam.
+//! Nodal fields in the layout of the loops of P2G and G2P.
 //!
-//! A periodic axis goes on beyond its last node: its first nodes stand there once more, so that what
-//! a particle sees is always a box of neighbours. All axes are longer by [`MARGIN`], also where
-//! nothing goes on: functions of weight zero may stand there.
+//! ```text
+//! node (32 bytes)     lane 0   lane 1   lane 2   lane 3
+//!   P2G 1-D              p_x      f_x        -        m     all in one field
+//!   P2G 2-D              p_x      p_y        -        m     and a second field for f
+//!   P2G 3-D              p_x      p_y      p_z        m     and a second field for f
+//!   G2P 1-D              v_x      a_x        -        -
+//!   G2P 2-D              v_x      v_y      a_x      a_y
+//!   G2P 3-D              v_x      v_y      v_z        -     and a second field for a
+//!
+//! row     | node 0 | node 1 | ... | node n-1 | MARGIN nodes |     x fastest, then y, then z
+//! ```
+//!
+//! The margin of a periodic axis repeats its first nodes, so that a patch is always a box of
+//! neighbours. Elsewhere it is zero: functions of weight zero may belong to it.
 
 mod columns;
 mod view;
@@ -13,13 +23,13 @@ pub(in crate::mpm) use view::{FieldView, FieldViewMut, Layout, MARGIN, PackedNod
 
 use super::{algebra::Vector, grid::Grid, threads::RowChunks};
 
-/// Nodes that are not worth a thread of their own.
+/// Most nodes for one thread.
 const FEW: usize = 1 << 14;
 
-/// Nodes of a piece where a grid has one row only.
+/// Nodes of a piece of a 1-D grid.
 const PIECE: usize = 1 << 12;
 
-/// A field of nodes.
+/// Packed field of nodes.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct PackedField {
     nodes: Vec<PackedNode>,
@@ -31,14 +41,14 @@ fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
 
-/// A vector in four lanes.
+/// Vector in the first lanes of a node.
 #[inline(always)]
 fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
     std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
 }
 
 impl PackedField {
-    /// The field in the shape of `grid`, whatever stands there yet.
+    /// The field in the shape of `grid`, with undefined values.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_> {
         let layout = Layout::of(grid);
         self.nodes.resize(layout.strides[3], PackedNode::default());
@@ -46,13 +56,12 @@ impl PackedField {
         FieldViewMut { nodes: &mut self.nodes, layout }
     }
 
-    /// The field, to be read.
+    /// Shared view of the field.
     pub(in crate::mpm) fn view(&self) -> FieldView<'_> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
 
-    /// Takes over a field of vectors, and perhaps another one, whose numbers then stand `beside` those
-    /// of the first.
+    /// Packs a field of vectors and, in the lanes `beside` it, perhaps another one.
     pub(in crate::mpm) fn pack<const D: usize>(
         &mut self,
         grid: &Grid<D>,
@@ -80,7 +89,7 @@ impl PackedField {
             } else {
                 values.for_each(|(PackedNode(here), value)| *here = lanes(value));
             }
-            // A function of weight zero may stand here, and must not meet what an earlier pass left.
+            // Functions of weight zero may belong here: no NaN of an earlier pass may remain.
             beyond.fill(PackedNode::default());
         });
         for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
@@ -90,7 +99,7 @@ impl PackedField {
         }
     }
 
-    /// Adds what lies beyond the ends of periodic axes to the nodes that it belongs to.
+    /// Adds the margins of periodic axes to the nodes that they repeat.
     pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
         for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {
@@ -102,7 +111,7 @@ impl PackedField {
         }
     }
 
-    /// The nodes beyond the end of `axis`, each with the one that it is.
+    /// Nodes of the margin of a periodic `axis`, each with the node that it repeats.
     fn seam<const D: usize>(
         &self,
         grid: &Grid<D>,
@@ -130,8 +139,8 @@ mod tests {
     }
 
     proptest! {
-        /// Every place of the packed field stands for one node of the grid: what is put there is
-        /// read back there, and what is left there is found there.
+        /// Every place of the packed field stands for one node of the grid: packing writes the
+        /// value of that node there, and folding adds it back.
         #[test]
         fn packing_and_folding_are_transposes(
             counts in [1_usize..6, 1..6],

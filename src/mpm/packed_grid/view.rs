@@ -1,26 +1,26 @@
-//! PackedField fields as loops see them: all of a field, or a stretch of it.
+//! Views of packed fields: all of a field, or consecutive layers of it.
 
 use crate::mpm::grid::Grid;
 
-/// Nodes by which an axis is longer: one fewer than the functions that a patch has along an axis.
+/// Additional nodes of an axis: one fewer than the functions of a patch along it.
 pub(in crate::mpm) const MARGIN: usize = 3;
 
-/// One node: four numbers that share a cache line.
+/// Node of a packed field: four numbers in one cache line.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(in crate::mpm) struct PackedNode(pub(in crate::mpm) [f64; 4]);
 
-/// Where nodes are in a packed field.
+/// Positions of nodes in a packed field.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Layout {
-    /// Distance of neighbours along each axis, and at last the number of nodes.
+    /// Distance of neighbours along each axis, then the number of nodes.
     pub(in crate::mpm) strides: [usize; 4],
-    /// Nodes of the field that come before the first one at hand.
+    /// Nodes of the field before the first one of the view.
     pub(in crate::mpm) before: usize,
 }
 
 impl Layout {
-    /// That of a field on `grid`.
+    /// Layout of a field on `grid`.
     pub(in crate::mpm) fn of<const D: usize>(grid: &Grid<D>) -> Self {
         let mut strides = [1; 4];
         for axis in 0..3 {
@@ -30,8 +30,7 @@ impl Layout {
         Self { strides, before: 0 }
     }
 
-    /// Number of the node with these indices among those at hand. One that is not has a number
-    /// beyond any.
+    /// Position of the node with these indices in the view; beyond its end for a node before it.
     #[inline(always)]
     pub(in crate::mpm) fn number<const D: usize>(&self, index: &[usize; D]) -> usize {
         let mut number = index[0];
@@ -41,21 +40,21 @@ impl Layout {
         number.wrapping_sub(self.before)
     }
 
-    /// How far row `j` of plane `k` is from the first row.
+    /// Distance of row `j` of plane `k` from the first row.
     #[inline(always)]
     pub(in crate::mpm) fn row(&self, j: usize, k: usize) -> usize {
         j * self.strides[1] + k * self.strides[2]
     }
 }
 
-/// A field as a loop reads it.
+/// Field that a loop reads.
 #[derive(Debug, Clone, Copy)]
 pub struct FieldView<'a> {
     pub(in crate::mpm) nodes: &'a [PackedNode],
     pub(in crate::mpm) layout: Layout,
 }
 
-/// A field, or a stretch of it, as a loop adds to it.
+/// Field, or consecutive layers of it, to which a loop adds.
 #[derive(Debug)]
 pub struct FieldViewMut<'a> {
     pub(in crate::mpm) nodes: &'a mut [PackedNode],
@@ -71,12 +70,12 @@ impl FieldView<'_> {
 }
 
 impl FieldViewMut<'_> {
-    /// No field.
+    /// Empty view.
     pub(in crate::mpm) fn none() -> Self {
         Self { nodes: &mut [], layout: Layout::default() }
     }
 
-    /// The same field.
+    /// Reborrowed view.
     #[inline(always)]
     pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_> {
         FieldViewMut { nodes: self.nodes, layout: self.layout }
@@ -93,7 +92,7 @@ impl FieldViewMut<'_> {
         self.nodes.fill(PackedNode::default());
     }
 
-    /// The nodes before a layer across the last of D axes, and those from there on.
+    /// Nodes before a layer across the last of D axes, and nodes from there on.
     pub(in crate::mpm) fn split_at<const D: usize>(self, layer: usize) -> (Self, Self) {
         let Self { nodes, layout } = self;
         let before = layout.before.max(layer * layout.strides[D - 1]);
