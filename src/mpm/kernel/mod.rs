@@ -5,7 +5,7 @@
 //!                  | one patch after another
 //! patch        K^D nodes   . x x x .                p2g.rs: particle -> x   g2p.rs: x -> particle
 //! (K = 3, 2-D)             . x x x .                one register holds the components of a node
-//!                          . x x x .                in rows and planes: K nodes of a row are neighbours
+//!                          . x x x .                K nodes of a row are neighbours in memory
 //!                  |
 //! grid         packed_grid: four numbers a node, packed before a pass, unpacked after it
 //!
