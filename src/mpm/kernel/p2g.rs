@@ -33,7 +33,8 @@ pub(in crate::mpm) fn has_one_field<const D: usize>(
     particles: &Particles<D>,
     request: &P2gRequest<'_, D>,
 ) -> bool {
-    let by_gradient = request.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
+    let by_gradient =
+        request.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
     2 * D < LANES && request.momentum.is_some() && by_gradient
 }
 
