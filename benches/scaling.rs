@@ -18,7 +18,7 @@ mod scene;
 use clock::shortest;
 use mpm_verify::{
     mpm::{BasisName, Grid, Particles, TransferName, Vector},
-    report::figure::{Convergence, Mark, Point, Series},
+    report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries},
 };
 use one_thread::one_thread;
 use random::Random;
@@ -38,14 +38,14 @@ fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [
 }
 
 /// Two lines of the figure.
-fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) -> Vec<Series> {
+fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) -> Vec<PlotSeries> {
     let name = |pass| format!("{D}d {} {} {pass}", method.0.name(), method.1.name());
-    let mut lines = ["p2g", "g2p"].map(|pass| Series { name: name(pass), points: Vec::new() });
+    let mut lines = ["p2g", "g2p"].map(|pass| PlotSeries { name: name(pass), points: Vec::new() });
     for &count in counts {
         let times = measure::<D>(method, count);
         for (line, time) in lines.iter_mut().zip(times) {
             let h = total::<D>(count) as f64;
-            line.points.push(Point { h, error: time, mark: Mark::Measured });
+            line.points.push(PlotPoint { h, error: time, mark: Mark::Measured });
         }
     }
     for line in &lines {
@@ -113,7 +113,7 @@ fn main() {
         unsorted::<2>(quadratic, count);
         unsorted::<3>(quadratic, count);
     }
-    let figure = Convergence {
+    let figure = ConvergencePlot {
         title: "Cost of a particle".into(),
         x_label: "particles".into(),
         y_label: "time per particle (ns)".into(),

@@ -24,8 +24,8 @@
 //! ```
 //! use mpm_verify::{
 //!     exact::Truth,
-//!     subject::{Census, Failure, Samples, Subject},
-//!     verify::{Claim, Clock, Comparison, Level, Verdict, judge, run},
+//!     subject::{Failure, RunCounters, Samples, Subject},
+//!     verify::{Clock, Comparison, Level, OrderHypothesis, Verdict, judge, run},
 //! };
 //!
 //! const W: f64 = 3.0;
@@ -50,27 +50,28 @@
 //!         samples.weight.push(1.0);
 //!     }
 //!
-//!     fn census(&self) -> Census {
-//!         let none = None;
-//!         Census { particles: none, transfers: self.steps, crossings: none, left_domain: none, min_j: 1.0 }
+//!     fn counters(&self) -> RunCounters {
+//!         let (particles, crossings, left_domain) = (None, None, None);
+//!         RunCounters { particles, transfers: self.steps, crossings, left_domain, min_j: 1.0 }
 //!     }
 //! }
 //!
 //! struct Sine;
 //!
 //! impl Truth for Sine {
-//!     fn displacement(&self, _: &[f64], t: f64, into: &mut [f64]) { into[0] = libm::sin(W * t) / W; }
-//!     fn velocity(&self, _: &[f64], t: f64, into: &mut [f64]) { into[0] = libm::cos(W * t); }
+//!     fn displacement(&self, _: &[f64], t: f64, u: &mut [f64]) { u[0] = libm::sin(W * t) / W; }
+//!     fn velocity(&self, _: &[f64], t: f64, v: &mut [f64]) { v[0] = libm::cos(W * t); }
 //! }
 //!
 //! let levels: Vec<Level> = [0.1, 0.05, 0.025, 0.0125]
 //!     .map(|dt| {
 //!         let mut subject = Leapfrog { u: 0.0, v: 1.0, steps: 0 };
 //!         let clock = Clock::new(1.0, dt, 10).expect("a usable step");
-//!         Level::new(clock.dt(), run(&mut subject, &Sine, &clock, &Comparison::default()).errors.rms)
+//!         let found = run(&mut subject, &Sine, &clock, &Comparison::default());
+//!         Level::new(clock.dt(), found.errors.rms)
 //!     })
 //!     .into();
-//! let found = judge(&levels, &Claim::formal(2.0));
+//! let found = judge(&levels, &OrderHypothesis::formal(2.0));
 //! assert_eq!(found.verdict, Verdict::Converging, "{}", found.reason);
 //! ```
 

@@ -26,8 +26,8 @@ pub(super) enum Command {
     /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
     /// memory), and what is expected
     Explain(ExplainArgs),
-    /// Measure what accuracy costs: error against work and seconds, the cheapest method for an error,
-    /// and the most accurate setting within a budget
+    /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
+    /// error, and the most accurate setting within a budget
     Cost(CostArgs),
     /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
     /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
@@ -59,7 +59,7 @@ pub(super) struct CompareArgs {
     /// JSON of the run after
     #[arg(value_name = "NEW.json")]
     pub(super) new: PathBuf,
-    /// What to print
+    /// Format of the output
     #[arg(long, value_enum, default_value_t = Page::Text)]
     pub(super) format: Page,
     /// Largest relative change of a figure that counts as none
@@ -79,7 +79,7 @@ pub(super) enum Page {
 pub(super) struct RunArgs {
     #[command(flatten)]
     pub(super) targets: Targets,
-    /// What to print
+    /// Format of the output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(super) format: Format,
     /// Print the table of verdicts only, not the reports
@@ -123,8 +123,8 @@ pub(super) struct CostArgs {
     /// Vary more than what suites refine, and say which split is best
     #[arg(long, value_enum, value_delimiter = ',', value_name = "WHAT")]
     pub(super) over: Vec<Vary>,
-    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`, `500ms`,
-    /// `2min`
+    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
+    /// `500ms`, `2min`
     #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with_all = ["over", "figures"])]
     pub(super) budget: Option<f64>,
     /// Print one JSON document

@@ -8,13 +8,14 @@ use super::{
 use mpm_verify::{
     report::{
         compare,
-        compare::{Document, Unreadable},
+        compare::{ReportDocument, Unreadable},
     },
     suite::yaml::Diagnostic,
 };
 use std::{fs, ops::Range, path::Path};
 
-/// Prints what moved between two runs. Both files are read first: who has two bad ones learns of both.
+/// Prints what moved between two runs. Both files are read first: who has two bad ones learns of
+/// both.
 pub(super) fn compare(args: &CompareArgs) -> u8 {
     let tolerance = args.tolerance;
     if !(tolerance.is_finite() && tolerance >= 0.0) {
@@ -39,13 +40,13 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
     if found.is_worse() { FAILED } else { PASSED }
 }
 
-fn document(path: &Path) -> Result<Document, Diagnostic> {
+fn document(path: &Path) -> Result<ReportDocument, Diagnostic> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|error| {
         let message = format!("this file cannot be read: {error}");
         Diagnostic::about(&file, &message)
     })?;
-    Document::read(&text).map_err(|unreadable| {
+    ReportDocument::read(&text).map_err(|unreadable| {
         let Unreadable { message, place } = unreadable;
         let diagnostic = match place {
             Some(place) => Diagnostic::at(&file, &text, bytes(&text, place), &message),

@@ -10,7 +10,7 @@ use mpm_verify::{
     report,
     study::cost::{Over, bid, price, variants},
     suite::{ConvergencePlan, Extent, Suite},
-    verify::{Bid, TimedSuite},
+    verify::{BestCandidate, TimedSuite},
 };
 use std::{fs, path::Path};
 
@@ -37,7 +37,7 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
 
 /// The most accurate setting of each suite within the budget.
 fn bids(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
-    let mut found: Vec<(String, Bid)> = Vec::new();
+    let mut found: Vec<(String, BestCandidate)> = Vec::new();
     let mut code = PASSED;
     for suite in suites {
         match bid(suite, budget) {
@@ -54,7 +54,7 @@ fn bids(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
         }
     }
     if args.json {
-        output::print(&report::priced_json(&[], &found));
+        output::print(&report::timed_json(&[], &found));
     }
     code
 }
@@ -65,18 +65,18 @@ fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = PASSED;
     for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
-        let priced = one(suite, &over, args);
+        let timed = one(suite, &over, args);
         if !args.json {
-            output::print(&format!("{}\n", report::priced(&priced, !over.is_empty())));
+            output::print(&format!("{}\n", report::timed(&timed, !over.is_empty())));
         }
-        if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &priced)) {
+        if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &timed)) {
             output::complain(&error);
             code = BAD_INPUT;
         }
-        all.push(priced);
+        all.push(timed);
     }
     if args.json {
-        output::print(&report::priced_json(&all, &[]));
+        output::print(&report::timed_json(&all, &[]));
     }
     code
 }
@@ -95,9 +95,9 @@ fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> TimedSuite {
         bar.set_style(style);
     }
     bar.set_message(suite.name.clone());
-    let priced = price(suite, &variants, extent, &|| bar.inc(1));
+    let timed = price(suite, &variants, extent, &|| bar.inc(1));
     bar.finish_and_clear();
-    priced
+    timed
 }
 
 fn varied(what: Vary) -> Over {
@@ -108,12 +108,12 @@ fn varied(what: Vary) -> Over {
     }
 }
 
-fn draw(folder: &Path, priced: &TimedSuite) -> Result<(), String> {
-    let (suite, title) = (&priced.outcome.suite, &priced.outcome.title);
+fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), String> {
+    let (suite, title) = (&timed.outcome.suite, &timed.outcome.title);
     let seconds = "seconds of the steps, one thread";
     let transfers = "particle-node transfers";
-    let mut figures = report::cost_figures(suite, title, &priced.by_seconds(), seconds, "seconds");
-    let counted = priced.by_transfers();
+    let mut figures = report::cost_figures(suite, title, &timed.by_seconds(), seconds, "seconds");
+    let counted = timed.by_transfers();
     figures.extend(report::cost_figures(suite, title, &counted, transfers, "transfers"));
     for figure in figures {
         let path = folder.join(&figure.file);

@@ -54,7 +54,7 @@ fn line(key: &str, value: &str) -> String {
     format!("  {key:18}{value}\n")
 }
 
-/// What a step of the case takes, and what it would not without an effect.
+/// Cost of a step of the case, and its difference without an effect.
 fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(all) = study::profile(suite, case, None) else { return String::new() };
     let mut page: String =

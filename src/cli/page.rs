@@ -13,7 +13,8 @@ pub(super) fn prepare(file: &Path) -> Result<(), String> {
     made.map_err(|error| unwritable(file, &error))
 }
 
-/// Writes the page; outcomes are in the order of their sources, without the files that were refused.
+/// Writes the page; outcomes are in the order of their sources, without the files that were
+/// refused.
 pub(super) fn write(
     file: &Path,
     sources: &[Source],
@@ -26,8 +27,8 @@ pub(super) fn write(
     };
     let names: Vec<String> = sources.iter().map(named).collect();
     let parts = sources.iter().zip(&names).zip(outcomes);
-    let parts: Vec<page::Source<'_>> = parts
-        .map(|((source, file), outcome)| page::Source { outcome, file, yaml: source.text() })
+    let parts: Vec<page::SuiteSource<'_>> = parts
+        .map(|((source, file), outcome)| page::SuiteSource { outcome, file, yaml: source.text() })
         .collect();
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable(file, &error))
 }

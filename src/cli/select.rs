@@ -1,4 +1,4 @@
-//! What the user named, as suites.
+//! Suites that the user names.
 
 use mpm_verify::suite::{
     Suite, embedded,

@@ -1,4 +1,4 @@
-//! What the exit status says.
+//! Exit statuses.
 
 /// Everything came as expected; in a comparison, nothing got worse.
 pub(super) const PASSED: u8 = 0;

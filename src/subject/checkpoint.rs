@@ -1,12 +1,14 @@
-//! The state of a subject in the middle of a run, as bytes: written down, and taken back bit by bit.
+//! The state of a subject in the middle of a run, as bytes: written down, and taken back bit by
+//! bit.
 //!
 //! One visit does both ([`Memory::visit`]), so that nothing can be written and not be read again.
 //! Numbers are eight bytes each, the lowest first, whatever the machine; nothing is named. So bytes
-//! mean something to the same program and the same set-up only, and whoever keeps them must see to that.
+//! mean something to the same program and the same set-up only, and whoever keeps them must see to
+//! that.
 
 use super::{Samples, Totals};
 
-/// What a checkpoint can hold.
+/// State that a checkpoint can hold.
 pub trait Memory {
     /// Shows each number to `checkpoint`, which writes it down or replaces it.
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>);
@@ -19,9 +21,9 @@ pub struct Checkpoint<'a>(Way<'a>);
 #[derive(Debug)]
 enum Way<'a> {
     Out(Vec<u8>),
-    /// What is still to be read.
+    /// Bytes that are still to be read.
     In(&'a [u8]),
-    /// What was read is no such state: from here on nothing is replaced.
+    /// Reading has failed: from here on nothing is replaced.
     Misfit,
 }
 
@@ -31,12 +33,12 @@ impl<'a> Checkpoint<'a> {
         Self(Way::Out(Vec::new()))
     }
 
-    /// What [`Checkpoint::into_bytes`] gave, to be taken back by the same visits.
+    /// A checkpoint to be read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
     pub fn of(bytes: &'a [u8]) -> Self {
         Self(Way::In(bytes))
     }
 
-    /// What was written.
+    /// The bytes that were written.
     pub fn into_bytes(self) -> Vec<u8> {
         match self.0 {
             Way::Out(bytes) => bytes,
@@ -44,7 +46,8 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Whether all that was to be read has been, and has fitted. If not, what has been visited is spoilt.
+    /// Whether all that was to be read has been, and has fitted. If not, what has been visited is
+    /// spoilt.
     pub fn is_used_up(&self) -> bool {
         matches!(self.0, Way::In([]))
     }
@@ -54,7 +57,8 @@ impl<'a> Checkpoint<'a> {
         memory.visit(self);
     }
 
-    /// Notes something that setting up gives again: it must be the same when the rest is taken back.
+    /// Notes something that setting up gives again: it must be the same when the rest is taken
+    /// back.
     pub fn same(&mut self, number: usize) {
         let mut found = number as u64;
         self.visit(&mut found);
@@ -63,7 +67,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// What has just been read cannot be.
+    /// Refuses the value that has just been read.
     pub fn refuse(&mut self) {
         self.0 = Way::Misfit;
     }
@@ -257,7 +261,7 @@ mod tests {
             prop_assert_eq!(written(&mut back), bytes);
         }
 
-        /// Whatever is read, the visit ends, and says if it does not fit.
+        /// A visit of any bytes ends, and reports bytes that do not fit.
         #[test]
         fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);

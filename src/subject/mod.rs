@@ -1,9 +1,8 @@
 //! The contract between the judge and the judged.
 //!
-//! Whatever implements [`Subject`] can be put on every level of a refinement plan and held
-//! against the truth: the crate's own MPM and FEM, or a solver of yours. The trait is object-safe
-//! and flat (`f64` slices, no type of this crate's algebra), so that a solver in another language
-//! can stand behind it.
+//! A [`Subject`] can be put on every level of a refinement plan and held against the truth: the
+//! crate's own MPM and FEM, or a solver of yours. The trait is object-safe and flat (`f64` slices,
+//! no type of this crate's algebra), so that a solver in another language can stand behind it.
 
 mod checkpoint;
 mod profile;
@@ -27,7 +26,7 @@ pub trait Subject {
     /// The labels and their order do not change during a run.
     fn sample(&self, samples: &mut Samples);
 
-    /// What the run has cost and met so far.
+    /// Counters of the run so far.
     fn counters(&self) -> RunCounters;
 
     /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
@@ -35,16 +34,17 @@ pub trait Subject {
         None
     }
 
-    /// Shows to `checkpoint` all that the steps to come depend on and that setting up does not give again:
-    /// with it, a subject that was set up alike goes on from here and gives the same bits. False from one
-    /// that cannot.
+    /// Shows to `checkpoint` all that the steps to come depend on and that setting up does not give
+    /// again: with it, a subject that was set up alike goes on from here and gives the same bits.
+    /// False from one that cannot.
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
 
     /// Kinetic energy (J) of the part of the velocities that the discretisation cannot see: of
-    /// particles, the part in the null space of their map to the grid. It may take as much as some tens of
-    /// steps, and is asked for only where a figure wants it; `None` from a subject that does not say.
+    /// particles, the part in the null space of their map to the grid. It may take as much as some
+    /// tens of steps, and is asked for only where a figure wants it; `None` from a subject that
+    /// does not say.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
@@ -70,7 +70,7 @@ pub trait Perturbable: Subject {
 }
 
 named! {
-    /// What the first step makes of the initial velocity `v0`.
+    /// Meaning of the initial velocity `v0` in the first step.
     ///
     /// A step of Euler-Cromer, `v += dt a(u)`, `u += dt v`, is a leapfrog whose velocities are half
     /// a step behind. So the start alone decides the order in time.
@@ -84,7 +84,8 @@ named! {
 }
 
 /// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point. A
-/// subject that has no stress, no F or no temperature leaves that column empty, and cannot be judged by it.
+/// subject that has no stress, no F or no temperature leaves that column empty, and cannot be
+/// judged by it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Samples {
     /// Number of space dimensions, D.

@@ -1,6 +1,6 @@
-//! What a step takes: columns of memory and passes of work.
+//! Cost of a step: columns of memory and passes of work.
 
-/// What a column has an entry for.
+/// Owner of an entry of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holder {
     /// Particles.
@@ -12,9 +12,9 @@ pub enum Holder {
 /// Memory that a subject keeps: one entry for each particle or node, or for some of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
-    /// What it holds.
+    /// Name of the field that it holds.
     pub name: &'static str,
-    /// What it has entries for.
+    /// Owner of an entry.
     pub holder: Holder,
     /// Entries.
     pub entries: usize,
@@ -35,8 +35,7 @@ impl Column {
     }
 }
 
-/// What one step of a subject takes: what it computes and what it keeps, for readers who want to
-/// know what they pay for.
+/// Cost of one step of a subject: the passes that it computes and the memory that it keeps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Profile {
     /// The effects that are active, in their order.
@@ -45,7 +44,7 @@ pub struct Profile {
     pub particles: usize,
     /// Nodes of the grid.
     pub nodes: usize,
-    /// What is kept; no column is empty.
+    /// Memory; no column is empty.
     pub columns: Vec<Column>,
     /// Passes of one step: what a pass computes, and the particles that it visits. A pass that
     /// runs twice counts twice.

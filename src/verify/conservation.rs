@@ -1,4 +1,4 @@
-//! What a motion without outer forces keeps, watched over a run.
+//! Conserved sums of a motion without external forces, over a run.
 //!
 //! A drift is the largest change since t = 0, over the instants, relative to the largest size met:
 //! the total itself for mass and energies, the sum of the magnitudes of its terms for the
@@ -55,9 +55,9 @@ impl Conserved {
 
 /// The relative drift of every sum; NaN if one became NaN or the run failed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Drift([f64; Conserved::ALL.len()]);
+pub struct ConservationError([f64; Conserved::ALL.len()]);
 
-impl Drift {
+impl ConservationError {
     /// Of a run that failed.
     pub const NONE: Self = Self([f64::NAN; Conserved::ALL.len()]);
 
@@ -113,9 +113,9 @@ impl Balance {
     }
 
     /// No change of nothing is no drift.
-    pub(super) fn drift(&self) -> Drift {
+    pub(super) fn drift(&self) -> ConservationError {
         let relative = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
-        Drift(std::array::from_fn(|i| relative(self.change[i], self.size[i])))
+        ConservationError(std::array::from_fn(|i| relative(self.change[i], self.size[i])))
     }
 }
 
@@ -135,7 +135,7 @@ mod tests {
         strain_energy: Some(2.0),
     };
 
-    fn drift(later: &[Option<Totals>]) -> Drift {
+    fn drift(later: &[Option<Totals>]) -> ConservationError {
         let mut balance = Balance::start(START);
         for totals in later {
             balance.look(totals.as_ref());
@@ -198,7 +198,7 @@ mod tests {
         let rest = Totals { strain_energy: Some(0.0), ..Totals::default() };
         let mut balance = Balance::start(rest);
         balance.look(Some(&rest));
-        assert_eq!(balance.drift(), Drift([0.0; Conserved::ALL.len()]));
+        assert_eq!(balance.drift(), ConservationError([0.0; Conserved::ALL.len()]));
         balance.look(Some(&Totals { momentum: [1.0, 0.0, 0.0], ..rest }));
         assert_eq!(balance.drift().of(Conserved::Momentum), f64::INFINITY);
     }
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn nan_is_larger_than_any_drift() {
-        let none = drift(&[]).larger(Drift::NONE);
+        let none = drift(&[]).larger(ConservationError::NONE);
         assert!(Conserved::ALL.iter().all(|&sum| none.of(sum).is_nan()));
     }
 }

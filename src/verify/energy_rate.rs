@@ -1,15 +1,15 @@
 //! How fast the energy of a long run grows or decays, with a confidence interval.
 //!
 //! The energy of a body that swings goes up and down with the period of the swing, so neighbouring
-//! instants are no independent observations, and the interval of a line through all of them would be
-//! a lie. The run is cut into ten parts of equal length instead, ln E is averaged over each (the
-//! method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3), and a line
-//! put through the ten means. Its slope is the rate, d ln E/dt (1/s), and the interval is that of
-//! Student's t. What is claimed: if the parts are long beside a period, and what the line leaves of the
-//! means is independent noise, the interval holds the rate with a probability of 95 %. A drift that is
-//! no straight line counts as noise, and widens it.
+//! instants are no independent observations, and the interval of a line through all of them would
+//! be a lie. The run is cut into ten parts of equal length instead, ln E is averaged over each (the
+//! method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3), and a
+//! line put through the ten means. Its slope is the rate, d ln E/dt (1/s), and the interval is that
+//! of Student's t. What is claimed: if the parts are long beside a period, and what the line leaves
+//! of the means is independent noise, the interval holds the rate with a probability of 95 %. A
+//! drift that is no straight line counts as noise, and widens it.
 
-use super::order::fit::{Interval, Line, Point};
+use super::order::fit::{FittedLine, Interval, LogPoint};
 use crate::subject::Totals;
 
 /// Parts of a run.
@@ -18,8 +18,8 @@ const PARTS: usize = 10;
 /// Least instants in a part.
 const LEAST: usize = 5;
 
-/// The rate of the energy (1/s) of a run, seen at equally spaced instants; `None` if there are fewer
-/// than fifty, or if the energy is not known or not positive throughout.
+/// The rate of the energy (1/s) of a run, seen at equally spaced instants; `None` if there are
+/// fewer than fifty, or if the energy is not known or not positive throughout.
 pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
     let each = account.len() / PARTS;
     if each < LEAST {
@@ -35,9 +35,9 @@ pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
         let (t, y): (Vec<f64>, Vec<f64>) =
             part.iter().map(logarithm).collect::<Option<Vec<_>>>()?.into_iter().unzip();
         let mean = |all: Vec<f64>| all.iter().sum::<f64>() / each as f64;
-        Some(Point { level, x: mean(t), y: mean(y) })
+        Some(LogPoint { level, x: mean(t), y: mean(y) })
     });
-    let rate = Line::through(&means.collect::<Option<Vec<_>>>()?)?.order();
+    let rate = FittedLine::through(&means.collect::<Option<Vec<_>>>()?)?.order();
     (rate.low + rate.high).is_finite().then_some(rate)
 }
 
@@ -67,8 +67,8 @@ mod tests {
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
 
-    /// A swing of a tenth, twenty instants long, moves the rate by next to nothing where parts hold whole
-    /// swings, and widens the interval where they do not.
+    /// A swing of a tenth, twenty instants long, moves the rate by next to nothing where parts hold
+    /// whole swings, and widens the interval where they do not.
     #[test]
     fn a_swing_is_no_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);

@@ -1,26 +1,26 @@
-//! The judge: does an error fall with the order that theory gives, and how sure is that?
+//! The judge: whether an error falls with the order of theory, and how sure that is.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
-//! | [`keeper`](CheckpointStore) | a run that is interrupted and goes on |
-//! | [`conservation`](Drift) | what a free motion keeps, watched over a run |
-//! | [`level`](Level), [`claim`](OrderHypothesis) | what is judged, and against what |
+//! | [`checkpoint_store`](CheckpointStore) | a run that is interrupted and goes on |
+//! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | the errors, and the order to test |
 //! | [`axis`](Axis) | which spacing is refined |
 //! | [`pairwise`](observed_order) | the order between two levels |
-//! | [`fit`](Interval), [`student`](two_sided_95) | the order by regression, with its confidence interval |
+//! | [`fit`](Interval), [`t_quantile`](two_sided_95) | the order by regression, its interval |
 //! | `window` | which levels are asymptotic |
-//! | `shape` | floor, divergence, oscillation |
+//! | `error_trend` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the questions, and the verdict |
 //! | [`floor`](Floor) | whose error a floor is |
 //! | [`richardson`](Richardson) | order and limit from three values |
-//! | [`cost`](Ranking) | what accuracy costs, in transfers or seconds |
-//! | [`stability`](StabilityStudy) | runs watched for growth, the step as a matrix, limits by bisection |
-//! | [`expectation`](Expectation), [`limits`](Limits) | what must come out |
+//! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
+//! | [`stability`](StabilityStudy) | growth in runs, the step as a matrix, limits by bisection |
+//! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
 //!
 //! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
-//! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by absolute numbers, so that no
-//! unit of error or spacing changes a verdict.
+//! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by
+//! absolute numbers, so that no unit of error or spacing changes a verdict.
 
 mod conservation;
 mod cost;
@@ -32,10 +32,10 @@ mod outcome;
 mod stability;
 pub(crate) mod verdict;
 
-pub use conservation::{Conserved, Drift};
+pub use conservation::{ConservationError, Conserved};
 pub use cost::{
-    Agreement, Bid, End, Exponent, Load, Machine, MethodCost, Model, Part, Ranked, Ranking, Reach,
-    Sample, TARGETS, TimedSuite, Timing, pareto_front, rankings,
+    Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model, Ranked,
+    Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Workload, pareto_front, rankings,
 };
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub use error::clock::{Clock, MOST_STEPS};
@@ -45,9 +45,9 @@ pub(crate) use error::norm::larger;
 pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
 pub use error::run::{Comparison, errors, resume, run};
-pub use error::run_result::Run;
+pub use error::run_result::RunResult;
 pub use expectation::limits::{Limits, Measured};
-pub use expectation::{Bounds, Expectation, Seen};
+pub use expectation::{Bounds, CaseFindings, Expectation};
 pub use order::axis::Axis;
 pub use order::fit::Interval;
 pub use order::hypothesis::OrderHypothesis;
@@ -59,8 +59,8 @@ pub use outcome::{
     CaseOutcome, Convergence, ForceRow, InternalForce, LevelOutcome, StudyResults, SuiteOutcome,
 };
 pub use stability::{
-    Critical, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
-    StabilityLimit, StabilityRow, StabilityStudy, Trial, Wanted, amplification, resume_trial,
+    Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
+    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,
     spectral_radius, stability_limit, trial,
 };
 pub use verdict::floor::{Floor, FloorCause, Probe};

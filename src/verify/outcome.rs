@@ -2,8 +2,10 @@
 
 use super::{
     conservation::Conserved,
-    error::{error_scale::ErrorScale, observer::History, quantity::Quantity, run_result::Run},
-    order::{axis::Axis, format_number::figures, richardson::Richardson},
+    error::{
+        error_scale::ErrorScale, observer::History, quantity::Quantity, run_result::RunResult,
+    },
+    order::{axis::Axis, format_number::format_number, richardson::Richardson},
     stability::StabilityStudy,
     verdict::{floor::Floor, judge::Judgement, name::Verdict},
 };
@@ -19,9 +21,9 @@ pub struct SuiteOutcome {
     pub title: String,
     /// Where the problem comes from.
     pub source: String,
-    /// What a reader should know, as the author put it.
+    /// Introduction by the author.
     pub about: String,
-    /// What was computed, as rows of name and value: parameters, scene, exact solution, dt rule.
+    /// The problem as rows of name and value: parameters, scene, exact solution, dt rule.
     pub statement: Vec<(String, String)>,
     /// One outcome for each case, in the order of the suite.
     pub cases: Vec<CaseOutcome>,
@@ -34,11 +36,11 @@ pub struct CaseOutcome {
     pub case: String,
     /// Which subject: `mpm` or `fem`.
     pub subject: &'static str,
-    /// What makes this case: basis, transfer, mass matrix, start, truth.
+    /// Settings of the method: basis, transfer, mass matrix, start, truth.
     pub settings: Vec<(String, String)>,
-    /// What a step takes on the coarsest level, from a subject that says.
+    /// Cost of a step on the coarsest level, from a subject that has a profile.
     pub profile: Option<Profile>,
-    /// What was expected, in one line.
+    /// Expectation, in one line.
     pub expected: String,
     /// The suite's reason for expecting it.
     pub because: String,
@@ -46,7 +48,7 @@ pub struct CaseOutcome {
     pub verdict: String,
     /// The figures that led to the verdict.
     pub reason: String,
-    /// What did not come as expected; empty if the case passed.
+    /// Expectations that are not met; empty if the case passed.
     pub unmet: Vec<String>,
     /// Results of its kind of study; absent if the case could not be set up, for the reason in
     /// `reason`.
@@ -63,18 +65,18 @@ impl StudyResults for StabilityStudy {}
 /// Results of a convergence study.
 #[derive(Debug, Clone)]
 pub struct Convergence {
-    /// What was refined.
+    /// Axis of refinement.
     pub axis: Axis,
     /// Order that theory gives the method on a smooth solution; for particles per cell, where it
     /// gives none in general, that of the midpoint rule.
     pub formal_order: f64,
     /// Name of the error that was judged.
     pub norm: &'static str,
-    /// What it is an error of.
+    /// The judged quantity.
     pub of: Quantity,
-    /// What it was divided by, if anything.
+    /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// What makes its errors and its work comparable with those of other cases.
+    /// Scale that makes its errors and its work comparable with those of other cases.
     pub error_scale: ErrorScale,
     /// Whether there is a truth that errors are taken against.
     pub compared: bool,
@@ -111,16 +113,16 @@ pub struct LevelOutcome {
     pub dt: f64,
     /// Particles per cell (MPM).
     pub ppc: Option<u64>,
-    /// What the run has shown.
-    pub run: Run,
+    /// Results of the run.
+    pub run: RunResult,
     /// The error that was judged.
     pub error: f64,
     /// Whether the judge may count the level.
     pub usable: bool,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
-    /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the step
-    /// is longer.
+    /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the
+    /// step is longer.
     pub stable_time_step: Option<f64>,
 }
 
@@ -142,7 +144,7 @@ pub struct ForceRow {
     pub right: u64,
     /// Internal force on the node (N).
     pub force: f64,
-    /// What the suite's formula predicts (N).
+    /// Force by the formula of the suite (N).
     pub predicted: f64,
 }
 
@@ -183,10 +185,10 @@ impl LevelOutcome {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// What tells the level from others of its study: `64 cells`, `dt = 1e-3 s`.
+    /// Name of the level among those of its study: `64 cells`, `dt = 1e-3 s`.
     pub fn name(&self, axis: Axis) -> String {
         match (axis, self.ppc) {
-            (Axis::Time, _) => format!("dt = {} s", figures(self.dt)),
+            (Axis::Time, _) => format!("dt = {} s", format_number(self.dt)),
             (Axis::Particles, Some(ppc)) => format!("{ppc} particles per cell"),
             _ => format!("{} cells", self.cells),
         }

@@ -5,11 +5,11 @@ use serde_json::{Map, Value};
 use std::borrow::Cow;
 
 /// A column of a table with rows of type `R`.
-pub(crate) struct Column<'a, R: ?Sized> {
+pub(crate) struct TableColumn<'a, R: ?Sized> {
     /// Heading in text and Markdown.
     pub(crate) heading: Cow<'a, str>,
-    /// Key in the JSON object of a row: `errors.rms` is the key `rms` of the object `errors`; empty for
-    /// a column of text only.
+    /// Key in the JSON object of a row: `errors.rms` is the key `rms` of the object `errors`; empty
+    /// for a column of text only.
     pub(crate) key: &'static str,
     /// Meaning, with the unit.
     pub(crate) about: &'static str,
@@ -18,7 +18,7 @@ pub(crate) struct Column<'a, R: ?Sized> {
     cell: Box<dyn Fn(&R) -> Cell + 'a>,
 }
 
-impl<'a, R: ?Sized + 'a> Column<'a, R> {
+impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
     /// A column of text and JSON.
     pub(crate) fn new(
         heading: impl Into<Cow<'a, str>>,
@@ -53,10 +53,10 @@ impl<'a, R: ?Sized + 'a> Column<'a, R> {
     }
 
     /// The same column of a table whose rows hold an `R`; dashes in rows without one.
-    pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> Column<'a, S> {
+    pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
         let Self { heading, key, about, flush_left, cell } = self;
         let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);
-        Column { heading, key, about, flush_left, cell: Box::new(cell) }
+        TableColumn { heading, key, about, flush_left, cell: Box::new(cell) }
     }
 
     /// The value in a row.
@@ -66,7 +66,7 @@ impl<'a, R: ?Sized + 'a> Column<'a, R> {
 }
 
 /// The JSON object of a row.
-pub(crate) fn json_object<R: ?Sized>(columns: &[Column<'_, R>], row: &R) -> Value {
+pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
     let mut object = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {
         let json = (column.cell)(row).json;

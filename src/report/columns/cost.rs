@@ -1,12 +1,12 @@
 //! Columns of the tables of cost: the work that methods take for an error.
 
-use super::{Cell, Column, decimals, json_object, short};
+use super::{Cell, TableColumn, decimals, json_object, short};
 use crate::{
     report::json::number::number,
     verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach},
 };
 
-type MethodColumn<'a> = Column<'a, Ranked>;
+type MethodColumn<'a> = TableColumn<'a, Ranked>;
 
 /// The table of work for each target error.
 pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
@@ -30,7 +30,7 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
             Cell::plain(row.obstacle().map(End::words))
         }),
         MethodColumn::new("front", "front", "levels that no other one beats", |row| {
-            let (count, all) = (row.front.len(), row.contender.tried.len());
+            let (count, all) = (row.front.len(), row.method.samples.len());
             let text = (count > 0).then(|| format!("{count} of {all}"));
             Cell { json: row.front.clone().into(), ..Cell::text(text) }
         }),
@@ -39,7 +39,7 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
 }
 
 fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
-    MethodColumn::new(heading, "case", "method", |row| Cell::plain(row.contender.name.clone()))
+    MethodColumn::new(heading, "case", "method", |row| Cell::plain(row.method.name.clone()))
         .flush_left()
 }
 
@@ -49,18 +49,22 @@ pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
     std::iter::once(name("work ~ error^k")).chain(columns).collect()
 }
 
-fn exponent<'a>() -> [Column<'a, Exponent>; 5] {
+fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
     let two = |value: f64| Cell::number(value, decimals(2));
     [
-        Column::<Exponent>::new("k", "value", "exponent of work ~ error^k", move |e| {
+        TableColumn::<Exponent>::new("k", "value", "exponent of work ~ error^k", move |e| {
             two(e.observed.value)
         }),
-        Column::<Exponent>::new("low", "low", "lower end of its interval", move |e| {
+        TableColumn::<Exponent>::new("low", "low", "lower end of its interval", move |e| {
             two(e.observed.low)
         }),
-        Column::<Exponent>::new("high (95 %)", "high", "upper end", move |e| two(e.observed.high)),
-        Column::<Exponent>::new("theory", "theory", "exponent in theory", move |e| two(e.theory)),
-        Column::<Exponent>::new(
+        TableColumn::<Exponent>::new("high (95 %)", "high", "upper end", move |e| {
+            two(e.observed.high)
+        }),
+        TableColumn::<Exponent>::new("theory", "theory", "exponent in theory", move |e| {
+            two(e.theory)
+        }),
+        TableColumn::<Exponent>::new(
             "",
             "agrees",
             "whether theory is met, or else the difference",
@@ -91,34 +95,36 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
 /// A target, and how many times the least work it takes.
 type Reached = (Reach, Option<f64>);
 
-fn reached<'a>() -> [Column<'a, Reached>; 3] {
+fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
     [
-        Column::<Reached>::json("work", "work for the error", |(reach, _)| {
+        TableColumn::<Reached>::json("work", "work for the error", |(reach, _)| {
             reach.work().map(number)
         }),
-        Column::<Reached>::json("at_most", "whether less may do", |(reach, _)| {
+        TableColumn::<Reached>::json("at_most", "whether less may do", |(reach, _)| {
             matches!(reach, Reach::Already { .. })
         }),
-        Column::<Reached>::json("times", "times the least work", |(_, times)| times.map(number)),
+        TableColumn::<Reached>::json("times", "times the least work", |(_, times)| {
+            times.map(number)
+        }),
     ]
 }
 
 /// The cheapest setting for each target, of all that were varied.
-pub(crate) fn splits(ranking: &Ranking) -> [Column<'_, usize>; 4] {
+pub(crate) fn splits(ranking: &Ranking) -> [TableColumn<'_, usize>; 4] {
     [
-        Column::<usize>::text("best split for", "target error", |k| {
+        TableColumn::<usize>::text("best split for", "target error", |k| {
             format!("<= {:e}", ranking.targets[*k])
         })
         .flush_left(),
-        Column::<usize>::text("case", "method", |k| {
+        TableColumn::<usize>::text("case", "method", |k| {
             let found = cheapest(ranking, *k);
-            found.map_or("not reached", |row| &row.contender.name).to_owned()
+            found.map_or("not reached", |row| &row.method.name).to_owned()
         })
         .flush_left(),
-        Column::<usize>::text("h", "spacing", |k| {
+        TableColumn::<usize>::text("h", "spacing", |k| {
             cheapest(ranking, *k).and_then(|row| row.reaches[*k].spacing()).map(short)
         }),
-        Column::<usize>::text("seconds", "work", |k| {
+        TableColumn::<usize>::text("seconds", "work", |k| {
             cheapest(ranking, *k).map(|row| reach_text(row.reaches[*k]))
         }),
     ]
@@ -132,9 +138,9 @@ fn cheapest(ranking: &Ranking, target: usize) -> Option<&Ranked> {
 }
 
 /// The terms of the cost model.
-pub(crate) fn model<'a>() -> [Column<'a, Model>; 4] {
+pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     let column = |k: usize, (heading, key): (&'static str, &'static str)| {
-        Column::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
+        TableColumn::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
             let seconds = model.seconds[k];
             let text = (seconds != 0.0).then(|| format!("{:.2}", 1e9 * seconds));
             Cell { json: number(seconds), ..Cell::text(text) }
@@ -152,11 +158,12 @@ pub(crate) fn model<'a>() -> [Column<'a, Model>; 4] {
 pub(crate) type FittedModel = (String, Model, Option<f64>);
 
 /// The table of cost models.
-pub(crate) fn models<'a>() -> Vec<Column<'a, FittedModel>> {
-    let name = Column::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
+pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
+    let name =
+        TableColumn::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
     let terms = model().map(|column| column.within(|(_, model, _): &FittedModel| Some(model)));
     let about = "relative error of the prediction for the finest level";
-    let finest = Column::<FittedModel>::new("finest", "finest_off", about, |(.., off)| {
+    let finest = TableColumn::<FittedModel>::new("finest", "finest_off", about, |(.., off)| {
         Cell::number(*off, |off| format!("{:+.0} %", 100.0 * off))
     });
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()

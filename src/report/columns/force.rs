@@ -1,36 +1,39 @@
 //! Columns of an internal-force study.
 
-use super::{Cell, Column, decimals, scientific};
+use super::{Cell, TableColumn, decimals, scientific};
 use crate::verify::ForceRow;
 
 /// One row for each position of the moving particle.
-pub(crate) fn columns<'a>() -> [Column<'a, ForceRow>; 6] {
+pub(crate) fn columns<'a>() -> [TableColumn<'a, ForceRow>; 6] {
     [
-        Column::<ForceRow>::new(
+        TableColumn::<ForceRow>::new(
             "x/h",
             "position",
             "position of the moving particle (cells)",
             |row| Cell::number(row.position, decimals(4)),
         ),
-        Column::<ForceRow>::new("n left", "n_left", "particles in the cell on the left", |row| {
-            Cell::plain(row.left)
-        }),
-        Column::<ForceRow>::new(
+        TableColumn::<ForceRow>::new(
+            "n left",
+            "n_left",
+            "particles in the cell on the left",
+            |row| Cell::plain(row.left),
+        ),
+        TableColumn::<ForceRow>::new(
             "n right",
             "n_right",
             "particles in the cell on the right",
             |row| Cell::plain(row.right),
         ),
-        Column::<ForceRow>::new("force", "force", "internal force on the node (N)", |row| {
+        TableColumn::<ForceRow>::new("force", "force", "internal force on the node (N)", |row| {
             Cell::number(row.force, scientific)
         }),
-        Column::<ForceRow>::new(
+        TableColumn::<ForceRow>::new(
             "predicted",
             "predicted",
             "force by the formula of the suite (N)",
             |row| Cell::number(row.predicted, scientific),
         ),
-        Column::<ForceRow>::text("difference", "force less the predicted one (N)", |row| {
+        TableColumn::<ForceRow>::text("difference", "force less the predicted one (N)", |row| {
             format!("{:.0e}", row.force - row.predicted)
         }),
     ]

@@ -1,6 +1,6 @@
 //! Columns of the levels of a convergence study.
 
-use super::{Cell, Column, decimals, json_object, scientific};
+use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::{
     report::json::number::number,
     verify::{Axis, Conserved, Convergence, History, Interval, LevelOutcome, Norms},
@@ -14,7 +14,7 @@ pub(crate) struct LevelRow<'a> {
     level: &'a LevelOutcome,
 }
 
-type LevelColumn<'a> = Column<'a, LevelRow<'a>>;
+type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
 
 /// The levels of a study, coarse to fine.
 pub(crate) fn rows(study: &Convergence) -> impl Iterator<Item = LevelRow<'_>> {
@@ -72,7 +72,8 @@ pub(crate) fn errors<'a>(axis: Axis) -> Vec<LevelColumn<'a>> {
     columns
 }
 
-/// Errors are those of the displacement (m), in text those of the temperature (K) where that is judged.
+/// Errors are those of the displacement (m), in text those of the temperature (K) where that is
+/// judged.
 fn figures<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("rms", "errors.rms", "root of the mean square error", |row| {
@@ -152,7 +153,7 @@ fn counters<'a>() -> Vec<LevelColumn<'a>> {
             "speed/c",
             "unrest",
             "of a body that comes to rest: largest speed towards the end over the wave speed",
-            |row| row.unless_failed(row.level.run.unrest),
+            |row| row.unless_failed(row.level.run.residual_speed),
         ),
         LevelColumn::new(
             "dt/safe",

@@ -1,7 +1,7 @@
 //! Columns of tables, each declared once: heading, JSON key, meaning, and value.
 //!
-//! Text, JSON, Markdown and `docs/columns.md` read the same lists. To add a column is to add an entry
-//! to a list.
+//! Text, JSON, Markdown and `docs/columns.md` read the same lists. To add a column is to add an
+//! entry to a list.
 
 mod cell;
 mod column;
@@ -14,4 +14,4 @@ mod tests;
 pub(crate) mod timed_level;
 
 pub(crate) use cell::{Cell, decimals, scientific, short};
-pub(crate) use column::{Column, json_object};
+pub(crate) use column::{TableColumn, json_object};

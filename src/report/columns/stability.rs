@@ -1,6 +1,6 @@
 //! Columns of a stability study.
 
-use super::{Cell, Column, json_object, scientific};
+use super::{Cell, TableColumn, json_object, scientific};
 use crate::{
     report::json::number::number,
     verify::{
@@ -9,9 +9,9 @@ use crate::{
 };
 use serde_json::{Value, json};
 
-type RowColumn<'a> = Column<'a, StabilityRow>;
-type TrialColumn<'a> = Column<'a, Trial>;
-type CaseColumn<'a> = Column<'a, (&'a str, &'a StabilityStudy)>;
+type RowColumn<'a> = TableColumn<'a, StabilityRow>;
+type TrialColumn<'a> = TableColumn<'a, Trial>;
+type CaseColumn<'a> = TableColumn<'a, (&'a str, &'a StabilityStudy)>;
 
 /// The value of the parameter that is swept.
 fn swept(study: &StabilityStudy) -> RowColumn<'_> {

@@ -1,12 +1,12 @@
 //! `docs/columns.md` lists every column that is declared, and no other.
 
-use super::{Column, cost, force, level, stability, timed_level};
+use super::{TableColumn, cost, force, level, stability, timed_level};
 use crate::verify::{Axis, Ranking, StabilityStudy};
 
 const DOCUMENT: &str = include_str!("../../../docs/columns.md");
 
 /// A section of the document: one row for each column, those of several tables once.
-fn section<R>(title: &str, tables: Vec<Vec<Column<'_, R>>>) -> String {
+fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
     let mut rows = vec!["| column | JSON key | meaning |".to_owned(), "|---|---|---|".to_owned()];
     for column in tables.into_iter().flatten() {
         let code = |text: &str| match text {

@@ -1,10 +1,10 @@
 //! Columns of the levels of a suite that has been timed.
 
-use super::{Cell, Column, short};
+use super::{Cell, TableColumn, short};
 use crate::{
     report::json::number::number,
     subject::{Column as MemoryColumn, Holder, Profile},
-    verify::{CaseOutcome, LevelOutcome, Load, TimedSuite, Timing},
+    verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload},
 };
 use serde_json::{Value, json};
 
@@ -14,11 +14,11 @@ pub(crate) struct TimedLevel<'a> {
     level: &'a LevelOutcome,
     /// Size of the solution, which errors are divided by.
     size: f64,
-    load: &'a Load,
+    load: &'a Workload,
     timing: Option<Timing>,
 }
 
-type TimedColumn<'a> = Column<'a, TimedLevel<'a>>;
+type TimedColumn<'a> = TableColumn<'a, TimedLevel<'a>>;
 
 /// The levels of the case with this index, coarse to fine.
 pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = TimedLevel<'_>> {

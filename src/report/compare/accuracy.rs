@@ -1,55 +1,55 @@
 //! Errors and work of two series of levels, level by level.
 
 use super::{
-    document::{Case, Judge, Level},
-    equal_error::Point,
-    moved::{ErrorMove, ratio_moved},
-    number::Number,
+    changes::{ErrorMove, ratio_moved},
+    document::{CaseDocument, JudgeDocument, LevelDocument},
+    equal_error::ErrorAndWork,
+    number::JsonNumber,
 };
 use crate::verify::Quantity;
 
 /// Largest relative difference of two spacings that are the same.
 const SAME_SPACING: f64 = 1e-6;
 
-/// Errors below this share of what is judged, of a case without an order, are made of rounding: their
-/// changes say nothing.
+/// Errors below this share of what is judged, of a case without an order, are made of rounding:
+/// their changes say nothing.
 const ROUNDING: f64 = 1e-11;
 
 /// A level of the old run with the same level of the new one.
-pub(super) type Pair<'a> = (&'a Level, &'a Level);
+pub(super) type LevelPair<'a> = (&'a LevelDocument, &'a LevelDocument);
 
 /// Levels that both runs have, coarse to fine.
-pub(super) fn common<'a>(old: &'a Case, new: &'a Case) -> Vec<Pair<'a>> {
+pub(super) fn common<'a>(old: &'a CaseDocument, new: &'a CaseDocument) -> Vec<LevelPair<'a>> {
     // Each level has one counterpart at most, also where a plan lists the same spacing twice.
-    let mut left: Vec<&Level> = old.levels.iter().collect();
-    let counterpart = |level: &'a Level| {
+    let mut left: Vec<&LevelDocument> = old.levels.iter().collect();
+    let counterpart = |level: &'a LevelDocument| {
         let at = left.iter().position(|old| same(old, level))?;
         Some((left.remove(at), level))
     };
     new.levels.iter().filter_map(counterpart).collect()
 }
 
-fn same(a: &Level, b: &Level) -> bool {
-    let (Number(x), Number(y)) = (a.spacing, b.spacing);
+fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
+    let (JsonNumber(x), JsonNumber(y)) = (a.spacing, b.spacing);
     let spacing = x.to_bits() == y.to_bits() || (x / y - 1.0).abs() <= SAME_SPACING;
     a.cells == b.cells && a.ppc == b.ppc && spacing
 }
 
 /// Whether both runs show rounding only, and are the same therefore.
-pub(super) fn is_rounding(old: &Case, new: &Case) -> bool {
-    let tiny = |case: &Case| {
-        let small = |level: &Level| relative(case.judge.as_ref(), level) < ROUNDING;
+pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
+    let tiny = |case: &CaseDocument| {
+        let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
         case.observed_order.is_none() && case.levels.iter().all(small)
     };
     tiny(old) && tiny(new)
 }
 
 /// The error over the natural size of what is judged; NaN where that is not known.
-fn relative(judge: Option<&Judge>, level: &Level) -> f64 {
+fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     let Some(error) = level.error() else { return f64::NAN };
-    let (Number(h), length) = (level.h, level.cells as f64);
+    let (JsonNumber(h), length) = (level.h, level.cells as f64);
     match judge {
-        Some(Judge { scale: Some(_), .. }) => error,
+        Some(JudgeDocument { scale: Some(_), .. }) => error,
         Some(judge) => {
             let of = Quantity::named(&judge.of);
             error / of.map_or(f64::NAN, |of| of.rounding_size(h * length))
@@ -58,9 +58,13 @@ fn relative(judge: Option<&Judge>, level: &Level) -> f64 {
     }
 }
 
-/// How the error moved: of the finest level that broke or was mended, else of the finest, else of the one that
-/// moved most. Nothing if none moved.
-pub(super) fn error(pairs: &[Pair<'_>], axis: Option<&str>, tolerance: f64) -> Option<ErrorMove> {
+/// How the error moved: of the finest level that broke or was mended, else of the finest, else of
+/// the one that moved most. Nothing if none moved.
+pub(super) fn error(
+    pairs: &[LevelPair<'_>],
+    axis: Option<&str>,
+    tolerance: f64,
+) -> Option<ErrorMove> {
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
     let broken = moves.iter().rfind(|found| found.old.is_none() || found.new.is_none());
@@ -69,7 +73,7 @@ pub(super) fn error(pairs: &[Pair<'_>], axis: Option<&str>, tolerance: f64) -> O
     broken.cloned().or(finest).or_else(most)
 }
 
-fn error_of((old, new): Pair<'_>, axis: Option<&str>, tolerance: f64) -> Option<ErrorMove> {
+fn error_of((old, new): LevelPair<'_>, axis: Option<&str>, tolerance: f64) -> Option<ErrorMove> {
     let level = name(new, axis);
     match (old.is_broken(), new.is_broken()) {
         (true, true) => None,
@@ -83,9 +87,10 @@ fn error_of((old, new): Pair<'_>, axis: Option<&str>, tolerance: f64) -> Option<
     }
 }
 
-/// Transfers of the new run over those of the old one: on the finest level, or else where they moved most.
-pub(super) fn work(pairs: &[Pair<'_>], tolerance: f64) -> Option<f64> {
-    let ratio = |(old, new): &Pair<'_>| match (old.transfers, new.transfers) {
+/// Transfers of the new run over those of the old one: on the finest level, or else where they
+/// moved most.
+pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
+    let ratio = |(old, new): &LevelPair<'_>| match (old.transfers, new.transfers) {
         (a, b) if a == b => 1.0,
         (a, b) => b as f64 / a as f64,
     };
@@ -98,14 +103,14 @@ pub(super) fn work(pairs: &[Pair<'_>], tolerance: f64) -> Option<f64> {
 }
 
 /// Error and transfers of every level, in the order of the plan.
-pub(super) fn points(case: &Case) -> Vec<Point> {
-    let point = |level: &Level| (level.error().unwrap_or(f64::NAN), level.transfers as f64);
+pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
+    let point = |level: &LevelDocument| (level.error().unwrap_or(f64::NAN), level.transfers as f64);
     case.levels.iter().map(point).collect()
 }
 
-/// What tells the level from others of its study.
-fn name(level: &Level, axis: Option<&str>) -> String {
-    let Number(spacing) = level.spacing;
+/// Name of the level among those of its study.
+fn name(level: &LevelDocument, axis: Option<&str>) -> String {
+    let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {
         (Some("time"), _) => format!("dt = {spacing:.3e} s"),
         (Some("particles"), Some(ppc)) => format!("{ppc} particles per cell"),

@@ -1,16 +1,21 @@
-//! What the cheapest method of a suite takes for a target error, in two runs.
+//! Least work of a suite for each target error, in two runs.
 //!
 //! Documents list under `cost` what each method takes for each target of its problem; those without
 //! that key are not compared in this respect.
 
 use super::{
-    document::{Document, Ranking},
-    moved::{CheapestMove, ratio_moved},
-    number::Number,
+    changes::{CheapestMove, ratio_moved},
+    document::{RankingDocument, ReportDocument},
+    number::JsonNumber,
 };
 
-/// Targets whose least work moved, the dearer first; a target that no method reaches any more before all.
-pub(super) fn compare(old: &Document, new: &Document, tolerance: f64) -> Vec<CheapestMove> {
+/// Targets whose least work moved, the more expensive first; a target that no method reaches any
+/// more before all.
+pub(super) fn compare(
+    old: &ReportDocument,
+    new: &ReportDocument,
+    tolerance: f64,
+) -> Vec<CheapestMove> {
     let mut moves = Vec::new();
     for before in &old.suites {
         let Some(after) = new.suites.iter().find(|suite| suite.name == before.name) else {
@@ -25,10 +30,15 @@ pub(super) fn compare(old: &Document, new: &Document, tolerance: f64) -> Vec<Che
     moves
 }
 
-fn problem(suite: &str, old: &Ranking, new: &Ranking, tolerance: f64) -> Vec<CheapestMove> {
+fn problem(
+    suite: &str,
+    old: &RankingDocument,
+    new: &RankingDocument,
+    tolerance: f64,
+) -> Vec<CheapestMove> {
     let place =
         if old.problem.is_empty() { suite.to_owned() } else { format!("{suite}, {}", old.problem) };
-    let same = |target: &Number| new.targets.iter().position(|other| other == target);
+    let same = |target: &JsonNumber| new.targets.iter().position(|other| other == target);
     let targets = old.targets.iter().enumerate();
     let pairs = targets.filter_map(|(k, target)| Some((target.0, k, same(target)?)));
     let moves = pairs.map(|(target, k, m)| CheapestMove {
@@ -47,7 +57,7 @@ fn problem(suite: &str, old: &Ranking, new: &Ranking, tolerance: f64) -> Vec<Che
 }
 
 /// The least work for the target with this index, and the method that needs no more.
-fn cheapest(ranking: &Ranking, target: usize) -> Option<(f64, String)> {
+fn cheapest(ranking: &RankingDocument, target: usize) -> Option<(f64, String)> {
     let reached = ranking.methods.iter().filter_map(|method| {
         let reached = method.reached.get(target)?.as_ref()?;
         Some((reached.work.0, method.name.clone()))

@@ -1,127 +1,127 @@
-//! What is read of a document that [`json()`](crate::report::json()) has written.
+//! Parsed form of a document that [`json()`](crate::report::json()) has written.
 //!
 //! Keys that are not asked for may be there: documents of later versions have more. Keys that were
 //! added since the first version may be missing.
 
-use super::number::Number;
+use super::number::JsonNumber;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
 /// The results of a run, as far as they are compared.
 #[derive(Debug, Clone, Deserialize)]
-pub struct Document {
-    pub(super) suites: Vec<Suite>,
+pub struct ReportDocument {
+    pub(super) suites: Vec<SuiteDocument>,
 }
 
 /// Why a text is no such document, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
-    /// What is wrong.
+    /// Description.
     pub message: String,
     /// Line and column, both from one, where there is a place.
     pub place: Option<(usize, usize)>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Suite {
+pub(super) struct SuiteDocument {
     #[serde(rename = "suite")]
     pub(super) name: String,
-    pub(super) cases: Vec<Case>,
+    pub(super) cases: Vec<CaseDocument>,
     #[serde(default)]
-    pub(super) cost: Vec<Ranking>,
+    pub(super) cost: Vec<RankingDocument>,
 }
 
-/// What methods take for target errors.
+/// Work of methods for target errors.
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Ranking {
+pub(super) struct RankingDocument {
     pub(super) problem: String,
     /// The unit of work.
     pub(super) work: String,
-    pub(super) targets: Vec<Number>,
-    pub(super) methods: Vec<Method>,
+    pub(super) targets: Vec<JsonNumber>,
+    pub(super) methods: Vec<MethodDocument>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Method {
+pub(super) struct MethodDocument {
     #[serde(rename = "case")]
     pub(super) name: String,
     /// Target by target; nothing where it is not reached.
-    pub(super) reached: Vec<Option<Reached>>,
+    pub(super) reached: Vec<Option<ReachedDocument>>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct Reached {
-    pub(super) work: Number,
+pub(super) struct ReachedDocument {
+    pub(super) work: JsonNumber,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Case {
+pub(super) struct CaseDocument {
     #[serde(rename = "case")]
     pub(super) name: String,
     pub(super) verdict: String,
     pub(super) passed: bool,
     #[serde(default)]
     pub(super) unmet: Vec<String>,
-    pub(super) judge: Option<Judge>,
+    pub(super) judge: Option<JudgeDocument>,
     pub(super) axis: Option<String>,
-    pub(super) observed_order: Option<Order>,
-    pub(super) levels: Vec<Level>,
-    pub(super) stability: Option<Stability>,
+    pub(super) observed_order: Option<OrderDocument>,
+    pub(super) levels: Vec<LevelDocument>,
+    pub(super) stability: Option<StabilityDocument>,
 }
 
-/// What is judged: errors of different things are not compared.
+/// Judged quantity and norm: errors of different ones are not compared.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub(super) struct Judge {
+pub(super) struct JudgeDocument {
     pub(super) of: String,
     pub(super) norm: String,
-    pub(super) scale: Option<Number>,
+    pub(super) scale: Option<JsonNumber>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct Order {
-    pub(super) value: Number,
+pub(super) struct OrderDocument {
+    pub(super) value: JsonNumber,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Level {
+pub(super) struct LevelDocument {
     pub(super) cells: u64,
-    pub(super) h: Number,
-    pub(super) spacing: Number,
+    pub(super) h: JsonNumber,
+    pub(super) spacing: JsonNumber,
     pub(super) ppc: Option<u64>,
     pub(super) transfers: u64,
-    pub(super) judged: Option<Number>,
+    pub(super) judged: Option<JsonNumber>,
     pub(super) failure: Option<String>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Stability {
+pub(super) struct StabilityDocument {
     pub(super) swept: String,
     pub(super) sought: Option<String>,
-    pub(super) rows: Vec<StabilityRow>,
+    pub(super) rows: Vec<StabilityRowDocument>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct StabilityRow {
-    pub(super) value: Number,
-    pub(super) run: Option<Run>,
-    pub(super) predicted: Option<Limit>,
-    pub(super) observed: Option<Limit>,
+pub(super) struct StabilityRowDocument {
+    pub(super) value: JsonNumber,
+    pub(super) run: Option<TrialDocument>,
+    pub(super) predicted: Option<LimitDocument>,
+    pub(super) observed: Option<LimitDocument>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
-pub(super) struct Run {
+pub(super) struct TrialDocument {
     pub(super) verdict: String,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Limit {
-    At(Number),
-    Above(Number),
-    Below(Number),
+pub(super) enum LimitDocument {
+    At(JsonNumber),
+    Above(JsonNumber),
+    Below(JsonNumber),
 }
 
-impl Document {
+impl ReportDocument {
     /// Reads a document.
     ///
     /// # Errors
@@ -150,25 +150,25 @@ impl Document {
     }
 
     /// Every case with its suite.
-    pub(super) fn cases(&self) -> impl Iterator<Item = (&Suite, &Case)> {
+    pub(super) fn cases(&self) -> impl Iterator<Item = (&SuiteDocument, &CaseDocument)> {
         self.suites.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)))
     }
 }
 
 /// `SUITE::CASE`.
-pub(super) fn name(suite: &Suite, case: &Case) -> String {
+pub(super) fn name(suite: &SuiteDocument, case: &CaseDocument) -> String {
     format!("{}::{}", suite.name, case.name)
 }
 
-impl Level {
+impl LevelDocument {
     /// The judged error, unless the level failed or has none that is finite.
     pub(super) fn error(&self) -> Option<f64> {
-        let Number(error) = self.judged?;
+        let JsonNumber(error) = self.judged?;
         (self.failure.is_none() && error.is_finite()).then_some(error)
     }
 
     /// Whether the level has broken, or its error is not finite.
     pub(super) fn is_broken(&self) -> bool {
-        self.failure.is_some() || self.judged.is_some_and(|Number(error)| !error.is_finite())
+        self.failure.is_some() || self.judged.is_some_and(|JsonNumber(error)| !error.is_finite())
     }
 }

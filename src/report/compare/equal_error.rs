@@ -1,12 +1,12 @@
-//! What the same error costs in two runs.
+//! Work for the same error in two runs.
 //!
-//! Methods and versions reach different errors on the same grid; what a user pays is the work for the
-//! error that is wanted. Between two levels of a series that converges, ln(work) is taken as linear in
-//! ln(error), which is exact for `error = C h^p` and `work = c h^-q`. Nothing is extrapolated: beyond
-//! the last level a series may well have a floor.
+//! Methods and versions reach different errors on the same grid; what a user pays is the work for
+//! the error that is wanted. Between two levels of a series that converges, ln(work) is taken as
+//! linear in ln(error), which is exact for `error = C h^p` and `work = c h^-q`. Nothing is
+//! extrapolated: beyond the last level a series may well have a floor.
 
 /// Error and work of a level.
-pub(super) type Point = (f64, f64);
+pub(super) type ErrorAndWork = (f64, f64);
 
 /// Fewest levels in a row over which an error falls that are taken for convergence.
 const LEAST_LEVELS: usize = 3;
@@ -20,9 +20,9 @@ pub(super) struct EqualError {
     pub(super) ratio: f64,
 }
 
-/// Work of `new` over that of `old` at the smallest round error (1, 2 or 5 times a power of ten) which
-/// the converging parts of both pass through; nothing if there is none.
-pub(super) fn compare(old: &[Point], new: &[Point]) -> Option<EqualError> {
+/// Work of `new` over that of `old` at the smallest round error (1, 2 or 5 times a power of ten)
+/// which the converging parts of both pass through; nothing if there is none.
+pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<EqualError> {
     let (old, new) = (converging(old)?, converging(new)?);
     let lowest = f64::max(old.last()?.0, new.last()?.0);
     let highest = f64::min(old.first()?.0, new.first()?.0);
@@ -31,11 +31,12 @@ pub(super) fn compare(old: &[Point], new: &[Point]) -> Option<EqualError> {
     Some(EqualError { target, ratio })
 }
 
-/// The longest run of levels over which the error falls and the work grows; of equally long ones the
-/// coarser.
-fn converging(points: &[Point]) -> Option<&[Point]> {
-    let usable = |(error, work): Point| error > 0.0 && work > 0.0;
-    let goes_on = |a: &Point, b: &Point| usable(*a) && usable(*b) && b.0 < a.0 && b.1 > a.1;
+/// The longest run of levels over which the error falls and the work grows; of equally long ones
+/// the coarser.
+fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
+    let usable = |(error, work): ErrorAndWork| error > 0.0 && work > 0.0;
+    let goes_on =
+        |a: &ErrorAndWork, b: &ErrorAndWork| usable(*a) && usable(*b) && b.0 < a.0 && b.1 > a.1;
     let runs = points.chunk_by(goes_on).filter(|run| run.len() >= LEAST_LEVELS);
     runs.reduce(|longest, run| if run.len() > longest.len() { run } else { longest })
 }
@@ -53,7 +54,7 @@ fn round_above(x: f64) -> Option<f64> {
 }
 
 /// The work for an error between those of two neighbours.
-fn work(run: &[Point], target: f64) -> Option<f64> {
+fn work(run: &[ErrorAndWork], target: f64) -> Option<f64> {
     let (a, b) = run.windows(2).map(|pair| (pair[0], pair[1])).find(|(_, b)| b.0 <= target)?;
     let share = libm::log(a.0 / target) / libm::log(a.0 / b.0);
     Some(a.1 * libm::exp(share * libm::log(b.1 / a.1)))
@@ -66,7 +67,7 @@ mod tests {
     use rstest::rstest;
 
     /// Levels of `error = c h^2` and `work = w h^-3`.
-    fn series(c: f64, w: f64, levels: i32) -> Vec<Point> {
+    fn series(c: f64, w: f64, levels: i32) -> Vec<ErrorAndWork> {
         (0..levels)
             .map(|k| libm::exp2(-f64::from(k)))
             .map(|h| (c * h * h, w / (h * h * h)))
@@ -93,8 +94,8 @@ mod tests {
     #[case::zero_ends_it(&[(1.0, 1.0), (0.1, 2.0), (0.0, 4.0)], None)]
     #[case::nan_ends_it(&[(1.0, 1.0), (0.1, 2.0), (f64::NAN, 4.0), (0.01, 8.0)], None)]
     #[case::work_must_grow(&[(1.0, 4.0), (0.1, 4.0), (0.01, 8.0)], None)]
-    fn converging_parts(#[case] points: &[Point], #[case] levels: Option<usize>) {
-        assert_eq!(converging(points).map(<[Point]>::len), levels);
+    fn converging_parts(#[case] points: &[ErrorAndWork], #[case] levels: Option<usize>) {
+        assert_eq!(converging(points).map(<[ErrorAndWork]>::len), levels);
     }
 
     /// Both converge, and at no error that the other has: nothing is extrapolated.

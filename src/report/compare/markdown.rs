@@ -1,19 +1,19 @@
 //! A comparison as Markdown, for a comment on a pull request.
 //!
-//! One line says what happened; what got worse is open to the eye, the rest is folded. Every text comes
-//! from a file and is escaped: it can be no markup, mention nobody and end no table.
+//! One line says what happened; what got worse is open to the eye, the rest is folded. Every text
+//! comes from a file and is escaped: it can be no markup, mention nobody and end no table.
 
 use super::{
-    moved::{CheapestMove, Comparison, Moved, Rank},
+    changes::{CheapestMove, Moved, Rank, ReportComparison},
     row::{cases, notes, targets},
 };
-use crate::report::columns::Column;
+use crate::report::columns::TableColumn;
 
 /// Most rows of a table: a comment may have 65536 characters.
 const MOST_ROWS: usize = 40;
 
 /// The comment.
-pub fn markdown(comparison: &Comparison) -> String {
+pub fn markdown(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
     for rank in Rank::ALL {
@@ -40,8 +40,8 @@ pub fn markdown(comparison: &Comparison) -> String {
 fn changes(moved: &[&Moved]) -> String {
     let mut columns: Vec<_> = cases().into();
     let joined = |moved: &Moved| Some(notes(moved).join("; ")).filter(|notes| !notes.is_empty());
-    columns.push(Column::text("notes", "notes", joined).flush_left());
-    let is_kept = |column: &Column<'_, Moved>| {
+    columns.push(TableColumn::text("notes", "notes", joined).flush_left());
+    let is_kept = |column: &TableColumn<'_, Moved>| {
         moved.iter().take(MOST_ROWS).any(|moved| column.cell(moved).text != "-")
     };
     columns.retain(is_kept);
@@ -49,7 +49,7 @@ fn changes(moved: &[&Moved]) -> String {
 }
 
 /// Least work for target errors: open if one takes more.
-fn cheapest(comparison: &Comparison) -> String {
+fn cheapest(comparison: &ReportComparison) -> String {
     let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
     let (words, table) = ("Cheapest for an error", table(&targets(), &moved));
@@ -61,9 +61,10 @@ fn cheapest(comparison: &Comparison) -> String {
 }
 
 /// A table whose first column is code.
-fn table<R>(columns: &[Column<'_, R>], rows: &[&R]) -> String {
+fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let rule = |column: &Column<'_, R>| if column.flush_left { "---" } else { "---:" }.to_owned();
+    let rule =
+        |column: &TableColumn<'_, R>| if column.flush_left { "---" } else { "---:" }.to_owned();
     let mut table = line(columns.iter().map(|column| column.heading.to_string()).collect());
     table += &line(columns.iter().map(rule).collect());
     for row in rows.iter().take(MOST_ROWS) {

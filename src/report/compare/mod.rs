@@ -1,19 +1,19 @@
 //! Two runs side by side: what moved between two JSON documents, the most important first.
 //!
-//! A pull request that makes a method less accurate, less stable or dearer shows it here. Cases are
-//! paired by suite and name, their levels by cells, spacing and particles per cell, so that like is
-//! held against like; what has no counterpart is named and not judged. Work is counted in transfers
-//! between particles and nodes, which are the same on every machine, and is compared at equal error
-//! where the errors of both runs fall far enough to meet (`equal_error`).
+//! A pull request that makes a method less accurate, less stable or more expensive shows it here.
+//! Cases are paired by suite and name, their levels by cells, spacing and particles per cell, so
+//! that like is held against like; what has no counterpart is named and not judged. Work is counted
+//! in transfers between particles and nodes, which are the same on every machine, and is compared
+//! at equal error where the errors of both runs fall far enough to meet (`equal_error`).
 //!
-//! What a suite judges by bounds on drifts alone has no error here: its verdict speaks for it.
+//! Cases judged by bounds on drifts alone have no error to compare, only a verdict.
 
 mod accuracy;
+mod changes;
 mod cheapest;
 mod document;
 mod equal_error;
 mod markdown;
-mod moved;
 mod number;
 mod pairs;
 mod row;
@@ -23,16 +23,16 @@ mod text;
 #[cfg(test)]
 mod tests;
 
-pub use document::{Document, Unreadable};
+pub use changes::{Rank, ReportComparison};
+pub use document::{ReportDocument, Unreadable};
 pub use markdown::markdown;
-pub use moved::{Comparison, Rank};
 pub use text::text;
 
 /// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of
 /// the [drift gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
-/// What moved from `old` to `new` by more than the share `tolerance`.
-pub fn compare(old: &Document, new: &Document, tolerance: f64) -> Comparison {
+/// Changes from `old` to `new` by more than the relative `tolerance`.
+pub fn compare(old: &ReportDocument, new: &ReportDocument, tolerance: f64) -> ReportComparison {
     pairs::compare(old, new, tolerance)
 }

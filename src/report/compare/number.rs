@@ -5,17 +5,17 @@ use std::fmt;
 
 /// A number, or one of `"nan"`, `"inf"`, `"-inf"`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Number(pub(super) f64);
+pub(super) struct JsonNumber(pub(super) f64);
 
-impl<'de> Deserialize<'de> for Number {
+impl<'de> Deserialize<'de> for JsonNumber {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(Expected).map(Self)
+        from.deserialize_any(NumberVisitor).map(Self)
     }
 }
 
-struct Expected;
+struct NumberVisitor;
 
-impl de::Visitor<'_> for Expected {
+impl de::Visitor<'_> for NumberVisitor {
     type Value = f64;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -59,14 +59,14 @@ mod tests {
     #[case("true", None)]
     #[case("null", None)]
     fn numbers(#[case] text: &str, #[case] expected: Option<f64>) {
-        assert_eq!(serde_json::from_str(text).ok().map(|Number(value)| value), expected);
+        assert_eq!(serde_json::from_str(text).ok().map(|JsonNumber(value)| value), expected);
     }
 
     #[test]
     fn what_is_written_reads_back() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.1, 1e-300, -0.0] {
             let text = crate::report::json::number::number(value).to_string();
-            let Number(read) = serde_json::from_str(&text).expect("a number");
+            let JsonNumber(read) = serde_json::from_str(&text).expect("a number");
             assert_eq!(read.to_bits(), value.to_bits(), "{text}");
         }
     }

@@ -1,18 +1,22 @@
 //! Cases of two runs, paired, ranked and sorted.
 
 use super::{
-    accuracy, cheapest,
-    document::{Case, Document, name},
-    equal_error,
-    moved::{Comparison, Moved, Rank, ratio_moved},
-    stability,
+    accuracy,
+    changes::{Moved, Rank, ReportComparison, ratio_moved},
+    cheapest,
+    document::{CaseDocument, ReportDocument, name},
+    equal_error, stability,
     stability::StabilityMove,
 };
 use std::collections::BTreeMap;
 
 /// See [`compare`](super::compare()).
-pub(super) fn compare(old: &Document, new: &Document, tolerance: f64) -> Comparison {
-    let mut before: BTreeMap<String, &Case> =
+pub(super) fn compare(
+    old: &ReportDocument,
+    new: &ReportDocument,
+    tolerance: f64,
+) -> ReportComparison {
+    let mut before: BTreeMap<String, &CaseDocument> =
         old.cases().map(|(suite, case)| (name(suite, case), case)).collect();
     let mut moved = Vec::new();
     let mut unchanged = 0;
@@ -29,11 +33,11 @@ pub(super) fn compare(old: &Document, new: &Document, tolerance: f64) -> Compari
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
     let cheapest = cheapest::compare(old, new, tolerance);
-    Comparison { moved, cheapest, unchanged, tolerance }
+    ReportComparison { moved, cheapest, unchanged, tolerance }
 }
 
 /// A case of one run only.
-fn lone(name: String, rank: Rank, case: &Case) -> Moved {
+fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
     let word = Some(shown(case));
     let order = case.observed_order.map(|order| order.value.0);
     let (verdict, order) = match rank {
@@ -54,12 +58,12 @@ fn lone(name: String, rank: Rank, case: &Case) -> Moved {
 }
 
 /// The verdict, and whether it is not what the suite expects.
-fn shown(case: &Case) -> String {
+fn shown(case: &CaseDocument) -> String {
     if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
 }
 
 /// How a case moved, if it did.
-fn pair(name: String, old: &Case, new: &Case, tolerance: f64) -> Option<Moved> {
+fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) -> Option<Moved> {
     let comparable = old.judge == new.judge || old.judge.is_none() || new.judge.is_none();
     let common = accuracy::common(old, new);
     let pairs = if comparable { &common[..] } else { &[] };
@@ -99,17 +103,17 @@ fn pair(name: String, old: &Case, new: &Case, tolerance: f64) -> Option<Moved> {
     Some(found)
 }
 
-/// What is not the same problem any more, in words.
+/// Differences of the problem itself, in words.
 fn otherwise(
-    old: &Case,
-    new: &Case,
+    old: &CaseDocument,
+    new: &CaseDocument,
     comparable: bool,
     refined: bool,
     rows: &StabilityMove,
 ) -> Vec<String> {
     let mut notes = Vec::new();
     if !comparable {
-        let of = |case: &Case| {
+        let of = |case: &CaseDocument| {
             case.judge.as_ref().map_or_else(String::new, |judge| {
                 let scale = judge.scale.map(|scale| format!(" over {}", scale.0));
                 format!("{} of {}{}", judge.norm, judge.of, scale.unwrap_or_default())
@@ -129,7 +133,11 @@ fn otherwise(
 }
 
 /// The rank of a verdict that changed.
-fn verdict_rank(old: &Case, new: &Case, rows: &StabilityMove) -> Option<(Rank, f64)> {
+fn verdict_rank(
+    old: &CaseDocument,
+    new: &CaseDocument,
+    rows: &StabilityMove,
+) -> Option<(Rank, f64)> {
     let rank = match (old.passed, new.passed) {
         (true, false) => Rank::Broken,
         (false, true) => Rank::BetterVerdict,
@@ -166,7 +174,7 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     match (error, work) {
         (Some(error), _) if error.worse => Some((Rank::LessAccurate, error.weight())),
         _ if rows.limit[0] => Some((Rank::LessStable, rows.weight)),
-        (_, Some(work)) if !(work < 1.0) => Some((Rank::Dearer, size)),
+        (_, Some(work)) if !(work < 1.0) => Some((Rank::MoreExpensive, size)),
         (Some(error), _) => Some((Rank::Better, error.weight())),
         (None, Some(_)) => Some((Rank::Better, size)),
         (None, None) if rows.limit[1] => Some((Rank::Better, rows.weight)),

@@ -1,31 +1,36 @@
 //! Columns of a comparison, the same in text and in Markdown.
 
-use super::moved::{CheapestMove, ErrorMove, Moved, Rank};
-use crate::report::columns::Column;
+use super::changes::{CheapestMove, ErrorMove, Moved, Rank};
+use crate::report::columns::TableColumn;
 
 /// Notes of a case that are shown; the others are counted.
 const MOST_NOTES: usize = 3;
 
 /// Changes of a case; dashes where nothing moved or nothing is known.
-pub(super) fn cases<'a>() -> [Column<'a, Moved>; 8] {
+pub(super) fn cases<'a>() -> [TableColumn<'a, Moved>; 8] {
     [
-        Column::<Moved>::text("case", "suite and case", |moved| moved.name.clone()).flush_left(),
-        Column::<Moved>::text("verdict", "verdicts", |moved| change(moved, moved.verdict.clone()))
+        TableColumn::<Moved>::text("case", "suite and case", |moved| moved.name.clone())
             .flush_left(),
-        Column::<Moved>::text("order", "observed orders", |moved| {
+        TableColumn::<Moved>::text("verdict", "verdicts", |moved| {
+            change(moved, moved.verdict.clone())
+        })
+        .flush_left(),
+        TableColumn::<Moved>::text("order", "observed orders", |moved| {
             change(moved, moved.order.map(|order| order.map(|order| format!("{order:.2}"))))
         }),
-        Column::<Moved>::text("error", "judged errors", |moved| moved.error.as_ref().map(errors)),
-        Column::<Moved>::text("times", "their ratio", |moved| {
+        TableColumn::<Moved>::text("error", "judged errors", |moved| {
+            moved.error.as_ref().map(errors)
+        }),
+        TableColumn::<Moved>::text("times", "their ratio", |moved| {
             moved.error.as_ref().and_then(ErrorMove::ratio).map(times)
         }),
-        Column::<Moved>::text("at", "level of the errors", |moved| {
+        TableColumn::<Moved>::text("at", "level of the errors", |moved| {
             moved.error.as_ref().map(|error| error.level.clone())
         }),
-        Column::<Moved>::text("transfers", "ratio on the same level", |moved| {
+        TableColumn::<Moved>::text("transfers", "ratio on the same level", |moved| {
             moved.work.map(times)
         }),
-        Column::<Moved>::text("for the same error", "ratio of transfers", |moved| {
+        TableColumn::<Moved>::text("for the same error", "ratio of transfers", |moved| {
             moved.equal.map(|e| format!("{} at {:.0e}", times(e.ratio), e.target))
         }),
     ]
@@ -37,22 +42,22 @@ fn errors(error: &ErrorMove) -> String {
 }
 
 /// Least work for a target error.
-pub(super) fn targets<'a>() -> [Column<'a, CheapestMove>; 5] {
+pub(super) fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
     [
-        Column::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
+        TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
             moved.place.clone()
         })
         .flush_left(),
-        Column::<CheapestMove>::text("error", "target error", |moved| {
+        TableColumn::<CheapestMove>::text("error", "target error", |moved| {
             format!("{:.0e}", moved.target)
         }),
-        Column::<CheapestMove>::text("times", "ratio of the work", |moved| {
+        TableColumn::<CheapestMove>::text("times", "ratio of the work", |moved| {
             moved.old.as_ref().zip(moved.new.as_ref()).map(|_| times(moved.ratio()))
         }),
-        Column::<CheapestMove>::text("work", "least work", |moved| {
+        TableColumn::<CheapestMove>::text("work", "least work", |moved| {
             both(moved, |(work, _)| format!("{work:.3e}"))
         }),
-        Column::<CheapestMove>::text("cheapest", "method", |moved| {
+        TableColumn::<CheapestMove>::text("cheapest", "method", |moved| {
             both(moved, |(_, case)| case.clone())
         })
         .flush_left(),

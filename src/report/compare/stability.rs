@@ -1,9 +1,9 @@
 //! Stability studies of two runs, row by row.
 
 use super::{
-    document::{Limit, Stability, StabilityRow},
-    moved::ratio_moved,
-    number::Number,
+    changes::ratio_moved,
+    document::{LimitDocument, StabilityDocument, StabilityRowDocument},
+    number::JsonNumber,
 };
 
 /// How a stability study moved.
@@ -24,13 +24,17 @@ pub(super) struct StabilityMove {
 }
 
 /// Rows with the same value of the parameter that is swept are the same row.
-pub(super) fn compare(old: &Stability, new: &Stability, tolerance: f64) -> StabilityMove {
+pub(super) fn compare(
+    old: &StabilityDocument,
+    new: &StabilityDocument,
+    tolerance: f64,
+) -> StabilityMove {
     let mut found = StabilityMove::default();
     if (&old.swept, &old.sought) != (&new.swept, &new.sought) {
         found.lone = old.rows.len() + new.rows.len();
         return found;
     }
-    let bits = |row: &StabilityRow| row.value.0.to_bits();
+    let bits = |row: &StabilityRowDocument| row.value.0.to_bits();
     let pairs: Vec<_> = old
         .rows
         .iter()
@@ -45,13 +49,13 @@ pub(super) fn compare(old: &Stability, new: &Stability, tolerance: f64) -> Stabi
     found
 }
 
-fn limit(row: &StabilityRow) -> Option<Limit> {
+fn limit(row: &StabilityRowDocument) -> Option<LimitDocument> {
     row.predicted.or(row.observed)
 }
 
 impl StabilityMove {
-    fn trial(&mut self, place: &str, old: &StabilityRow, new: &StabilityRow) {
-        let word = |row: &StabilityRow| row.run.as_ref().map(|run| run.verdict.clone());
+    fn trial(&mut self, place: &str, old: &StabilityRowDocument, new: &StabilityRowDocument) {
+        let word = |row: &StabilityRowDocument| row.run.as_ref().map(|run| run.verdict.clone());
         let (a, b) = (word(old), word(new));
         if a == b {
             return;
@@ -62,7 +66,13 @@ impl StabilityMove {
         self.verdicts.push(format!("{place}: {a} -> {b}").replace('_', " "));
     }
 
-    fn limit(&mut self, place: &str, old: Option<Limit>, new: Option<Limit>, tolerance: f64) {
+    fn limit(
+        &mut self,
+        place: &str,
+        old: Option<LimitDocument>,
+        new: Option<LimitDocument>,
+        tolerance: f64,
+    ) {
         let (a, b) = (bound(old), bound(new));
         let same_side = side(old) == side(new);
         if same_side && (a.to_bits() == b.to_bits() || !ratio_moved(b / a, tolerance)) {
@@ -83,27 +93,31 @@ fn severity(word: &str) -> usize {
 }
 
 /// The number by which limits are ordered: none is the worst.
-fn bound(limit: Option<Limit>) -> f64 {
+fn bound(limit: Option<LimitDocument>) -> f64 {
     match limit {
         None => 0.0,
-        Some(Limit::At(Number(x)) | Limit::Above(Number(x)) | Limit::Below(Number(x))) => x,
+        Some(
+            LimitDocument::At(JsonNumber(x))
+            | LimitDocument::Above(JsonNumber(x))
+            | LimitDocument::Below(JsonNumber(x)),
+        ) => x,
     }
 }
 
-fn side(limit: Option<Limit>) -> u8 {
+fn side(limit: Option<LimitDocument>) -> u8 {
     match limit {
         None => 0,
-        Some(Limit::Below(_)) => 1,
-        Some(Limit::At(_)) => 2,
-        Some(Limit::Above(_)) => 3,
+        Some(LimitDocument::Below(_)) => 1,
+        Some(LimitDocument::At(_)) => 2,
+        Some(LimitDocument::Above(_)) => 3,
     }
 }
 
-fn shown(limit: Option<Limit>) -> String {
+fn shown(limit: Option<LimitDocument>) -> String {
     match limit {
         None => "none".to_owned(),
-        Some(Limit::At(Number(x))) => format!("{x:.4}"),
-        Some(Limit::Above(Number(x))) => format!("> {x}"),
-        Some(Limit::Below(Number(x))) => format!("< {x}"),
+        Some(LimitDocument::At(JsonNumber(x))) => format!("{x:.4}"),
+        Some(LimitDocument::Above(JsonNumber(x))) => format!("> {x}"),
+        Some(LimitDocument::Below(JsonNumber(x))) => format!("< {x}"),
     }
 }

@@ -28,9 +28,9 @@ fn sweep(runs: &[Value; 2], predicted: &[Value; 2]) -> Value {
         "stability": {"swept": "d", "sought": null, "rows": [row(0, 0.1), row(1, 0.5)]}})
 }
 
-fn document(cases: &[Value]) -> Document {
+fn document(cases: &[Value]) -> ReportDocument {
     let text = json!({"suites": [{"suite": "bar", "cases": cases}]}).to_string();
-    Document::read(&text).expect("a document")
+    ReportDocument::read(&text).expect("a document")
 }
 
 fn run(verdict: &str) -> Value {
@@ -38,13 +38,13 @@ fn run(verdict: &str) -> Value {
 }
 
 /// The only case, before and after `change`.
-fn after(before: &Value, change: impl Fn(&mut Value)) -> Comparison {
+fn after(before: &Value, change: impl Fn(&mut Value)) -> ReportComparison {
     let mut case = before.clone();
     change(&mut case);
     compare(&document(std::slice::from_ref(before)), &document(&[case]), TOLERANCE)
 }
 
-fn rank(found: &Comparison) -> Option<Rank> {
+fn rank(found: &ReportComparison) -> Option<Rank> {
     Rank::ALL.into_iter().find(|rank| found.count(*rank) > 0)
 }
 
@@ -64,7 +64,7 @@ fn set(path: &str, value: Value) -> impl Fn(&mut Value) {
 #[case::smaller_error("/levels/3/judged", json!(1e-4), Some(Rank::Better))]
 #[case::coarse_level("/levels/0/judged", json!(0.02), Some(Rank::LessAccurate))]
 #[case::within_tolerance("/levels/3/judged", json!(1.5625e-4 * 1.0005), None)]
-#[case::more_work("/levels/3/transfers", json!(12_000), Some(Rank::Dearer))]
+#[case::more_work("/levels/3/transfers", json!(12_000), Some(Rank::MoreExpensive))]
 #[case::less_work("/levels/3/transfers", json!(3000), Some(Rank::Better))]
 #[case::another_norm("/judge/norm", json!("linf"), Some(Rank::Otherwise))]
 #[case::another_scale("/judge/scale", json!(2.0), Some(Rank::Otherwise))]
@@ -77,7 +77,7 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
     assert_eq!(found.is_worse(), expected.is_some_and(Rank::is_worse));
 }
 
-/// What moved by little is not shown as if it had not.
+/// A small ratio is printed with the digits that show it.
 #[test]
 fn a_small_change_is_seen() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
@@ -110,10 +110,10 @@ fn a_new_failure_outweighs_a_better_finest_level() {
 }
 
 #[rstest]
-#[case::twice_as_dear(1.0, 1.8, Rank::Dearer, "1.80 x at 2e-4")]
+#[case::twice_as_expensive(1.0, 1.8, Rank::MoreExpensive, "1.80 x at 2e-4")]
 #[case::worse_and_as_dear(2.0, 1.0, Rank::LessAccurate, "2.00 x at 5e-4")]
 #[case::better_at_the_same_price(0.5, 2.0, Rank::Better, "1.000 x at 2e-4")]
-#[case::better_and_dearer_still(0.5, 4.0, Rank::Better, "2.00 x at 2e-4")]
+#[case::better_and_more_expensive_still(0.5, 4.0, Rank::Better, "2.00 x at 2e-4")]
 fn work_is_compared_at_equal_error(
     #[case] c: f64,
     #[case] w: f64,
@@ -124,8 +124,8 @@ fn work_is_compared_at_equal_error(
         compare(&document(&[case("a", 1.0, 1.0)]), &document(&[case("a", c, w)]), TOLERANCE);
     let page = text(&found);
     assert!(page.contains(shown), "{page}");
-    // Better on the same grid, and yet dearer for the same error.
-    let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::Dearer } else { expected };
+    // Better on the same grid, and yet more expensive for the same error.
+    let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::MoreExpensive } else { expected };
     assert_eq!(rank(&found), Some(expected), "{page}");
 }
 
@@ -144,7 +144,7 @@ fn other_grids_are_compared_at_equal_error() {
             }
         }
     });
-    assert_eq!(rank(&found), Some(Rank::Dearer), "{}", text(&found));
+    assert_eq!(rank(&found), Some(Rank::MoreExpensive), "{}", text(&found));
     assert!(text(&found).contains("levels: 4 -> 4, 0 in common"), "{}", text(&found));
     assert!(text(&found).contains("3.00 x at 2e-4"), "{}", text(&found));
 }
@@ -163,7 +163,7 @@ fn rounding(#[case] old: f64, #[case] new: f64, #[case] expected: Option<Rank>) 
     assert_eq!(rank(&after(&before, set("/levels/0/judged", json!(new)))), expected);
 }
 
-/// What has an order is no rounding, however small it is.
+/// Small errors with an order are no rounding.
 #[test]
 fn a_small_error_with_an_order_counts() {
     let small = case("a", 1e-12, 1.0);
@@ -219,7 +219,7 @@ fn what_moved_is_sorted_by_importance() {
     after.insert(0, case("added", 1.0, 1.0));
     let found = compare(&document(&before), &document(&after), TOLERANCE);
     let page = text(&found);
-    let heads = "worse: 1 no longer as expected, 1 worse verdict, 2 less accurate, 2 dearer, \
+    let heads = "worse: 1 no longer as expected, 1 worse verdict, 2 less accurate, 2 more expensive, \
                  1 better, 1 new, 1 gone";
     assert_eq!(page.lines().next(), Some(heads));
     let order = ["unmet", "verdict", "worst", "worse", "dearer", "dear", "cheap", "added", "gone"];
@@ -229,7 +229,7 @@ fn what_moved_is_sorted_by_importance() {
 }
 
 /// A document whose only suite ranks two methods at errors of 1e-2 and 1e-3.
-fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> Document {
+fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> ReportDocument {
     let method = |name: &str, work: [Option<f64>; 2]| {
         let reached =
             work.map(|work| work.map(|work| json!({"work": work, "at_most": false, "times": 1.0})));
@@ -238,7 +238,7 @@ fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> Document {
     let cost = json!([{"problem": "exact", "size": 1.0, "work": "transfers", "targets": [1e-2, 1e-3],
         "methods": [method("linear", first), method("cubic", second)]}]);
     let text = json!({"suites": [{"suite": "bar", "cases": [], "cost": cost}]}).to_string();
-    Document::read(&text).expect("a document")
+    ReportDocument::read(&text).expect("a document")
 }
 
 #[rstest]
@@ -282,7 +282,7 @@ fn what_is_no_document(
     #[case] words: &str,
     #[case] place: Option<(usize, usize)>,
 ) {
-    let error = Document::read(text).expect_err("no document");
+    let error = ReportDocument::read(text).expect_err("no document");
     assert!(error.message.contains(words), "{error:?}");
     assert_eq!(error.place, place, "{error:?}");
 }
@@ -291,7 +291,7 @@ fn what_is_no_document(
 fn a_case_that_is_there_twice_is_refused() {
     let twice =
         json!({"suites": [{"suite": "bar", "cases": [case("a", 1.0, 1.0), case("a", 2.0, 1.0)]}]});
-    let error = Document::read(&twice.to_string()).expect_err("no document");
+    let error = ReportDocument::read(&twice.to_string()).expect_err("no document");
     assert_eq!(error.message, "the case `bar::a` is there twice");
 }
 
@@ -391,7 +391,7 @@ proptest! {
         prop_assert!(!found.is_worse());
     }
 
-    /// What is new one way is gone the other way, and so with every verdict; nothing panics.
+    /// Swapping the runs swaps new and gone, better and worse; nothing panics.
     #[test]
     fn the_other_way_round_is_the_opposite(a in any_case(), b in any_case()) {
         let (a, b) = (document(&[a]), document(&[b, case("b", 1.0, 1.0)]));

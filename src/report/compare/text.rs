@@ -1,13 +1,13 @@
 //! A comparison as aligned text.
 
 use super::{
-    moved::{Comparison, Rank},
+    changes::{Rank, ReportComparison},
     row::{cases, notes, targets},
 };
 use crate::report::text::table::{Table, printable};
 
 /// A line that says what happened, then a table for each rank.
-pub fn text(comparison: &Comparison) -> String {
+pub fn text(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "worse" } else { "nothing worse" };
     let mut lines = vec![format!("{head}: {}", comparison.headline())];
     for rank in Rank::ALL {

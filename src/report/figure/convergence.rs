@@ -3,20 +3,20 @@
 use super::{
     plot::{
         frame::{Plot, Titles},
-        legend::{Legend, Placed},
+        legend::{Legend, PlacedLegend},
         scale::{Pad, Scale},
         space::{Rect, Space},
-        svg::{Element, Pt},
+        svg::{Pt, SvgElement},
         triangle,
         triangle::Triangle,
     },
     series,
-    series::{Failure, Line, Series},
+    series::{FailedLevel, PlotSeries, SeriesLine},
 };
 
 /// A log-log plot of errors against the cell size.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Convergence {
+pub struct ConvergencePlot {
     /// Title above the frame.
     pub title: String,
     /// Label of the horizontal axis with its unit.
@@ -24,21 +24,21 @@ pub struct Convergence {
     /// Label of the vertical axis with its unit.
     pub y_label: String,
     /// One line each.
-    pub series: Vec<Series>,
+    pub series: Vec<PlotSeries>,
     /// Orders shown as slope triangles; an order which is not positive is left out.
     pub reference_orders: Vec<f64>,
 }
 
 /// Where legend and slope triangles have found their places.
 struct Arrangement {
-    legend: Option<Placed>,
+    legend: Option<PlacedLegend>,
     triangles: Vec<Option<Triangle>>,
 }
 
-impl Convergence {
+impl ConvergencePlot {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        let lines: Vec<Line> = self.series.iter().enumerate().map(Line::new).collect();
+        let lines: Vec<SeriesLine> = self.series.iter().enumerate().map(SeriesLine::new).collect();
         let failures = series::failures(&lines);
         let plot = self.plot(&lines, &failures);
         let paths = paths(&plot, &lines, &failures);
@@ -47,7 +47,7 @@ impl Convergence {
         let arrangement = arrange(&plot, &paths, legend.as_ref(), &orders);
 
         let triangles = &arrangement.triangles;
-        let mut layers: Vec<Element> = triangles.iter().flatten().map(Triangle::draw).collect();
+        let mut layers: Vec<SvgElement> = triangles.iter().flatten().map(Triangle::draw).collect();
         layers.extend(lines.iter().map(|line| line.draw(&plot)));
         layers.extend(failures.iter().map(|failure| failure.draw(&plot)));
         if paths.is_empty() {
@@ -58,7 +58,7 @@ impl Convergence {
         }
 
         let mut notes = Vec::new();
-        let drawn: usize = lines.iter().map(Line::count).sum();
+        let drawn: usize = lines.iter().map(SeriesLine::count).sum();
         let given: usize = self.series.iter().map(|series| series.points.len()).sum();
         if drawn < given {
             notes.push(omission(given - drawn));
@@ -75,9 +75,9 @@ impl Convergence {
         self.reference_orders.iter().copied().filter(positive).collect()
     }
 
-    fn plot(&self, lines: &[Line], failures: &[Failure]) -> Plot<'_> {
-        let sizes = lines.iter().flat_map(Line::sizes);
-        let errors = lines.iter().flat_map(Line::errors);
+    fn plot(&self, lines: &[SeriesLine], failures: &[FailedLevel]) -> Plot<'_> {
+        let sizes = lines.iter().flat_map(SeriesLine::sizes);
+        let errors = lines.iter().flat_map(SeriesLine::errors);
         let x = Scale::log(sizes, Pad { lo: 0.06, hi: 0.06 });
         let y = Scale::log(errors, Pad { lo: 0.06, hi: 0.06 + series::headroom(failures) });
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
@@ -94,7 +94,7 @@ fn omission(count: usize) -> String {
 }
 
 /// Everything which legend and triangles must keep clear of.
-fn paths(plot: &Plot, lines: &[Line], failures: &[Failure]) -> Vec<Vec<Pt>> {
+fn paths(plot: &Plot, lines: &[SeriesLine], failures: &[FailedLevel]) -> Vec<Vec<Pt>> {
     let lines = lines.iter().map(|line| line.path(plot).iter().map(|p| p.0).collect());
     let failures = failures.iter().map(|failure| {
         let at = failure.place(plot);
@@ -109,7 +109,7 @@ fn arrange(plot: &Plot, paths: &[Vec<Pt>], legend: Option<&Legend>, orders: &[f6
     // Beside no data a slope has nothing to be compared with.
     let orders = if paths.is_empty() { &[] } else { orders };
     let space = Space::new(plot.frame, paths);
-    let beside = |legend: Option<Placed>| {
+    let beside = |legend: Option<PlacedLegend>| {
         let mut taken: Vec<Rect> = legend.iter().map(|placed| placed.area).collect();
         let place = |&order: &f64| {
             let triangle = triangle::place(order, plot, &space, &taken);

@@ -1,6 +1,6 @@
 //! Work-precision diagrams of a ranking.
 
-use super::{Mark, Point, Series, WorkPrecision, drawing::Figure};
+use super::{Mark, PlotPoint, PlotSeries, WorkPrecision, drawing::Figure};
 use crate::verify::{Ranked, Ranking, Sample, pareto_front};
 use std::ops::Range;
 
@@ -10,8 +10,8 @@ const MOST_NAMED: usize = 7;
 /// Points of two methods that differ by less than this share lie on each other.
 const SAME: f64 = 0.02;
 
-/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the name
-/// of the file.
+/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the
+/// name of the file.
 pub fn cost_figures(
     suite: &str,
     title: &str,
@@ -44,12 +44,12 @@ fn diagram(ranking: &Ranking, title: String, work: &str) -> WorkPrecision {
     named.sort_by_key(|(row, _)| row.front.is_empty());
     let others = named.split_off(named.len().min(MOST_NAMED));
     let every: Vec<Sample> =
-        ranking.rows.iter().flat_map(|row| row.contender.tried.iter().copied()).collect();
+        ranking.rows.iter().flat_map(|row| row.method.samples.iter().copied()).collect();
     let front = pareto_front(&every).into_iter().map(|k| (every[k].work, every[k].error));
-    let series = |(row, more): &(&Ranked, usize)| Series {
+    let series = |(row, more): &(&Ranked, usize)| PlotSeries {
         name: match more {
-            0 => row.contender.name.clone(),
-            more => format!("{} (and {more} alike)", row.contender.name),
+            0 => row.method.name.clone(),
+            more => format!("{} (and {more} alike)", row.method.name),
         },
         points: points(row),
     };
@@ -65,7 +65,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str) -> WorkPrecision {
 
 /// Whether one line would hide the other.
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
-    let (a, b) = (&a.contender.tried, &b.contender.tried);
+    let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
     // Levels that do not count may differ.
     let same = |(a, b): (&Sample, &Sample)| {
@@ -76,12 +76,12 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
 }
 
 /// The levels; those in the window of a series that diverges are not in that of one that converges.
-fn points(row: &Ranked) -> Vec<Point> {
-    let levels = row.contender.tried.iter().enumerate();
+fn points(row: &Ranked) -> Vec<PlotPoint> {
+    let levels = row.method.samples.iter().enumerate();
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()
 }
 
-fn point(converging: &Range<usize>, level: usize, one: &Sample) -> Point {
+fn point(converging: &Range<usize>, level: usize, one: &Sample) -> PlotPoint {
     let mark = if one.failed {
         Mark::Failed
     } else if !one.usable {
@@ -89,7 +89,7 @@ fn point(converging: &Range<usize>, level: usize, one: &Sample) -> Point {
     } else if one.asymptotic && converging.contains(&level) {
         Mark::Window
     } else {
-        Mark::ParticleField
+        Mark::OutsideWindow
     };
-    Point { h: one.work, error: one.error, mark }
+    PlotPoint { h: one.work, error: one.error, mark }
 }

@@ -2,19 +2,19 @@
 
 use super::plot::{
     frame::{Plot, Titles},
-    legend::{Entry, KEY, Legend},
+    legend::{KEY, Legend, LegendEntry},
     marker,
     marker::{Fill, RADIUS},
     scale::{Pad, Scale},
     space::Space,
     style::{EXACT, Look, look},
-    svg::{Element, Pt},
+    svg::{Pt, SvgElement},
     thinning,
 };
 
 /// Curves over linear axes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct History {
+pub struct HistoryPlot {
     /// Title above the frame.
     pub title: String,
     /// Label of the horizontal axis with its unit.
@@ -39,7 +39,7 @@ pub struct Curve {
 }
 
 /// A curve in pixels, with its appearance.
-struct Line<'a> {
+struct CurveLine<'a> {
     curve: &'a Curve,
     look: Look,
     runs: Vec<Vec<Pt>>,
@@ -48,16 +48,16 @@ struct Line<'a> {
 /// Distance between the centres of markers on a curve.
 const MARKER_DISTANCE: f64 = 2.4 * RADIUS;
 
-impl History {
+impl HistoryPlot {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         let plot = self.plot();
         // The exact solution has an appearance of its own: it takes none from the others.
         let mut numerical = 0..;
-        let lines: Vec<Line> = self
+        let lines: Vec<CurveLine> = self
             .curves
             .iter()
-            .map(|curve| Line {
+            .map(|curve| CurveLine {
                 curve,
                 look: if curve.exact {
                     Look { colour: EXACT, ..look(0) }
@@ -68,11 +68,11 @@ impl History {
             })
             .collect();
         let paths: Vec<Vec<Pt>> = lines.iter().flat_map(|l| l.runs.iter().cloned()).collect();
-        let mut layers: Vec<Element> = lines.iter().map(Line::draw).collect();
+        let mut layers: Vec<SvgElement> = lines.iter().map(CurveLine::draw).collect();
         if paths.is_empty() {
             layers.push(plot.placeholder("no data"));
         }
-        let entries = lines.iter().filter(|l| !l.curve.name.is_empty()).map(Line::entry);
+        let entries = lines.iter().filter(|l| !l.curve.name.is_empty()).map(CurveLine::entry);
         let mut legend_area = None;
         if let Some(legend) = Legend::new(entries.collect()) {
             let space = Space::new(plot.frame, &paths);
@@ -107,15 +107,15 @@ fn runs(points: &[Pt], plot: &Plot) -> Vec<Vec<Pt>> {
         .collect()
 }
 
-impl Line<'_> {
-    fn draw(&self) -> Element {
-        let mut group = Element::new("g");
-        group.add(&Element::new("title").content(&self.curve.name));
+impl CurveLine<'_> {
+    fn draw(&self) -> SvgElement {
+        let mut group = SvgElement::new("g");
+        group.add(&SvgElement::new("title").content(&self.curve.name));
         for run in &self.runs {
             if let [only] = run.as_slice() {
                 group.add(&self.dot(*only));
             } else {
-                group.add(&self.stroke(Element::through("polyline", run)));
+                group.add(&self.stroke(SvgElement::through("polyline", run)));
             }
         }
         if self.curve.markers {
@@ -131,7 +131,7 @@ impl Line<'_> {
         group
     }
 
-    fn stroke(&self, line: Element) -> Element {
+    fn stroke(&self, line: SvgElement) -> SvgElement {
         let line = line
             .set("fill", "none")
             .set("stroke", self.look.colour)
@@ -144,28 +144,28 @@ impl Line<'_> {
     }
 
     /// A point between two interruptions, which no line would show.
-    fn dot(&self, at: Pt) -> Element {
-        Element::new("circle")
+    fn dot(&self, at: Pt) -> SvgElement {
+        SvgElement::new("circle")
             .at("cx", at.0)
             .at("cy", at.1)
             .at("r", if self.curve.exact { 2.0 } else { 1.2 })
             .set("fill", self.look.colour)
     }
 
-    fn marker(&self, at: Pt) -> Element {
+    fn marker(&self, at: Pt) -> SvgElement {
         marker::draw(self.look.shape, Fill::Hollow, self.look.colour, at)
     }
 
-    fn entry(&self) -> Entry {
-        let mut key = Element::new("g");
-        key.add(&self.stroke(Element::line((0.0, 0.0), (KEY, 0.0))));
+    fn entry(&self) -> LegendEntry {
+        let mut key = SvgElement::new("g");
+        key.add(&self.stroke(SvgElement::line((0.0, 0.0), (KEY, 0.0))));
         if self.curve.markers {
             key.add(&self.marker((KEY / 2.0, 0.0)));
         }
         if self.runs.is_empty() {
-            Entry::new(key, &format!("{} (no data)", self.curve.name))
+            LegendEntry::new(key, &format!("{} (no data)", self.curve.name))
         } else {
-            Entry::new(key, &self.curve.name)
+            LegendEntry::new(key, &self.curve.name)
         }
     }
 }

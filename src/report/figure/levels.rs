@@ -2,16 +2,16 @@
 
 /// The error at one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct PlotPoint {
     /// Cell size.
     pub h: f64,
     /// Error; one which is not finite is drawn as failed, zero is noted below the figure.
     pub error: f64,
-    /// What the level counts for.
+    /// Role of the level.
     pub mark: Mark,
 }
 
-/// What a level counts for.
+/// Role of a level in the judgement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// In the asymptotic window: filled, joined by a solid line.
@@ -19,7 +19,7 @@ pub enum Mark {
     /// Measured and not judged: as in the window, and no word in the legend.
     Measured,
     /// Outside the window: hollow, joined by a thin dashed line.
-    ParticleField,
+    OutsideWindow,
     /// Particles changed cell: hollow with a cross.
     Crossing,
     /// No finite error: an arrow at the upper edge of the frame.
@@ -28,7 +28,7 @@ pub enum Mark {
 
 /// A point as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Level {
+pub(super) struct PlotLevel {
     pub(super) h: f64,
     /// The error, unless the level failed.
     pub(super) error: Option<f64>,
@@ -37,19 +37,19 @@ pub(super) struct Level {
 }
 
 /// The points which can be drawn, from fine to coarse.
-pub(super) fn levels(points: &[Point]) -> Vec<Level> {
-    let mut levels: Vec<Level> = points.iter().filter_map(level).collect();
+pub(super) fn levels(points: &[PlotPoint]) -> Vec<PlotLevel> {
+    let mut levels: Vec<PlotLevel> = points.iter().filter_map(level).collect();
     levels.sort_by(|a, b| a.h.total_cmp(&b.h));
     levels
 }
 
-fn level(&Point { h, error, mark }: &Point) -> Option<Level> {
+fn level(&PlotPoint { h, error, mark }: &PlotPoint) -> Option<PlotLevel> {
     let failed = mark == Mark::Failed || !error.is_finite();
     let drawable = h.is_finite() && h > 0.0 && (failed || error > 0.0);
     drawable.then_some(if failed {
-        Level { h, error: None, mark: Mark::Failed }
+        PlotLevel { h, error: None, mark: Mark::Failed }
     } else {
-        Level { h, error: Some(error), mark }
+        PlotLevel { h, error: Some(error), mark }
     })
 }
 
@@ -61,7 +61,7 @@ mod tests {
     #[rstest]
     #[case(0.1, 0.5, Mark::Window, Some((Some(0.5), Mark::Window)))]
     #[case(0.1, f64::NAN, Mark::Window, Some((None, Mark::Failed)))]
-    #[case(0.1, f64::INFINITY, Mark::ParticleField, Some((None, Mark::Failed)))]
+    #[case(0.1, f64::INFINITY, Mark::OutsideWindow, Some((None, Mark::Failed)))]
     #[case(0.1, 0.5, Mark::Failed, Some((None, Mark::Failed)))]
     #[case(0.1, 0.0, Mark::Window, None)]
     #[case(0.1, -0.5, Mark::Window, None)]
@@ -73,13 +73,13 @@ mod tests {
         #[case] mark: Mark,
         #[case] drawn: Option<(Option<f64>, Mark)>,
     ) {
-        let levels = levels(&[Point { h, error, mark }]);
+        let levels = levels(&[PlotPoint { h, error, mark }]);
         assert_eq!(levels.first().map(|l| (l.error, l.mark)), drawn);
     }
 
     #[test]
     fn levels_are_ordered_by_cell_size() {
-        let points = [0.1, 0.4, 0.2].map(|h| Point { h, error: h, mark: Mark::Window });
+        let points = [0.1, 0.4, 0.2].map(|h| PlotPoint { h, error: h, mark: Mark::Window });
         let sorted: Vec<f64> = levels(&points).iter().map(|l| l.h).collect();
         assert_eq!(sorted, [0.1, 0.2, 0.4]);
     }

@@ -1,11 +1,12 @@
 //! The map: a table of numbers over coloured fields, a row for each case.
 //!
-//! Numbers are printed in the fields, so that colours only guide the eye; they run from dark to light in
-//! steps of equal lightness and survive grey print. A gap parts rows whose names begin otherwise.
+//! Numbers are printed in the fields, so that colours only guide the eye; they run from dark to
+//! light in steps of equal lightness and survive grey print. A gap parts rows whose names begin
+//! otherwise.
 
 use super::plot::{
     style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE},
-    svg::{Element, number},
+    svg::{SvgElement, number},
     text,
 };
 
@@ -14,22 +15,22 @@ use super::plot::{
 pub struct Map {
     /// Title above the table.
     pub title: String,
-    /// What the columns are.
+    /// Label of the columns.
     pub x_label: String,
-    /// What the numbers are.
+    /// Label of the numbers.
     pub z_label: String,
     /// Head of each column.
     pub columns: Vec<String>,
     /// Name and fields of each row.
-    pub rows: Vec<(String, Vec<Field>)>,
+    pub rows: Vec<(String, Vec<MapField>)>,
 }
 
 /// One field.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Field {
-    /// What colours it; none, or not finite: it stays white.
+pub struct MapField {
+    /// Value that gives the colour; white for none, or one that is not finite.
     pub value: Option<f64>,
-    /// What is printed in it.
+    /// Text printed in it.
     pub text: String,
 }
 
@@ -82,7 +83,7 @@ impl Map {
         let head = TOP + 17.0 * heading.len() as f64 + 34.0;
         let (places, bottom) = self.places(head);
         let height = bottom + 62.0;
-        let mut svg = Element::new("svg")
+        let mut svg = SvgElement::new("svg")
             .set("xmlns", "http://www.w3.org/2000/svg")
             .set("viewBox", &format!("0 0 {} {}", number(width), number(height)))
             .at("width", width)
@@ -91,18 +92,20 @@ impl Map {
             .set("font-family", FONT)
             .at("font-size", TEXT)
             .set("fill", INK);
-        svg.add(&Element::new("title").content(&self.title));
-        svg.add(&Element::new("rect").at("width", width).at("height", height).set("fill", PAPER));
+        svg.add(&SvgElement::new("title").content(&self.title));
+        svg.add(
+            &SvgElement::new("rect").at("width", width).at("height", height).set("fill", PAPER),
+        );
         for (i, line) in heading.iter().enumerate() {
             let at = (width / 2.0, TOP + 4.0 + 17.0 * i as f64);
-            let line = Element::text(at, "middle", line).at("font-size", TITLE);
+            let line = SvgElement::text(at, "middle", line).at("font-size", TITLE);
             svg.add(&line.set("font-weight", "bold"));
         }
         let middle = left + across / 2.0;
-        svg.add(&Element::text((middle, head - 22.0), "middle", &self.x_label));
+        svg.add(&SvgElement::text((middle, head - 22.0), "middle", &self.x_label));
         for (k, column) in self.columns.iter().enumerate() {
             let at = (left + field * (k as f64 + 0.5), head - 6.0);
-            svg.add(&Element::text(at, "middle", column));
+            svg.add(&SvgElement::text(at, "middle", column));
         }
         let range = self.range();
         for ((name, fields), y) in self.rows.iter().zip(places) {
@@ -138,13 +141,13 @@ impl Map {
     }
 
     /// The colours with their numbers.
-    fn bar(&self, (x, y): (f64, f64), (low, high): (f64, f64)) -> Element {
-        let mut group = Element::new("g");
+    fn bar(&self, (x, y): (f64, f64), (low, high): (f64, f64)) -> SvgElement {
+        let mut group = SvgElement::new("g");
         let step = BAR_WIDTH / f64::from(SHADES);
         for k in 0..SHADES {
             let (fill, _) = colour((f64::from(k) + 0.5) / f64::from(SHADES));
             let at = x + step * f64::from(k);
-            let shade = Element::new("rect").at("x", at).at("y", y);
+            let shade = SvgElement::new("rect").at("x", at).at("y", y);
             // Wider than its place, so that no gap shows between neighbours.
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
@@ -153,31 +156,31 @@ impl Map {
         for (share, anchor, value) in labels {
             let at = (x + share * BAR_WIDTH, y + BAR + 15.0);
             let digits = if high.abs() < 0.995 { 4 } else { 2 };
-            group.add(&Element::text(at, anchor, &format!("{value:.digits$}")));
+            group.add(&SvgElement::text(at, anchor, &format!("{value:.digits$}")));
         }
-        group.add(&Element::text((x - 8.0, y + BAR - 2.0), "end", &self.z_label));
+        group.add(&SvgElement::text((x - 8.0, y + BAR - 2.0), "end", &self.z_label));
         group
     }
 }
 
 fn row(
     name: &str,
-    fields: &[Field],
+    fields: &[MapField],
     (x, y, width): (f64, f64, f64),
     (low, high): (f64, f64),
-) -> Element {
-    let mut group = Element::new("g");
-    group.add(&Element::text((x - 8.0, y + ROW - 4.5), "end", name));
+) -> SvgElement {
+    let mut group = SvgElement::new("g");
+    group.add(&SvgElement::text((x - 8.0, y + ROW - 4.5), "end", name));
     for (k, field) in fields.iter().enumerate() {
         let at = x + width * k as f64;
         let value = field.value.filter(|value| value.is_finite());
         let known = value.map(|value| colour((value - low) / (high - low)));
         let (fill, ink) = known.unwrap_or((PAPER.to_owned(), NEUTRAL));
         let square =
-            Element::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
+            SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
         group.add(&square.set("fill", &fill).set("stroke", GRID).at("stroke-width", 0.5));
         let middle = (at + width / 2.0, y + ROW - 4.5);
-        group.add(&Element::text(middle, "middle", &field.text).set("fill", ink));
+        group.add(&SvgElement::text(middle, "middle", &field.text).set("fill", ink));
     }
     group
 }
@@ -187,7 +190,7 @@ mod tests {
     use super::*;
 
     fn map(values: &[Option<f64>]) -> String {
-        let field = |value: &Option<f64>| Field { value: *value, text: "x".to_owned() };
+        let field = |value: &Option<f64>| MapField { value: *value, text: "x".to_owned() };
         Map {
             title: "Limits".to_owned(),
             x_label: "place".to_owned(),

@@ -1,18 +1,18 @@
 //! Figures as standalone SVG documents.
 //!
-//! Four kinds are drawn: the [`Convergence`] plot (error against cell size, both axes logarithmic), the
-//! [`WorkPrecision`] diagram (error against work),
-//! the [`History`] plot (curves over linear axes) and the [`Map`] (numbers over colours). All are pure functions of
-//! their input, so that a figure can be compared byte by byte: every coordinate is printed with
-//! two decimals and every transcendental comes from `libm`.
+//! Four kinds are drawn: the [`ConvergencePlot`] plot (error against cell size, both axes
+//! logarithmic), the [`WorkPrecision`] diagram (error against work), the [`HistoryPlot`] plot
+//! (curves over linear axes) and the [`Map`] (numbers over colours). All are pure functions of
+//! their input, so that a figure can be compared byte by byte: every coordinate is printed with two
+//! decimals and every transcendental comes from `libm`.
 //!
 //! No input can make a figure fail. A value which has no place on its axis is marked as failed,
 //! interrupts its curve, or is counted in a note under the figure.
 //!
 //! ```
-//! use mpm_verify::report::figure::{Curve, History};
+//! use mpm_verify::report::figure::{Curve, HistoryPlot};
 //!
-//! let svg = History {
+//! let svg = HistoryPlot {
 //!     title: "Vibrating bar".into(),
 //!     x_label: "time (s)".into(),
 //!     y_label: "velocity (m/s)".into(),
@@ -41,9 +41,9 @@ mod map;
 mod series;
 mod work;
 
-pub use convergence::Convergence;
-pub use history::{Curve, History};
-pub use levels::{Mark, Point};
-pub use map::{Field, Map};
-pub use series::Series;
+pub use convergence::ConvergencePlot;
+pub use history::{Curve, HistoryPlot};
+pub use levels::{Mark, PlotPoint};
+pub use map::{Map, MapField};
+pub use series::PlotSeries;
 pub use work::WorkPrecision;

@@ -1,44 +1,44 @@
 //! A series of the convergence plot: its line, its failed levels, and what the legend says.
 
 use super::{
-    levels::{Level, Mark, Point, levels},
+    levels::{Mark, PlotLevel, PlotPoint, levels},
     plot::{
         frame::Plot,
-        legend::{Entry, KEY},
+        legend::{KEY, LegendEntry},
         marker,
         marker::Fill,
-        style::{CONTEXT, HEIGHT, Look, NEUTRAL, Shape, look},
-        svg::{Element, Pt},
+        style::{CONTEXT, HEIGHT, Look, MarkerShape, NEUTRAL, look},
+        svg::{Pt, SvgElement},
     },
 };
 
 /// The errors of one quantity over all levels.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct PlotSeries {
     /// Name in the legend.
     pub name: String,
     /// The levels in any order.
-    pub points: Vec<Point>,
+    pub points: Vec<PlotPoint>,
 }
 
 /// Every mark with its key in the legend, in the order of the legend.
 const MARKS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
-    (Mark::ParticleField, "outside the window"),
+    (Mark::OutsideWindow, "outside the window"),
     (Mark::Crossing, "particles changed cell"),
     (Mark::Failed, "failed or not finite"),
 ];
 
 /// A series with its appearance.
-pub(super) struct Line<'a> {
+pub(super) struct SeriesLine<'a> {
     name: &'a str,
     look: Look,
     grey: bool,
-    levels: Vec<Level>,
+    levels: Vec<PlotLevel>,
 }
 
 /// A failed level with its place below the upper edge.
-pub(super) struct Failure {
+pub(super) struct FailedLevel {
     h: f64,
     look: Look,
     /// Number of failures of other series above it at the same cell size.
@@ -53,66 +53,71 @@ const FAILED_ROW: f64 = 13.0;
 const LARGEST_HEAD: f64 = 0.4;
 
 /// The failed levels; those of different series at the same cell size stand in a column.
-pub(super) fn failures(lines: &[Line]) -> Vec<Failure> {
-    let mut failures: Vec<Failure> = Vec::new();
+pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
+    let mut failures: Vec<FailedLevel> = Vec::new();
     for line in lines {
         for level in line.levels.iter().filter(|l| l.mark == Mark::Failed) {
-            let same = |f: &&Failure| (f.h / level.h - 1.0).abs() < 0.02;
+            let same = |f: &&FailedLevel| (f.h / level.h - 1.0).abs() < 0.02;
             let rank = failures.iter().filter(same).count();
-            failures.push(Failure { h: level.h, look: line.look, rank });
+            failures.push(FailedLevel { h: level.h, look: line.look, rank });
         }
     }
     failures
 }
 
 /// The part of the frame to be kept free above the errors for failed levels.
-pub(super) fn headroom(failures: &[Failure]) -> f64 {
+pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
     let rows = failures.iter().map(|failure| failure.rank + 1).max();
     rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / HEIGHT).min(LARGEST_HEAD)
 }
 
 /// The legend: every series, then every mark which occurs.
-pub(super) fn entries(lines: &[Line]) -> Vec<Entry> {
-    let series = lines.iter().map(Line::entry);
+pub(super) fn entries(lines: &[SeriesLine]) -> Vec<LegendEntry> {
+    let series = lines.iter().map(SeriesLine::entry);
     let occurs = |mark| lines.iter().any(|l| l.levels.iter().any(|level| level.mark == mark));
     let marks = MARKS.iter().filter(|(mark, _)| occurs(*mark));
-    series.chain(marks.map(|&(mark, text)| Entry::new(key(mark), text))).collect()
+    series.chain(marks.map(|&(mark, text)| LegendEntry::new(key(mark), text))).collect()
 }
 
 /// The key of failed levels, where no named series has any.
-pub(super) fn failed_entry() -> Entry {
-    Entry::new(key(Mark::Failed), MARKS[3].1)
+pub(super) fn failed_entry() -> LegendEntry {
+    LegendEntry::new(key(Mark::Failed), MARKS[3].1)
 }
 
-fn key(mark: Mark) -> Element {
+fn key(mark: Mark) -> SvgElement {
     let at = (KEY / 2.0, 0.0);
     match mark {
         Mark::Failed => {
-            let mut failed = Element::new("g");
+            let mut failed = SvgElement::new("g");
             failed.add(&marker::arrow_up((at.0 + 7.0, 5.0), (at.0 + 7.0, -6.0), NEUTRAL));
-            failed.add(&marker::draw(Shape::Circle, Fill::Hollow, NEUTRAL, (at.0 - 5.0, 0.0)));
+            failed.add(&marker::draw(
+                MarkerShape::Circle,
+                Fill::Hollow,
+                NEUTRAL,
+                (at.0 - 5.0, 0.0),
+            ));
             failed
         }
-        _ => marker::draw(Shape::Circle, fill(mark), NEUTRAL, at),
+        _ => marker::draw(MarkerShape::Circle, fill(mark), NEUTRAL, at),
     }
 }
 
 fn fill(mark: Mark) -> Fill {
     match mark {
         Mark::Window | Mark::Measured => Fill::Solid,
-        Mark::ParticleField | Mark::Failed => Fill::Hollow,
+        Mark::OutsideWindow | Mark::Failed => Fill::Hollow,
         Mark::Crossing => Fill::Crossed,
     }
 }
 
-impl<'a> Line<'a> {
+impl<'a> SeriesLine<'a> {
     /// The series at `index` in the order of the figure.
-    pub(super) fn new((index, series): (usize, &'a Series)) -> Self {
+    pub(super) fn new((index, series): (usize, &'a PlotSeries)) -> Self {
         Self { name: &series.name, look: look(index), grey: false, levels: levels(&series.points) }
     }
 
     /// A series that is there for comparison: a thin line without markers.
-    pub(super) fn in_grey(series: &'a Series) -> Self {
+    pub(super) fn in_grey(series: &'a PlotSeries) -> Self {
         let look = Look { colour: CONTEXT, ..look(0) };
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
     }
@@ -146,18 +151,18 @@ impl<'a> Line<'a> {
     }
 
     /// Line and markers; failed levels are drawn apart.
-    pub(super) fn draw(&self, plot: &Plot) -> Element {
+    pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
         let path = self.path(plot);
-        let mut group = Element::new("g");
-        group.add(&Element::new("title").content(self.name));
+        let mut group = SvgElement::new("g");
+        group.add(&SvgElement::new("title").content(self.name));
         if self.grey {
             let points: Vec<Pt> = path.iter().map(|(at, _)| *at).collect();
-            let line = Element::through("polyline", &points).set("fill", "none");
+            let line = SvgElement::through("polyline", &points).set("fill", "none");
             group.add(&line.set("stroke", self.look.colour).at("stroke-width", 1.2));
             return group;
         }
         for ends in path.windows(2) {
-            let line = Element::line(ends[0].0, ends[1].0).set("stroke", self.look.colour);
+            let line = SvgElement::line(ends[0].0, ends[1].0).set("stroke", self.look.colour);
             let solid = ends.iter().all(|end| matches!(end.1, Mark::Window | Mark::Measured));
             group.add(&if solid {
                 line.at("stroke-width", 1.6)
@@ -171,24 +176,24 @@ impl<'a> Line<'a> {
         group
     }
 
-    fn entry(&self) -> Entry {
-        let mut key = Element::new("g");
+    fn entry(&self) -> LegendEntry {
+        let mut key = SvgElement::new("g");
         key.add(
-            &Element::line((0.0, 0.0), (KEY, 0.0))
+            &SvgElement::line((0.0, 0.0), (KEY, 0.0))
                 .set("stroke", self.look.colour)
                 .at("stroke-width", 1.6),
         );
         let at = (KEY / 2.0, 0.0);
         key.add(&marker::draw(self.look.shape, Fill::Solid, self.look.colour, at));
         if self.levels.is_empty() {
-            Entry::new(key, &format!("{} (no data)", self.name))
+            LegendEntry::new(key, &format!("{} (no data)", self.name))
         } else {
-            Entry::new(key, self.name)
+            LegendEntry::new(key, self.name)
         }
     }
 }
 
-impl Failure {
+impl FailedLevel {
     /// The pixel of the marker.
     pub(super) fn place(&self, plot: &Plot) -> Pt {
         let below = ARROW + 7.0 + FAILED_ROW * self.rank as f64;
@@ -196,10 +201,10 @@ impl Failure {
     }
 
     /// The marker, below an arrow in the first row.
-    pub(super) fn draw(&self, plot: &Plot) -> Element {
+    pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
         let at = self.place(plot);
         let Look { colour, shape, .. } = self.look;
-        let mut group = Element::new("g");
+        let mut group = SvgElement::new("g");
         if self.rank == 0 {
             let top = plot.frame.y;
             group.add(&marker::arrow_up((at.0, top + ARROW), (at.0, top + 1.5), NEUTRAL));

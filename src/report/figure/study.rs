@@ -1,6 +1,6 @@
 //! The figures of convergence and internal-force studies.
 
-use super::{Convergence as Plot, Curve, History, Mark, Point, Series, drawing::Figure};
+use super::{ConvergencePlot, Curve, HistoryPlot, Mark, PlotPoint, PlotSeries, drawing::Figure};
 use crate::{
     subject::Totals,
     verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict},
@@ -9,8 +9,8 @@ use crate::{
 /// Most curves in one plot: a reader cannot tell more apart.
 const MOST_SERIES: usize = 6;
 
-/// Convergence plots, as many as keep each readable; the observed velocity of each case that watched
-/// one; the energies that were asked for.
+/// Convergence plots, as many as keep each readable; the observed velocity of each case that
+/// watched one; the energies that were asked for.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(histories(outcome));
@@ -36,8 +36,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     parts.map(figure).collect()
 }
 
-fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
-    let series = |(name, study): &(&str, &Convergence)| Series {
+fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> ConvergencePlot {
+    let series = |(name, study): &(&str, &Convergence)| PlotSeries {
         name: (*name).to_owned(),
         points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
     };
@@ -48,7 +48,7 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Plot {
     orders.sort_by(f64::total_cmp);
     orders.dedup();
     let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
-    Plot {
+    ConvergencePlot {
         title: outcome.title.clone(),
         x_label: spacing(studies.first().map_or(Axis::Space, |(_, study)| study.axis)).to_owned(),
         y_label: judged,
@@ -72,7 +72,7 @@ fn reference(study: &Convergence) -> Option<f64> {
     Some(libm::round(order.value * 3.0) / 3.0)
 }
 
-fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
+fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> PlotPoint {
     let window = study.judgement.window.as_deref().unwrap_or_default();
     let mark = if level.run.failure.is_some() {
         Mark::Failed
@@ -81,10 +81,10 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> Point {
     } else if window.contains(&index) {
         Mark::Window
     } else {
-        Mark::ParticleField
+        Mark::OutsideWindow
     };
     let error = study.judgement.levels.get(index).map_or(f64::NAN, |judged| judged.error);
-    Point { h: level.spacing, error, mark }
+    PlotPoint { h: level.spacing, error, mark }
 }
 
 /// Exact and computed velocity at the observed label, on a coarse, the middle and the finest level.
@@ -116,14 +116,14 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
         }
         let title = format!("{}: velocity near X = {} m, {name}", outcome.title, study.place()?);
         let (x_label, y_label) = ("time (s)".to_owned(), "velocity (m/s)".to_owned());
-        let svg = History { title, x_label, y_label, curves }.to_svg();
+        let svg = HistoryPlot { title, x_label, y_label, curves }.to_svg();
         Some(Figure { file: format!("{}-{name}-velocity.svg", outcome.suite), svg })
     };
     studies(outcome).into_iter().filter_map(figure).collect()
 }
 
-/// The energy over time, relative to that of the start, on the finest level of every case that is asked
-/// for its rate.
+/// The energy over time, relative to that of the start, on the finest level of every case that is
+/// asked for its rate.
 fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     let curve = |(name, study): (&str, &Convergence)| {
         let account = &study.levels.last().filter(|_| study.rated)?.run.account;
@@ -138,7 +138,7 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     }
     let title = format!("{}: energy", outcome.title);
     let (x_label, y_label) = ("time (s)".to_owned(), "energy over that of the start".to_owned());
-    let svg = History { title, x_label, y_label, curves }.to_svg();
+    let svg = HistoryPlot { title, x_label, y_label, curves }.to_svg();
     Some(Figure { file: format!("{}-energy.svg", outcome.suite), svg })
 }
 
@@ -162,7 +162,7 @@ pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
     if curves.is_empty() {
         return None;
     }
-    let svg = History {
+    let svg = HistoryPlot {
         title: outcome.title.clone(),
         x_label: "position of the moving particle, x/h".to_owned(),
         y_label: "internal force on the node (N)".to_owned(),

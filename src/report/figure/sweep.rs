@@ -1,6 +1,6 @@
 //! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
 
-use super::{Curve, Field, History, Map};
+use super::{Curve, HistoryPlot, Map, MapField};
 use crate::{
     report::text::stability::merged,
     verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome},
@@ -20,7 +20,8 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
 }
 
-/// A figure for each figure of the runs that the suite speaks of, where there is something to compare.
+/// A figure for each figure of the runs that the suite speaks of, where there is something to
+/// compare.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Named> {
     let studies = studies(outcome);
     let Some((_, first)) = studies.first() else { return Vec::new() };
@@ -74,7 +75,7 @@ fn curves(
             markers: true,
         };
         let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
-        let svg = History {
+        let svg = HistoryPlot {
             title: title(outcome, figure),
             x_label: part.first().map_or(String::new(), |(_, study)| study.swept.clone()),
             y_label: figure.head().to_owned(),
@@ -89,7 +90,7 @@ fn curves(
 fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Named {
     let field = |row: &StabilityRow| {
         let value = value(row, figure);
-        Field { value: Some(value), text: short(value) }
+        MapField { value: Some(value), text: short(value) }
     };
     let row = |(name, study): &(&str, &StabilityStudy)| {
         ((*name).to_owned(), study.rows.iter().map(field).collect())

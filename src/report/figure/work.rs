@@ -3,16 +3,16 @@
 use super::{
     plot::{
         frame::{Plot, Titles},
-        legend::{Entry, KEY, Legend},
+        legend::{KEY, Legend, LegendEntry},
         scale::{Pad, Scale},
         space::Space,
         style::{CONTEXT, FRONT},
-        svg::{Element, Pt},
+        svg::{Pt, SvgElement},
     },
     series,
-    series::{Failure, Line, Series},
+    series::{FailedLevel, PlotSeries, SeriesLine},
 };
-use crate::report::page::dark::with_dark_colours;
+use crate::report::page::dark_theme::with_dark_colours;
 
 /// A log-log plot of errors against the work that they take; `h` of the points is the work.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,10 +24,10 @@ pub struct WorkPrecision {
     /// Label of the vertical axis with its unit.
     pub y_label: String,
     /// One line each.
-    pub series: Vec<Series>,
+    pub series: Vec<PlotSeries>,
     /// Further methods, as thin grey lines without names.
-    pub others: Vec<Series>,
-    /// What nothing else beats, work and error, from the least work on: a broad band below the lines.
+    pub others: Vec<PlotSeries>,
+    /// Pareto front (work, error) from the least work on: a broad band below the lines.
     pub front: Vec<(f64, f64)>,
 }
 
@@ -37,8 +37,9 @@ const BAND: f64 = 11.0;
 impl WorkPrecision {
     /// The figure as a standalone SVG document, in dark colours where the reader prefers them.
     pub fn to_svg(&self) -> String {
-        let named = self.series.iter().enumerate().map(Line::new);
-        let lines: Vec<Line> = self.others.iter().map(Line::in_grey).chain(named).collect();
+        let named = self.series.iter().enumerate().map(SeriesLine::new);
+        let lines: Vec<SeriesLine> =
+            self.others.iter().map(SeriesLine::in_grey).chain(named).collect();
         let failures = series::failures(&lines);
         let plot = self.plot(&lines, &failures);
         let paths = paths(&plot, &lines, &failures);
@@ -56,21 +57,21 @@ impl WorkPrecision {
             layers.push(legend.draw(placed));
         }
         let given = self.series.iter().chain(&self.others).map(|one| one.points.len());
-        let missing = given.sum::<usize>() - lines.iter().map(Line::count).sum::<usize>();
+        let missing = given.sum::<usize>() - lines.iter().map(SeriesLine::count).sum::<usize>();
         let note = format!("Without a place on logarithmic axes: {missing}.");
         let notes: Vec<String> = (missing > 0).then_some(note).into_iter().collect();
         with_dark_colours(&plot.document(&layers, placed.map(|placed| placed.area), &notes))
     }
 
-    fn plot(&self, lines: &[Line], failures: &[Failure]) -> Plot<'_> {
-        let x = Scale::log(lines.iter().flat_map(Line::sizes), Pad { lo: 0.06, hi: 0.06 });
+    fn plot(&self, lines: &[SeriesLine], failures: &[FailedLevel]) -> Plot<'_> {
+        let x = Scale::log(lines.iter().flat_map(SeriesLine::sizes), Pad { lo: 0.06, hi: 0.06 });
         let head = 0.06 + series::headroom(failures);
-        let y = Scale::log(lines.iter().flat_map(Line::errors), Pad { lo: 0.06, hi: head });
+        let y = Scale::log(lines.iter().flat_map(SeriesLine::errors), Pad { lo: 0.06, hi: head });
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
         Plot::new(titles, x, y)
     }
 
-    fn band(&self, plot: &Plot) -> Element {
+    fn band(&self, plot: &Plot) -> SvgElement {
         let has_place = |(work, error): &&Pt| {
             [work, error].iter().all(|value| value.is_finite() && **value > 0.0)
         };
@@ -81,34 +82,34 @@ impl WorkPrecision {
             points.push(only);
         }
         if points.is_empty() {
-            return Element::new("g");
+            return SvgElement::new("g");
         }
         band(&points)
     }
 
     /// The named lines, the front, the others, and the marks that occur.
-    fn entries(&self, named: &[Line], lines: &[Line]) -> Vec<Entry> {
+    fn entries(&self, named: &[SeriesLine], lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::entries(named);
         let marks = entries.split_off(named.len());
         if !self.front.is_empty() {
-            entries.push(Entry::new(band(&[(3.0, 0.0), (KEY - 3.0, 0.0)]), "Pareto front"));
+            entries.push(LegendEntry::new(band(&[(3.0, 0.0), (KEY - 3.0, 0.0)]), "Pareto front"));
         }
         if !self.others.is_empty() {
-            let line = Element::line((0.0, 0.0), (KEY, 0.0)).set("stroke", CONTEXT);
+            let line = SvgElement::line((0.0, 0.0), (KEY, 0.0)).set("stroke", CONTEXT);
             let count = self.others.len();
             let text = if count == 1 { "1 other method".into() } else { format!("{count} others") };
-            entries.push(Entry::new(line.at("stroke-width", 1.2), &text));
+            entries.push(LegendEntry::new(line.at("stroke-width", 1.2), &text));
         }
         entries.extend(marks);
-        if lines.iter().any(Line::has_failed) && !named.iter().any(Line::has_failed) {
+        if lines.iter().any(SeriesLine::has_failed) && !named.iter().any(SeriesLine::has_failed) {
             entries.push(series::failed_entry());
         }
         entries
     }
 }
 
-fn band(points: &[Pt]) -> Element {
-    Element::through("polyline", points)
+fn band(points: &[Pt]) -> SvgElement {
+    SvgElement::through("polyline", points)
         .set("fill", "none")
         .set("stroke", FRONT)
         .at("stroke-width", BAND)
@@ -117,7 +118,7 @@ fn band(points: &[Pt]) -> Element {
 }
 
 /// Everything which the legend must keep clear of.
-fn paths(plot: &Plot, lines: &[Line], failures: &[Failure]) -> Vec<Vec<Pt>> {
+fn paths(plot: &Plot, lines: &[SeriesLine], failures: &[FailedLevel]) -> Vec<Vec<Pt>> {
     let lines = lines.iter().map(|line| line.path(plot).iter().map(|p| p.0).collect());
     let failures = failures.iter().map(|failure| {
         let at = failure.place(plot);

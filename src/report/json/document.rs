@@ -14,38 +14,42 @@
 //!         "columns": [{"name": "v", "of": "particle", "entries": 20, "bytes": 8}]},
 //!     "floor": {"cause": "time", "error": 1e-4,
 //!         "probes": [{"axis": "time", "error": 5e-5, "failure": null}]},
-//!     "levels": [{"cells": 5, "h": 5.0, "spacing": 5.0, "dt": 0.001, "ppc": 4, "particles": 20, "steps": 500,
-//!         "transfers": 300000, "crossings": 0, "left_domain": 0, "min_j": 0.99,
+//!     "levels": [{"cells": 5, "h": 5.0, "spacing": 5.0, "dt": 0.001, "ppc": 4,
+//!         "particles": 20, "steps": 500, "transfers": 300000, "crossings": 0, "left_domain": 0,
+//!         "min_j": 0.99,
 //!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
 //!             "kinetic_energy": 1e-4, "kinetic_energy_gain": 0.0, "energy": 1e-6},
-//!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "safe_step": null, "order": null, "failure": null}],
+//!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "safe_step": null, "order": null,
+//!         "failure": null}],
 //!     "forces": null, "stability": null}],
-//!   "cost": [{"problem": "until t = 0.5 s, against the exact solution", "size": 0.05, "work": "transfers",
-//!     "targets": [0.01, 0.001, 0.0001], "methods": [{"case": "...",
+//!   "cost": [{"problem": "until t = 0.5 s, against the exact solution", "size": 0.05,
+//!     "work": "transfers", "targets": [0.01, 0.001, 0.0001], "methods": [{"case": "...",
 //!       "reached": [{"work": 130000.0, "at_most": false, "times": 1.0}, null, null],
 //!       "best": 5e-3, "not_reached": "floor", "front": [0, 1],
-//!       "exponent": {"value": -1.0, "low": -1.1, "high": -0.9, "theory": -1.0, "agrees": true}}]}]}]}
+//!       "exponent": {"value": -1.0, "low": -1.1, "high": -0.9, "theory": -1.0,
+//!         "agrees": true}}]}]}]}
 //! ```
 //!
-//! `cost` ranks the methods of each problem of the suite, the cheapest first: errors are over `size`, `reached`
-//! has the work at each of the `targets` and how many `times` the least that is, `front` the levels that no
-//! other one beats, and `exponent` is k in work ~ error^k.
+//! `cost` ranks the methods of each problem of the suite, the cheapest first: errors are over
+//! `size`, `reached` has the work at each of the `targets` and how many `times` the least that is,
+//! `front` the levels that no other one beats, and `exponent` is k in work ~ error^k.
 //!
-//! `null` stands where a thing does not exist; numbers that are not finite are the strings
-//! `"nan"`, `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
-//! `{"position", "n_left", "n_right", "force", "predicted"}`. Nor have stability studies; their `stability`
-//! is `{"swept", "sought", "rows"}`, each row with the `value` of what is swept, and the `run` with its
-//! verdict and figures, or the limit of what is sought: `predicted`, `observed` (each with `at`, or
-//! `above` or `below` the range) and the runs that `confirmed` it. `axis` is what was refined (`space`,
-//! `time`, `particles`) and `spacing` that of this axis; where particles are, there is no formal order.
-//! `energy_rate` is d ln E/dt (1/s), and both ends of its 95 % interval; of a law without an energy the drift
-//! of `energy` is `"nan"`. `safe_step` is the longest safe time step (s), where a rule
-//! chose the step or a stated one is longer. `profile` is what one step takes on the coarsest level, from a subject that says (MPM); `bytes`
-//! are those of one entry.
-//! `floor` is what became of the finest level's error with another spacing halved, where that was
-//! tried; its `cause` is one of the axes, or `none`, or null where it could not be told. Keys may be added; none is renamed
-//! or removed without a new major version. `docs/columns.md` lists those of rows.
+//! `null` stands where a thing does not exist; numbers that are not finite are the strings `"nan"`,
+//! `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Nor have stability studies; their
+//! `stability` is `{"swept", "sought", "rows"}`, each row with the `value` of what is swept, and
+//! the `run` with its verdict and figures, or the limit of what is sought: `predicted`, `observed`
+//! (each with `at`, or `above` or `below` the range) and the runs that `confirmed` it. `axis` is
+//! what was refined (`space`, `time`, `particles`) and `spacing` that of this axis; where particles
+//! are, there is no formal order. `energy_rate` is d ln E/dt (1/s), and both ends of its 95 %
+//! interval; of a law without an energy the drift of `energy` is `"nan"`. `safe_step` is the
+//! longest safe time step (s), where a rule chose the step or a stated one is longer. `profile` is
+//! what one step takes on the coarsest level, from a subject that says (MPM); `bytes` are those of
+//! one entry. `floor` is what became of the finest level's error with another spacing halved, where
+//! that was tried; its `cause` is one of the axes, or `none`, or null where it could not be told.
+//! Keys may be added; none is renamed or removed without a new major version. `docs/columns.md`
+//! lists those of rows.
 
 use super::cost;
 use crate::{

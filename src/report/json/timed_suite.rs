@@ -1,8 +1,9 @@
-//! What suites cost in seconds as JSON.
+//! Timed suites as JSON.
 //!
 //! ```json
 //! {"suites": [{"suite": "...",
-//!   "machine": {"cores": 2, "load": [0.1, 0.2], "waited": 0.0, "fixed_loop": {"median": 1e-3, "low": 1e-3, "high": 1e-3, "repeats": 40}},
+//!   "machine": {"cores": 2, "load": [0.1, 0.2], "waited": 0.0,
+//!     "fixed_loop": {"median": 1e-3, "low": 1e-3, "high": 1e-3, "repeats": 40}},
 //!   "cases": [{"case": "...",
 //!     "model": {"transfer": 2e-9, "particle": 0.0, "node": 1e-9, "step": 0.0, "finest_off": 0.03},
 //!     "levels": [{"cells": 5, "dt": 1e-3, "ppc": 4, "error": 1e-2, "transfers": 120000,
@@ -11,9 +12,9 @@
 //!   "cost": [{"work": "seconds", ...}, {"work": "transfers", ...}], "bid": null}]}
 //! ```
 //!
-//! `error` is over the size of the solution, `bytes` the particle data that the steps have passed over at
-//! least: those of a particle times particle updates. `cost` is that of reports. `bid` is what came of a
-//! budget; then there is nothing else.
+//! `error` is over the size of the solution, `bytes` the particle data that the steps have passed
+//! over at least: those of a particle times particle updates. `cost` is that of reports. `bid` is
+//! what came of a budget; then there is nothing else.
 
 use super::{cost::rankings, number::number};
 use crate::{
@@ -22,29 +23,29 @@ use crate::{
         json_object,
         timed_level::{json_columns, rows, timing},
     },
-    verify::{Bid, CaseOutcome, Machine, TimedSuite},
+    verify::{BestCandidate, CaseOutcome, Machine, TimedSuite},
 };
 use serde_json::{Value, json};
 
 /// The document, indented, with a newline at its end. A suite has either been priced or bid for.
-pub fn priced_json(priced: &[TimedSuite], bids: &[(String, Bid)]) -> String {
-    let suites = priced.iter().map(suite).chain(bids.iter().map(|(name, found)| {
+pub fn timed_json(timed: &[TimedSuite], bids: &[(String, BestCandidate)]) -> String {
+    let suites = timed.iter().map(suite).chain(bids.iter().map(|(name, found)| {
         json!({"suite": name, "machine": null, "cases": [], "cost": [], "bid": bid(found)})
     }));
     format!("{:#}\n", json!({ "suites": suites.collect::<Vec<_>>() }))
 }
 
-fn suite(priced: &TimedSuite) -> Value {
-    let cases = priced.outcome.cases.iter().enumerate();
+fn suite(timed: &TimedSuite) -> Value {
+    let cases = timed.outcome.cases.iter().enumerate();
     let ranked = [
-        (rankings(&priced.by_seconds(), "seconds")),
-        (rankings(&priced.by_transfers(), "transfers")),
+        (rankings(&timed.by_seconds(), "seconds")),
+        (rankings(&timed.by_transfers(), "transfers")),
     ];
     let cost: Vec<Value> = ranked.iter().filter_map(Value::as_array).flatten().cloned().collect();
     json!({
-        "suite": priced.outcome.suite,
-        "machine": machine(&priced.machine),
-        "cases": cases.map(|(index, one)| case(priced, index, one)).collect::<Vec<_>>(),
+        "suite": timed.outcome.suite,
+        "machine": machine(&timed.machine),
+        "cases": cases.map(|(index, one)| case(timed, index, one)).collect::<Vec<_>>(),
         "cost": cost,
         "bid": null,
     })
@@ -59,17 +60,17 @@ fn machine(machine: &Machine) -> Value {
     })
 }
 
-fn case(priced: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
+fn case(timed: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
     let columns = json_columns();
-    let fitted = priced.model(index).map(|(model, off)| (case.case.clone(), model, off));
+    let fitted = timed.model(index).map(|(model, off)| (case.case.clone(), model, off));
     json!({
         "case": case.case,
         "model": fitted.map(|fitted| json_object(&models(), &fitted)),
-        "levels": rows(priced, index).map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
+        "levels": rows(timed, index).map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
     })
 }
 
-fn bid(bid: &Bid) -> Value {
+fn bid(bid: &BestCandidate) -> Value {
     let pair = |[predicted, measured]: [f64; 2]| json!({"predicted": number(predicted), "measured": number(measured)});
     json!({
         "budget": number(bid.budget),

@@ -1,12 +1,12 @@
-//! What the tables of verdicts have in common.
+//! Cells of the tables of verdicts.
 //!
-//! Cells that are numbers carry the plain value for the script that sorts; a cell without one has no
-//! figure and goes last, whichever way.
+//! Cells that are numbers carry the plain value for the script that sorts; a cell without one has
+//! no figure and goes last, whichever way.
 
 use super::html::Html;
 use crate::{report::columns::scientific, verify::CaseOutcome};
 
-/// What is wider than a narrow screen scrolls by itself; by keyboard too.
+/// A region that scrolls by itself where it is wider than the screen; by keyboard too.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {
     let attributes =
         [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];
@@ -22,7 +22,8 @@ pub(super) fn result(case: &CaseOutcome) -> Html {
     }
 }
 
-/// Cells of the order with its interval, of the judged error on the finest level and of its transfers.
+/// Cells of the order with its interval, of the judged error on the finest level and of its
+/// transfers.
 pub(super) fn figures(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);

@@ -33,7 +33,7 @@ impl Html {
         Self(format!("<{name}{}>", self::attributes(attributes)))
     }
 
-    /// What has been put together.
+    /// The finished markup.
     pub(super) fn into_string(self) -> String {
         self.0
     }

@@ -1,7 +1,8 @@
 //! A standalone SVG document inside the page.
 //!
-//! An `id` is unique in a figure and must be so on a page of hundreds: all ids get the figure's prefix,
-//! and what refers to them follows. The size is left to the style sheet; the `viewBox` keeps the shape.
+//! An `id` is unique in a figure and must be so on a page of hundreds: all ids get the figure's
+//! prefix, and what refers to them follows. The size is left to the style sheet; the `viewBox`
+//! keeps the shape.
 
 use super::html::Html;
 

@@ -1,18 +1,19 @@
 //! One HTML page for a run: everything that was found, in one file that needs no network.
 //!
-//! It is read without JavaScript; a small script only sorts and filters the table of verdicts and unfolds
-//! what a link leads to. Figures are inline SVG, coloured anew for light and dark (`theme`). Nothing
-//! on the page depends on the time or the machine: the same run gives the same bytes.
+//! It is read without JavaScript; a small script only sorts and filters the table of verdicts and
+//! unfolds what a link leads to. Figures are inline SVG, coloured anew for light and dark
+//! (`theme`). Nothing on the page depends on the time or the machine: the same run gives the same
+//! bytes.
 //!
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.
 
 #[cfg(test)]
-pub(crate) mod contrast;
-pub(crate) mod dark;
+pub(crate) mod colour_contrast;
+pub(crate) mod dark_theme;
 
 mod cells;
-mod figures;
+mod figure_list;
 mod html;
 mod inline;
 mod links;
@@ -24,7 +25,7 @@ mod verdicts;
 #[cfg(test)]
 mod tests;
 
-pub use source::Source;
+pub use source::SuiteSource;
 
 use crate::verify::CaseOutcome;
 use html::Html;
@@ -36,9 +37,9 @@ const SCRIPT: &str = include_str!("script.js");
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// The page, which says too how many suites could not be run. Names of suites must differ: they become
-/// the ids of sections.
-pub fn page(sources: &[Source<'_>], refused: usize) -> String {
+/// The page, which says too how many suites could not be run. Names of suites must differ: they
+/// become the ids of sections.
+pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![head(sources, refused), contents(sources), verdicts::table(sources)];
     body.extend(sources.iter().map(section::section));
     body.push(foot());
@@ -72,8 +73,8 @@ fn meta() -> Vec<Html> {
     ]
 }
 
-/// What a reader must know first: is everything as expected, and if not, what is not?
-fn head(sources: &[Source<'_>], refused: usize) -> Html {
+/// Headline: whether everything is as expected, and if not, the cases that are not.
+fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
     let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());
     let noun =
@@ -90,7 +91,7 @@ fn head(sources: &[Source<'_>], refused: usize) -> Html {
     let finding = Html::tag("p", &[("class", class)], finding);
     let mut parts = vec![Html::tag("h1", &[], "MPM verification"), finding];
     if failed > 0 {
-        let item = |(source, case): (&Source<'_>, &CaseOutcome)| {
+        let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {
             let link = links::case_link(source.outcome, case, true);
             let why = Html::text(&format!(": {}", case.unmet.join("; ")));
             Html::tag("li", &[], vec![link, why])
@@ -102,8 +103,8 @@ fn head(sources: &[Source<'_>], refused: usize) -> Html {
 }
 
 /// Every suite with its headline.
-fn contents(sources: &[Source<'_>]) -> Html {
-    let item = |source: &Source<'_>| {
+fn contents(sources: &[SuiteSource<'_>]) -> Html {
+    let item = |source: &SuiteSource<'_>| {
         let outcome = source.outcome;
         let link = Html::tag(
             "a",

@@ -1,12 +1,12 @@
-//! What a suite has to say: text, verdicts, figures, the whole report, and the file itself.
+//! Section of a suite: text, verdicts, figures, the whole report, and the file itself.
 
 use super::{
     cells,
     cells::scrolled,
-    figures,
+    figure_list,
     html::Html,
     links::{case_id, case_link, id},
-    source::Source,
+    source::SuiteSource,
 };
 use crate::{
     report::text,
@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// The section of a suite.
-pub(super) fn section(source: &Source<'_>) -> Html {
+pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
     let (id, suite) = (id(outcome), outcome.suite.as_str());
     let heading = vec![
@@ -25,14 +25,14 @@ pub(super) fn section(source: &Source<'_>) -> Html {
     let paragraphs = outcome.about.split("\n\n").filter(|text| !text.trim().is_empty());
     parts.extend(paragraphs.map(|text| Html::tag("p", &[], text)));
     parts.push(Html::tag("p", &[("class", "muted")], format!("Source: {}", outcome.source)));
-    parts.extend(figures::figures(outcome));
+    parts.extend(figure_list::figures(outcome));
     parts.push(cases(outcome));
     parts.push(report(outcome));
     parts.push(file(source));
     Html::block("section", &[("id", &id), ("class", "suite")], &parts)
 }
 
-fn links(source: &Source<'_>) -> Html {
+fn links(source: &SuiteSource<'_>) -> Html {
     let suite = &source.outcome.suite;
     let link =
         |kind: &str, words: &str| Html::tag("a", &[("href", &format!("#{kind}-{suite}"))], words);
@@ -113,7 +113,7 @@ fn report(outcome: &SuiteOutcome) -> Html {
     )
 }
 
-fn file(source: &Source<'_>) -> Html {
+fn file(source: &SuiteSource<'_>) -> Html {
     let id = format!("yaml-{}", source.outcome.suite);
     folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
 }

@@ -1,14 +1,14 @@
-//! What the page is made of.
+//! Input of the page.
 
 use crate::verify::SuiteOutcome;
 
 /// A suite that has run, and the file that it came from.
 #[derive(Debug, Clone, Copy)]
-pub struct Source<'a> {
-    /// What was found.
+pub struct SuiteSource<'a> {
+    /// Results.
     pub outcome: &'a SuiteOutcome,
     /// Name of the file, without folders: these are the machine's.
     pub file: &'a str,
-    /// What the file says.
+    /// Text of the file.
     pub yaml: &'a str,
 }

@@ -34,7 +34,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
 }
 
 fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
-    let source = |outcome| Source { outcome, file: yaml, yaml };
+    let source = |outcome| SuiteSource { outcome, file: yaml, yaml };
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 
@@ -98,8 +98,8 @@ fn ids_are_unique_and_links_lead_somewhere() {
     }
 }
 
-/// The place where cost tables and work-precision diagrams appear once suites report them: every line of
-/// the text report and every figure is on the page.
+/// The place where cost tables and work-precision diagrams appear once suites report them: every
+/// line of the text report and every figure is on the page.
 #[test]
 fn whatever_a_suite_reports_is_on_the_page() {
     let outcome = outcome("a", "words & more", &[]);

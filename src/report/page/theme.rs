@@ -1,10 +1,11 @@
 //! Colours of the page, light and dark, and what becomes of the colours of figures.
 //!
-//! Figures are drawn once, for white paper. On the page a rule for each of their colours replaces it by
-//! one that stands out from the page by 3:1 at least, as WCAG 2.2 asks of graphics (1.4.11); texts have
-//! 4.5:1 (1.4.3). Fields of maps and the numbers in them keep their colours, which go together.
+//! Figures are drawn once, for white paper. On the page a rule for each of their colours replaces
+//! it by one that stands out from the page by 3:1 at least, as WCAG 2.2 asks of graphics (1.4.11);
+//! texts have 4.5:1 (1.4.3). Fields of maps and the numbers in them keep their colours, which go
+//! together.
 
-/// What is coloured, on a light and on a dark page.
+/// A named colour, on a light and on a dark page.
 struct Colour {
     name: &'static str,
     light: &'static str,
@@ -89,8 +90,10 @@ pub(super) fn css() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::figure::{Convergence, Curve, Field, History, Map, Mark, Point, Series};
-    use crate::report::page::contrast::contrast;
+    use crate::report::figure::{
+        ConvergencePlot, Curve, HistoryPlot, Map, MapField, Mark, PlotPoint, PlotSeries,
+    };
+    use crate::report::page::colour_contrast::contrast;
     use rstest::rstest;
 
     type Scheme = fn(&Colour) -> &'static str;
@@ -143,15 +146,16 @@ mod tests {
             matches!(*colour, "#ffffff" | "#222222")
                 || DRAWN.iter().any(|(drawn, _)| drawn == colour)
         };
-        let marks = [Mark::Window, Mark::ParticleField, Mark::Crossing, Mark::Failed];
-        let points = [0.5, 0.25, 0.1, 0.05].iter().zip(marks).map(|(h, mark)| Point {
+        let marks = [Mark::Window, Mark::OutsideWindow, Mark::Crossing, Mark::Failed];
+        let points = [0.5, 0.25, 0.1, 0.05].iter().zip(marks).map(|(h, mark)| PlotPoint {
             h: *h,
             error: *h,
             mark,
         });
-        let series = |k: usize| Series { name: k.to_string(), points: points.clone().collect() };
+        let series =
+            |k: usize| PlotSeries { name: k.to_string(), points: points.clone().collect() };
         let label = || "x".to_owned();
-        let plot = Convergence {
+        let plot = ConvergencePlot {
             title: label(),
             x_label: label(),
             y_label: label(),
@@ -165,8 +169,8 @@ mod tests {
             markers: true,
         };
         let history =
-            History { title: label(), x_label: label(), y_label: label(), curves: vec![curve] };
-        let field = Field { value: None, text: label() };
+            HistoryPlot { title: label(), x_label: label(), y_label: label(), curves: vec![curve] };
+        let field = MapField { value: None, text: label() };
         let map = Map {
             title: label(),
             x_label: label(),

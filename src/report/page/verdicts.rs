@@ -4,7 +4,7 @@ use super::{
     cells::{figures, result, scrolled},
     html::Html,
     links::{case_link, id},
-    source::Source,
+    source::SuiteSource,
 };
 use crate::verify::CaseOutcome;
 
@@ -21,7 +21,7 @@ const COLUMNS: [(&str, bool); 8] = [
 ];
 
 /// One row for each case of each suite.
-pub(super) fn table(sources: &[Source<'_>]) -> Html {
+pub(super) fn table(sources: &[SuiteSource<'_>]) -> Html {
     let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
     let rows: Vec<Html> = cases.map(|(source, case)| row(source, case)).collect();
     let head = |(name, number): (&str, bool)| {
@@ -43,7 +43,7 @@ pub(super) fn table(sources: &[Source<'_>]) -> Html {
     )
 }
 
-fn row(source: &Source<'_>, case: &CaseOutcome) -> Html {
+fn row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     let outcome = source.outcome;
     let suite = Html::tag("a", &[("href", &format!("#{}", id(outcome)))], outcome.suite.as_str());
     let name = |content: Html| Html::tag("td", &[("class", "name")], content);

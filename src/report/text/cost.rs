@@ -1,5 +1,4 @@
-//! What accuracy costs, as tables: which method reaches an error for the least work, and what one more
-//! digit takes, beside theory.
+//! Tables of cost: the work of each method for an error, and of one more digit, beside theory.
 //!
 //! In snapshots work is counted in particle-node transfers, which are the same on every machine.
 

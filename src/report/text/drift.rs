@@ -58,8 +58,8 @@ fn is_decimal(token: &str) -> bool {
     token.contains(['.', 'e'])
 }
 
-/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`. In scientific notation
-/// a zero is exact: every other number would have been printed.
+/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`. In scientific
+/// notation a zero is exact: every other number would have been printed.
 fn last_place(token: &str) -> f64 {
     if token.contains('e') && number(token) == Some(0.0) {
         return 0.0;

@@ -2,7 +2,7 @@
 
 use super::table::Table;
 use crate::{
-    report::columns::{Column, decimals, level, scientific},
+    report::columns::{TableColumn, decimals, level, scientific},
     verify::{Convergence, Richardson},
 };
 
@@ -50,24 +50,26 @@ fn richardson(lines: &mut Vec<String>, study: &Convergence) {
 
 type Triple = ([usize; 3], Richardson);
 
-fn triples(study: &Convergence) -> [Column<'_, Triple>; 6] {
+fn triples(study: &Convergence) -> [TableColumn<'_, Triple>; 6] {
     let name = level::name(study.axis);
     let names: Vec<String> = level::rows(study).map(|row| name.cell(&row).text).collect();
     [
-        Column::<Triple>::text(name.heading, "levels", move |(triple, _)| {
+        TableColumn::<Triple>::text(name.heading, "levels", move |(triple, _)| {
             triple.map(|k| names[k].clone()).join(", ")
         }),
-        Column::<Triple>::text("ratio", "ratio of changes", |(_, found)| decimals(2)(found.ratio)),
-        Column::<Triple>::text("class", "kind of convergence", |(_, found)| {
+        TableColumn::<Triple>::text("ratio", "ratio of changes", |(_, found)| {
+            decimals(2)(found.ratio)
+        }),
+        TableColumn::<Triple>::text("class", "kind of convergence", |(_, found)| {
             found.class.to_string()
         }),
-        Column::<Triple>::text("order", "order of the triple", |(_, found)| {
+        TableColumn::<Triple>::text("order", "order of the triple", |(_, found)| {
             found.order.map(decimals(2))
         }),
-        Column::<Triple>::text("extrapolated u", "limit (m)", |(_, found)| {
+        TableColumn::<Triple>::text("extrapolated u", "limit (m)", |(_, found)| {
             found.extrapolated.map(scientific)
         }),
-        Column::<Triple>::text("gci", "grid convergence index", |(_, found)| {
+        TableColumn::<Triple>::text("gci", "grid convergence index", |(_, found)| {
             found.gci.map(scientific)
         }),
     ]

@@ -1,4 +1,4 @@
-//! What a step takes: effects, passes and memory, in rows for reports and `explain`.
+//! Cost of a step: effects, passes and memory, in rows for reports and `explain`.
 
 use crate::subject::{Column, Holder, Profile};
 
@@ -14,8 +14,8 @@ pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// What differs between two profiles: the lines of the first that the second has not, and those
-/// that it has instead.
+/// Differences of two profiles: the lines of the first that the second has not, and those that it
+/// has instead.
 pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, String)> {
     let rows = profile(with).into_iter().zip(profile(without));
     let changed = rows.filter(|((_, before), (_, after))| before != after);

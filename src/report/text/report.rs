@@ -10,7 +10,7 @@ use super::{
     table::Table,
 };
 use crate::{
-    report::{columns::Column, study::KINDS},
+    report::{columns::TableColumn, study::KINDS},
     verify::{CaseOutcome, Interval, SuiteOutcome},
 };
 
@@ -52,23 +52,25 @@ pub fn summary(outcomes: &[SuiteOutcome]) -> String {
 
 type SuiteCase<'a> = (&'a SuiteOutcome, &'a CaseOutcome);
 
-fn verdicts<'a>() -> [Column<'a, SuiteCase<'a>>; 5] {
+fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
     let interval = |o: Interval| format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high);
     [
-        Column::<SuiteCase<'a>>::text("", "whether all is as expected", |(_, case)| {
+        TableColumn::<SuiteCase<'a>>::text("", "whether all is as expected", |(_, case)| {
             if case.passed() { "pass" } else { "FAIL" }
         }),
-        Column::<SuiteCase<'a>>::text("case", "suite and case", |(suite, case)| {
+        TableColumn::<SuiteCase<'a>>::text("case", "suite and case", |(suite, case)| {
             format!("{}::{}", suite.suite, case.case)
         })
         .flush_left(),
-        Column::<SuiteCase<'a>>::text("verdict", "verdict", |(_, case)| case.verdict.clone())
+        TableColumn::<SuiteCase<'a>>::text("verdict", "verdict", |(_, case)| case.verdict.clone())
             .flush_left(),
-        Column::<SuiteCase<'a>>::text("order", "observed order", move |(_, case)| {
+        TableColumn::<SuiteCase<'a>>::text("order", "observed order", move |(_, case)| {
             case.convergence().and_then(|study| study.judgement.order).map(interval)
         }),
-        Column::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| case.expected.clone())
-            .flush_left(),
+        TableColumn::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| {
+            case.expected.clone()
+        })
+        .flush_left(),
     ]
 }
 

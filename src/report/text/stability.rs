@@ -4,7 +4,7 @@ use super::table::Table;
 use crate::{
     report::{
         columns::stability::{self, limit_of, limit_text},
-        figure::{Field, Map},
+        figure::{Map, MapField},
     },
     verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial},
 };
@@ -29,7 +29,7 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;
     let sought = first.sought.as_deref().unwrap_or_default();
-    let field = |row: &StabilityRow| Field {
+    let field = |row: &StabilityRow| MapField {
         value: limit_of(row).and_then(StabilityLimit::value),
         text: limit_of(row).map_or("-".to_owned(), |found| match found {
             StabilityLimit::At(value) => format!("{value:.3}"),
@@ -49,14 +49,14 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
     Some(map.to_svg())
 }
 
-/// Rows with names without what all begin with, of which neighbours that show the same and are called the
-/// same but for the last word are one: `flip-usf/musl`.
-pub(crate) fn merged(rows: Vec<(String, Vec<Field>)>) -> Vec<(String, Vec<Field>)> {
+/// Rows with names without what all begin with, of which neighbours that show the same and are
+/// called the same but for the last word are one: `flip-usf/musl`.
+pub(crate) fn merged(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
     let first =
         |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());
     let common = rows.first().map(|(name, _)| first(name)).unwrap_or_default();
     let is_common = rows.iter().all(|(name, _)| first(name) == common);
-    let mut kept: Vec<(String, Vec<Field>)> = Vec::new();
+    let mut kept: Vec<(String, Vec<MapField>)> = Vec::new();
     for (name, fields) in rows {
         let name = if is_common { name[common.len()..].trim_start_matches('-') } else { &name };
         let (stem, last) = name.rsplit_once('-').unwrap_or(("", name));
@@ -74,7 +74,7 @@ fn stem_of(name: &str) -> &str {
     name.rsplit_once('-').map_or("", |(stem, _)| stem)
 }
 
-fn shown_alike(a: &[Field], b: &[Field]) -> bool {
+fn shown_alike(a: &[MapField], b: &[MapField]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.text == b.text)
 }
 
@@ -111,8 +111,8 @@ fn limits(lines: &mut Vec<String>, study: &StabilityStudy, sought: &str) {
 mod tests {
     use super::*;
 
-    fn row(name: &str, text: &str) -> (String, Vec<Field>) {
-        (name.to_owned(), vec![Field { value: None, text: text.to_owned() }])
+    fn row(name: &str, text: &str) -> (String, Vec<MapField>) {
+        (name.to_owned(), vec![MapField { value: None, text: text.to_owned() }])
     }
 
     #[test]

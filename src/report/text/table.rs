@@ -1,6 +1,6 @@
 //! Plain aligned tables.
 
-use crate::report::columns::Column;
+use crate::report::columns::TableColumn;
 use std::borrow::Borrow;
 
 /// A line of headings and rows of cells, set flush right unless their column says otherwise.
@@ -13,11 +13,11 @@ pub(crate) struct Table {
 impl Table {
     /// The values of `columns` in `rows`.
     pub(crate) fn new<R>(
-        columns: &[Column<'_, R>],
+        columns: &[TableColumn<'_, R>],
         rows: impl IntoIterator<Item = impl Borrow<R>>,
     ) -> Self {
         let headings = columns.iter().map(|column| column.heading.to_string()).collect();
-        let text = |row: &R, column: &Column<'_, R>| printable(&column.cell(row).text);
+        let text = |row: &R, column: &TableColumn<'_, R>| printable(&column.cell(row).text);
         let cells = |row: &R| columns.iter().map(|column| text(row, column)).collect();
         let rows = rows.into_iter().map(|row| cells(row.borrow()));
         Self {
@@ -76,9 +76,9 @@ mod tests {
     #[test]
     fn columns_are_aligned_and_empty_ones_left_out() {
         let columns = [
-            Column::text("cells", "", |row: &[&'static str; 2]| row[0]),
-            Column::text("ppc", "", |_: &[&'static str; 2]| None::<u64>),
-            Column::text("rms", "", |row: &[&'static str; 2]| row[1]),
+            TableColumn::text("cells", "", |row: &[&'static str; 2]| row[0]),
+            TableColumn::text("ppc", "", |_: &[&'static str; 2]| None::<u64>),
+            TableColumn::text("rms", "", |row: &[&'static str; 2]| row[1]),
         ];
         let table = Table::new(&columns, [["5", "1.0"], ["160", "0.25"]]);
         let lines = table.without_empty_columns().lines();

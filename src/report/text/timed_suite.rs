@@ -1,25 +1,25 @@
-//! What a suite costs in seconds, as text: what depends on the machine is shown here and in no snapshot.
+//! Timed suites as text. Figures that depend on the machine are shown here and in no snapshot.
 
 use super::{
     cost::{TRANSFERS, cost},
     table::Table,
 };
 use crate::{
-    report::columns::{Column, cost as columns, short, timed_level},
-    verify::{Bid, Machine, Model, TimedSuite},
+    report::columns::{TableColumn, cost as columns, short, timed_level},
+    verify::{BestCandidate, Machine, Model, TimedSuite},
 };
 
-/// The report of a suite whose levels have been timed. `varied` says that there are cases besides the
-/// suite's own, whose best splits are shown.
-pub fn priced(priced: &TimedSuite, varied: bool) -> String {
-    let mut text = format!("{}: {}\n\n", priced.outcome.suite, priced.outcome.title);
-    text += &machine(&priced.machine);
+/// The report of a suite whose levels have been timed. `varied` says that there are cases besides
+/// the suite's own, whose best splits are shown.
+pub fn timed(timed: &TimedSuite, varied: bool) -> String {
+    let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
+    text += &machine(&timed.machine);
     text += &row("seconds", SECONDS);
-    text += &format!("\n{}", lines(&levels(priced)));
-    if let Some(models) = models(priced) {
+    text += &format!("\n{}", lines(&levels(timed)));
+    if let Some(models) = models(timed) {
         text += &format!("\n{}", lines(&models));
     }
-    let (by_seconds, by_transfers) = (priced.by_seconds(), priced.by_transfers());
+    let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
         if varied {
@@ -64,26 +64,26 @@ pub(crate) fn machine(machine: &Machine) -> String {
 }
 
 /// Every level of every case: its error and its time.
-fn levels(priced: &TimedSuite) -> Vec<String> {
-    let cases = 0..priced.outcome.cases.len();
-    let rows = cases.flat_map(|case| timed_level::rows(priced, case));
+fn levels(timed: &TimedSuite) -> Vec<String> {
+    let cases = 0..timed.outcome.cases.len();
+    let rows = cases.flat_map(|case| timed_level::rows(timed, case));
     Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
 }
 
 /// The cost model of each case, and how well it predicts the finest level before that runs.
-fn models(priced: &TimedSuite) -> Option<Vec<String>> {
-    let cases = priced.outcome.cases.iter().enumerate();
+fn models(timed: &TimedSuite) -> Option<Vec<String>> {
+    let cases = timed.outcome.cases.iter().enumerate();
     let rows = cases.filter_map(|(index, case)| {
-        let (model, off) = priced.model(index)?;
+        let (model, off) = timed.model(index)?;
         Some((case.case.clone(), model, off))
     });
     let table = Table::new(&columns::models(), rows);
     (!table.is_empty()).then(|| table.lines())
 }
 
-/// What came of a budget.
-pub fn bid(suite: &str, bid: &Bid) -> String {
-    let Bid { budget, case, cells, dt, ppc, seconds, error, .. } = bid;
+/// The best setting within a budget.
+pub fn bid(suite: &str, bid: &BestCandidate) -> String {
+    let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = bid;
     let mut text = format!("{suite}: the most accurate setting predicted within {budget} s\n\n");
     text += &row("case", case);
     let ppc = ppc.map_or(String::new(), |ppc| format!(", {ppc} particles per cell"));
@@ -104,16 +104,20 @@ pub fn bid(suite: &str, bid: &Bid) -> String {
 
 type Predicted = (&'static str, [f64; 2]);
 
-fn predictions() -> [Column<'static, Predicted>; 4] {
+fn predictions() -> [TableColumn<'static, Predicted>; 4] {
     [
-        Column::<Predicted>::text("", "figure", |(name, _)| *name).flush_left(),
-        Column::<Predicted>::text("predicted", "by the models", |(_, [predicted, _])| {
+        TableColumn::<Predicted>::text("", "figure", |(name, _)| *name).flush_left(),
+        TableColumn::<Predicted>::text("predicted", "by the models", |(_, [predicted, _])| {
             short(*predicted)
         }),
-        Column::<Predicted>::text("measured", "by the run", |(_, [_, measured])| short(*measured)),
-        Column::<Predicted>::text("off", "relative difference", |(_, [predicted, measured])| {
-            format!("{:+.0} %", 100.0 * (predicted / measured - 1.0))
+        TableColumn::<Predicted>::text("measured", "by the run", |(_, [_, measured])| {
+            short(*measured)
         }),
+        TableColumn::<Predicted>::text(
+            "off",
+            "relative difference",
+            |(_, [predicted, measured])| format!("{:+.0} %", 100.0 * (predicted / measured - 1.0)),
+        ),
     ]
 }
 

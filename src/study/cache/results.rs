@@ -105,19 +105,19 @@ mod tests {
     use super::*;
     use crate::{
         subject::{RunCounters, Totals},
-        verify::{Drift, History, Interval, Norms, Run},
+        verify::{ConservationError, History, Interval, Norms, RunResult},
     };
     use proptest::prelude::*;
 
-    fn some(x: f64, failure: Option<String>) -> Run {
+    fn some(x: f64, failure: Option<String>) -> RunResult {
         let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN };
         let totals = Totals { kinetic_energy: x, strain_energy: Some(x), ..Totals::default() };
-        Run {
+        RunResult {
             errors: norms,
             max_rms: x,
             at_end: Norms::NONE,
             largest: norms,
-            drift: Some(Drift::NONE),
+            drift: Some(ConservationError::NONE),
             account: vec![(0.0, totals), (x, Totals { strain_energy: None, ..totals })],
             energy_rate: Some(Interval { value: x, low: -x, high: f64::INFINITY }),
             counters: RunCounters {
@@ -132,12 +132,12 @@ mod tests {
             history: Some(History { label: vec![x], velocity: vec![[x, -0.0, 1e-320]] }),
             displacement: Some(vec![x, 0.1 + 0.2]),
             observed_error: None,
-            unrest: Some(x),
+            residual_speed: Some(x),
         }
     }
 
     /// As text, NaN is itself and -0 is not 0.
-    fn shown(run: &Run) -> String {
+    fn shown(run: &RunResult) -> String {
         format!("{run:?}")
     }
 
@@ -148,16 +148,16 @@ mod tests {
         fn what_is_kept_is_what_was_there(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
             let run = some(x, Some(why));
             let text = format!("# key\n{}", written(&run).unwrap());
-            prop_assert_eq!(shown(&read::<Run>(&text, "key").unwrap()), shown(&run));
+            prop_assert_eq!(shown(&read::<RunResult>(&text, "key").unwrap()), shown(&run));
         }
     }
 
     #[test]
     fn what_is_torn_or_of_another_level_is_not_taken() {
         let text = format!("# key\n{}", written(&some(1.5, None)).unwrap());
-        assert!(read::<Run>(&text, "key").is_some());
-        assert!(read::<Run>(&text, "another").is_none());
-        assert!(read::<Run>(&text[..text.len() / 2], "key").is_none());
-        assert!(read::<Run>("", "key").is_none());
+        assert!(read::<RunResult>(&text, "key").is_some());
+        assert!(read::<RunResult>(&text, "another").is_none());
+        assert!(read::<RunResult>(&text[..text.len() / 2], "key").is_none());
+        assert!(read::<RunResult>("", "key").is_none());
     }
 }

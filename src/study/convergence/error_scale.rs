@@ -11,7 +11,7 @@ use crate::{
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// The error_scale of `case`, whose errors are taken against `truth`.
+/// The error scale of `case`, whose errors are taken against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     let against = match case.against {
         Against::Exact => "the exact solution",

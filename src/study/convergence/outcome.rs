@@ -10,14 +10,15 @@ use crate::{
     },
     verify,
     verify::{
-        Axis, CaseOutcome, Convergence, Drift, ErrorScale, Expectation, Floor, Interval, Judgement,
-        LevelOutcome, Measured, OrderHypothesis, Richardson, Run, Seen, Verdict, judge, larger,
+        Axis, CaseFindings, CaseOutcome, ConservationError, Convergence, ErrorScale, Expectation,
+        Floor, Interval, Judgement, LevelOutcome, Measured, OrderHypothesis, Richardson, RunResult,
+        Verdict, judge, larger,
     },
 };
 use std::sync::Arc;
 
 /// The error that `plan` judges.
-pub(crate) fn error_of(plan: &ConvergencePlan, run: &Run) -> f64 {
+pub(crate) fn error_of(plan: &ConvergencePlan, run: &RunResult) -> f64 {
     let error = match plan.norm {
         NormName::Rms => run.at_end.rms,
         NormName::L1 => run.at_end.l1,
@@ -46,7 +47,7 @@ pub(crate) fn judged(
     }
     let finest = levels.last();
     let measured = measured(&levels);
-    let seen = Seen {
+    let seen = CaseFindings {
         verdict: judgement.verdict,
         order: judgement.order.map(|order| (order.low, order.high)),
         finest_pair: finest.and_then(|level| level.order),
@@ -114,8 +115,9 @@ pub(crate) fn judge_levels(
 fn measured(levels: &[LevelOutcome]) -> Measured {
     let counted = || levels.iter().filter(|level| level.usable);
     let errors = counted().map(|level| (level.error, level.error));
-    let unrest: Option<Vec<f64>> = counted().map(|level| level.run.unrest).collect();
-    let drifts: Option<Vec<Drift>> = counted().map(|level| level.run.drift).collect();
+    let residual_speed: Option<Vec<f64>> =
+        counted().map(|level| level.run.residual_speed).collect();
+    let drifts: Option<Vec<ConservationError>> = counted().map(|level| level.run.drift).collect();
     let rates: Option<Vec<Interval>> = counted().map(|level| level.run.energy_rate).collect();
     Measured {
         errors: errors.reduce(|(least, most), (error, _)| {
@@ -125,8 +127,8 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
             (least.min(error), most.max(error))
         }),
         observed: levels.last().and_then(|level| level.run.observed_error),
-        unrest: unrest.and_then(|all| all.into_iter().reduce(larger)),
-        drift: drifts.and_then(|drifts| drifts.into_iter().reduce(Drift::larger)),
+        residual_speed: residual_speed.and_then(|all| all.into_iter().reduce(larger)),
+        drift: drifts.and_then(|drifts| drifts.into_iter().reduce(ConservationError::larger)),
         energy_rate: rates.and_then(|rates| {
             let ends = rates.into_iter().map(|rate| (rate.low, rate.high));
             ends.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
@@ -222,7 +224,7 @@ mod tests {
         verify::{Limits, Norms},
     };
 
-    fn level(usable: bool, error: f64, drift: Option<Drift>) -> LevelOutcome {
+    fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let counters = RunCounters {
             particles: None,
             transfers: 0,
@@ -230,7 +232,7 @@ mod tests {
             left_domain: None,
             min_j: 1.0,
         };
-        let run = Run {
+        let run = RunResult {
             errors: Norms::ZERO,
             max_rms: 0.0,
             at_end: Norms::ZERO,
@@ -244,7 +246,7 @@ mod tests {
             history: None,
             displacement: None,
             observed_error: Some(error),
-            unrest: None,
+            residual_speed: None,
         };
         LevelOutcome {
             cells: 1,
@@ -278,7 +280,7 @@ mod tests {
             let (least, most) = measured(&errors.map(|e| level(true, e, None))).errors.unwrap();
             assert!(least.is_nan() && most.is_nan());
         }
-        let alone = measured(&[level(true, f64::NAN, Some(Drift::NONE))]);
+        let alone = measured(&[level(true, f64::NAN, Some(ConservationError::NONE))]);
         assert!(alone.errors.unwrap().0.is_nan());
         assert!(alone.drift.unwrap().of(verify::Conserved::Mass).is_nan());
     }
@@ -296,7 +298,7 @@ mod tests {
             let measured = Measured {
                 errors: Some((1e-12, 1e-12)),
                 observed: None,
-                unrest: None,
+                residual_speed: None,
                 drift: None,
                 energy_rate: None,
             };

@@ -27,7 +27,7 @@ use crate::{
     },
     verify,
     verify::{
-        Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, Run,
+        Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, RunResult,
     },
 };
 use rayon::prelude::*;
@@ -171,14 +171,14 @@ fn run_of(
     level: LevelPlan,
     clock: &Clock,
     keeper: &mut dyn CheckpointStore,
-) -> Result<Run, String> {
+) -> Result<RunResult, String> {
     let make = || subject(plan, case.method, level);
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
     let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref(), at_rest: rest };
     verify::resume(make, truth, clock, &comparison, keeper)
 }
 
-fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: Run) -> LevelOutcome {
+fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
     let crossed = run.counters.crossings.is_some_and(|n| n > 0);
     let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
     let LevelPlan { cells, h, .. } = level;

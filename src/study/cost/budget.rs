@@ -18,7 +18,7 @@ use crate::{
             refine_plan::{Extent, LevelPlan},
         },
     },
-    verify::{Axis, Bid, CaseOutcome, LevelOutcome, Load, Model, rankings},
+    verify::{Axis, BestCandidate, CaseOutcome, LevelOutcome, Model, Workload, rankings},
 };
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ const REPEATS: usize = 3;
 ///
 /// # Errors
 /// One line that says why nothing can be chosen.
-pub fn bid(suite: &Suite, budget: f64) -> Result<Bid, String> {
+pub fn bid(suite: &Suite, budget: f64) -> Result<BestCandidate, String> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return Err("the suite refines nothing".to_owned());
     };
@@ -72,7 +72,7 @@ pub fn bid(suite: &Suite, budget: f64) -> Result<Bid, String> {
 
 impl Candidate<'_> {
     /// Ever finer levels with the seconds that they take, up to a share of the budget.
-    fn ladder(&self, budget: f64) -> Result<Vec<(Load, f64)>, String> {
+    fn ladder(&self, budget: f64) -> Result<Vec<(Workload, f64)>, String> {
         let listed = &self.study.levels[self.ranked.part.levels.clone()];
         let mut cells: Vec<u64> = listed.iter().map(|level| level.cells).collect();
         let mut runs = Vec::new();
@@ -107,7 +107,7 @@ impl Candidate<'_> {
         level: LevelPlan,
         budget: f64,
         size: f64,
-    ) -> Result<Bid, String> {
+    ) -> Result<BestCandidate, String> {
         let predicted = self.load(level).map_or(f64::NAN, |load| model.predict(&load));
         let took = seconds(self.plan, self.case, level)?;
         let mut plan = self.plan.clone();
@@ -119,7 +119,7 @@ impl Candidate<'_> {
         let outcome = Runner::over(&one, Extent::Usual).case(0, &|| ());
         let study = outcome.convergence().ok_or_else(|| outcome.reason.clone())?;
         let found = study.levels.first().ok_or("no level")?;
-        Ok(Bid {
+        Ok(BestCandidate {
             budget,
             case: self.case.name.clone(),
             cells: level.cells,

@@ -7,8 +7,8 @@ use crate::{
         model::{Case, ConvergencePlan, refine_plan::LevelPlan},
     },
     verify::{
-        CaseOutcome, Clock, Convergence, End, Exponent, LevelOutcome, Load, MethodCost, Model,
-        Ranked, Verdict,
+        CaseOutcome, Clock, Convergence, End, Exponent, LevelOutcome, MethodCost, Model, Ranked,
+        Verdict, Workload,
     },
 };
 
@@ -31,7 +31,7 @@ pub(crate) fn candidate<'a>(
     cases: &'a [CaseOutcome],
     ranked: &'a Ranked,
 ) -> Option<Candidate<'a>> {
-    let name = &ranked.contender.name;
+    let name = &ranked.method.name;
     let case = plan.cases.iter().find(|case| case.name == *name)?;
     let study = cases.iter().find(|case| case.case == *name)?.convergence()?;
     let cells = plan.refine.levels.iter().map(|level| level.cells);
@@ -67,14 +67,14 @@ impl Candidate<'_> {
     }
 
     /// Predicted load of a level, from the finest one that has run.
-    pub(crate) fn load(&self, level: LevelPlan) -> Option<Load> {
+    pub(crate) fn load(&self, level: LevelPlan) -> Option<Workload> {
         let clock = Clock::new(self.case.until, level.dt, self.plan.instants)?;
         let finest = self.finest();
         let known = load(self.plan, finest);
         let d = self.plan.scene.dimension() as f64;
         let steps = clock.steps as f64;
         let more = libm::pow(finest.h / level.h, d) * (steps / known.steps);
-        Some(Load {
+        Some(Workload {
             transfers: known.transfers * more,
             updates: known.updates * more,
             node_steps: nodes(&self.plan.scene, level.h) * steps,
@@ -146,12 +146,12 @@ impl Candidate<'_> {
     /// The error at a spacing: between levels straight on logarithmic axes, beyond the finest by
     /// the observed order.
     pub(crate) fn error(&self, h: f64) -> Option<f64> {
-        let Ranked { contender: MethodCost { tried, formal_order, growth, .. }, part, .. } =
+        let Ranked { method: MethodCost { samples, formal_order, growth, .. }, part, .. } =
             self.ranked;
-        let levels = &tried[part.levels.clone()];
+        let levels = &samples[part.levels.clone()];
         let finest = levels.last()?;
         if h <= finest.spacing {
-            let (observed, formal) = Exponent::of(tried, part, *formal_order, *growth)?.order;
+            let (observed, formal) = Exponent::of(samples, part, *formal_order, *growth)?.order;
             // Whatever is better than theory on coarse grids will not stay so.
             let order = observed.min(formal);
             return Some(finest.error * libm::pow(h / finest.spacing, order));

@@ -25,12 +25,12 @@ pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
         |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
     let ranked = rankings(&Runner::new(suite).run(&|| ()).cases, transfers);
     let goal = |row: &Ranked| {
-        let case = plan.cases.iter().find(|case| case.name == row.contender.name)?;
-        let k = row.part.levels.clone().find(|k| row.contender.tried[*k].error <= target)?;
+        let case = plan.cases.iter().find(|case| case.name == row.method.name)?;
+        let k = row.part.levels.clone().find(|k| row.method.samples[*k].error <= target)?;
         let level = *plan.refine.levels.get(k)?;
         Some((
-            row.contender.tried[k],
-            Goal { plan, case, level, error: row.contender.tried[k].error },
+            row.method.samples[k],
+            Goal { plan, case, level, error: row.method.samples[k].error },
         ))
     };
     let rows = ranked.first().map_or(&[][..], |ranking| &ranking.rows);

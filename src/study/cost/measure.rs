@@ -15,7 +15,7 @@ use crate::{
             refine_plan::{Extent, LevelPlan},
         },
     },
-    verify::{CaseOutcome, Clock, LevelOutcome, Load, TimedSuite, Timing},
+    verify::{CaseOutcome, Clock, LevelOutcome, TimedSuite, Timing, Workload},
 };
 
 /// Fewest repeats, and the time (s) that they must fill.
@@ -94,7 +94,7 @@ pub fn price(
         time(&mut jobs, &mut observed, progress);
         observed
     });
-    let mut levels: Vec<Vec<(Load, Option<Timing>)>> = vec![Vec::new(); cases.len()];
+    let mut levels: Vec<Vec<(Workload, Option<Timing>)>> = vec![Vec::new(); cases.len()];
     for job in &jobs {
         let (case, level) = job.at;
         if let Some(outcome) = cases[case].convergence().and_then(|study| study.levels.get(level)) {
@@ -132,9 +132,9 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
 }
 
 /// Load of a level that has run.
-pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Load {
+pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
-    Load {
+    Workload {
         transfers: counters.transfers as f64,
         updates: counters.particles.unwrap_or(0) as f64 * steps,
         node_steps: nodes(&plan.scene, level.h) * steps,

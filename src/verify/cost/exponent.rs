@@ -1,14 +1,15 @@
-//! What one more digit costs: work ~ error^exponent, beside what theory says.
+//! Cost of one more digit: work ~ error^exponent, observed and in theory.
 //!
-//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 where cells are refined and
-//! time steps follow h, D where they stay, 1 where time steps alone are refined.
+//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 where cells are refined
+//! and time steps follow h, D where they stay, 1 where time steps alone are refined.
 //!
-//! The line is fitted to `ln error` over `ln work`, since work is counted and has no noise, and then
-//! turned: the exponent is one over its slope, and so are the ends of the interval (the fiducial limits
-//! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
+//! The line is fitted to `ln error` over `ln work`, since work is counted and has no noise, and
+//! then turned: the exponent is one over its slope, and so are the ends of the interval (the
+//! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
+//! section 3.2).
 
-use super::{part::Part, sample::Sample};
-use crate::verify::order::fit::{Interval, Line, Point};
+use super::{part::ConvergingPart, sample::Sample};
+use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 
 /// Fewest points with an interval.
 const FEWEST: usize = 3;
@@ -22,9 +23,9 @@ const SAME: f64 = 0.02;
 /// The marginal cost of accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponent {
-    /// What was observed, with its 95 % confidence interval.
+    /// Observed value, with its 95 % confidence interval.
     pub observed: Interval,
-    /// What theory says.
+    /// Value in theory.
     pub theory: f64,
     /// The observed order of the error over the same levels, and the formal one.
     pub order: (f64, f64),
@@ -44,23 +45,23 @@ pub enum Agreement {
 }
 
 impl Exponent {
-    /// The exponent over the levels of `part` that are asymptotic, or over all of it where these are
-    /// fewer than three; `order` and `growth` are those of theory. None without three levels, or where
-    /// the error is not certain to fall.
-    pub fn of(tried: &[Sample], part: &Part, order: f64, growth: f64) -> Option<Self> {
-        let levels = &tried[part.levels.clone()];
+    /// The exponent over the levels of `part` that are asymptotic, or over all of it where these
+    /// are fewer than three; `order` and `growth` are those of theory. None without three levels,
+    /// or where the error is not certain to fall.
+    pub fn of(samples: &[Sample], part: &ConvergingPart, order: f64, growth: f64) -> Option<Self> {
+        let levels = &samples[part.levels.clone()];
         let asymptotic: Vec<Sample> = levels.iter().filter(|one| one.asymptotic).copied().collect();
         let levels = if asymptotic.len() >= FEWEST { &asymptotic[..] } else { levels };
         if levels.len() < FEWEST {
             return None;
         }
         let slope = |x: fn(&Sample) -> f64, y: fn(&Sample) -> f64| {
-            let point = |(level, one): (usize, &Sample)| Point {
+            let point = |(level, one): (usize, &Sample)| LogPoint {
                 level,
                 x: libm::log(x(one)),
                 y: libm::log(y(one)),
             };
-            Line::through(&levels.iter().enumerate().map(point).collect::<Vec<_>>())
+            FittedLine::through(&levels.iter().enumerate().map(point).collect::<Vec<_>>())
         };
         let fall = slope(|one| one.work, |one| one.error)?.order();
         if !(fall.high < 0.0) {

@@ -1,9 +1,9 @@
-//! What accuracy costs: which method reaches an error for the least work.
+//! Cost of accuracy: the method that reaches an error for the least work.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`tried`](Sample) | what one level gave and took |
-//! | [`part`](Part) | the levels over which a method converges |
+//! | [`part`](ConvergingPart) | the levels over which a method converges |
 //! | [`reach`](Reach) | the work at which an error is reached |
 //! | [`exponent`](Exponent) | what one more digit costs, beside theory |
 //! | [`front`](pareto_front()) | what nothing else beats |
@@ -29,12 +29,12 @@ mod timing;
 
 pub use exponent::{Agreement, Exponent};
 pub use front::pareto_front;
-pub use model::{Load, Model};
-pub use part::{End, Part};
+pub use model::{Model, Workload};
+pub use part::{ConvergingPart, End};
 pub use ranking::{MethodCost, Ranked, Ranking, rankings};
 pub use reach::Reach;
 pub use sample::Sample;
-pub use timed_suite::{Bid, TimedSuite};
+pub use timed_suite::{BestCandidate, TimedSuite};
 pub use timing::{Machine, Timing};
 
 /// The errors, over the size of the solution, that tables ask for.

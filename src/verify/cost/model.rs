@@ -7,12 +7,12 @@
 //! with coefficients that are never negative, fitted to measured levels so that relative errors are
 //! least. Within one refinement the four grow nearly together, and noise would give some of them
 //! negative signs: so every subset is solved, and of those without a negative one the best is kept
-//! (non-negative least squares, Lawson & Hanson 1974, chapter 23; with four columns fifteen subsets are
-//! no effort).
+//! (non-negative least squares, Lawson & Hanson 1974, chapter 23; with four columns fifteen subsets
+//! are no effort).
 
-/// What a run has to do.
+/// Counts of work of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Load {
+pub struct Workload {
     /// Particle-node transfers.
     pub transfers: f64,
     /// Particles times steps.
@@ -32,7 +32,7 @@ pub struct Model {
 
 const COLUMNS: usize = 4;
 
-impl Load {
+impl Workload {
     fn columns(&self) -> [f64; COLUMNS] {
         [self.transfers, self.updates, self.node_steps, self.steps]
     }
@@ -40,7 +40,7 @@ impl Load {
 
 impl Model {
     /// The model of runs that took so many seconds; none if no run took any.
-    pub fn fit(runs: &[(Load, f64)]) -> Option<Self> {
+    pub fn fit(runs: &[(Workload, f64)]) -> Option<Self> {
         let rows: Vec<[f64; COLUMNS]> = runs
             .iter()
             .filter(|(_, seconds)| *seconds > 0.0 && seconds.is_finite())
@@ -66,7 +66,7 @@ impl Model {
     }
 
     /// Seconds of a run.
-    pub fn predict(&self, load: &Load) -> f64 {
+    pub fn predict(&self, load: &Workload) -> f64 {
         load.columns().iter().zip(&self.seconds).map(|(x, s)| x * s).sum()
     }
 }
@@ -80,8 +80,8 @@ fn residual(rows: &[[f64; COLUMNS]], seconds: &[f64; COLUMNS]) -> f64 {
     rows.iter().map(off).sum()
 }
 
-/// Least squares over the chosen columns by the normal equations, each column scaled to the length one;
-/// none if columns cannot be told apart.
+/// Least squares over the chosen columns by the normal equations, each column scaled to the length
+/// one; none if columns cannot be told apart.
 fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     let n = chosen.len();
     let length = |k: &usize| rows.iter().map(|row| row[*k] * row[*k]).sum::<f64>().sqrt();
@@ -107,8 +107,8 @@ fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     Some(seconds)
 }
 
-/// Gauss-Jordan elimination with pivots from the diagonal, which serve a matrix of this kind; the last
-/// column becomes the solution.
+/// Gauss-Jordan elimination with pivots from the diagonal, which serve a matrix of this kind; the
+/// last column becomes the solution.
 fn eliminate(matrix: &mut [Vec<f64>]) -> Option<()> {
     /// Squared sine of the angle between columns that are one.
     const LEAST_PIVOT: f64 = 1e-9;
@@ -134,9 +134,9 @@ mod tests {
     use proptest::prelude::*;
 
     /// A level of a study in the plane, with room around the body.
-    fn load(cells: f64) -> Load {
+    fn load(cells: f64) -> Workload {
         let (particles, steps) = (4.0 * cells * cells, 10.0 * cells);
-        Load {
+        Workload {
             transfers: 48.0 * particles * steps,
             updates: particles * steps,
             node_steps: (cells + 7.0) * (cells + 7.0) * steps,
@@ -144,7 +144,7 @@ mod tests {
         }
     }
 
-    fn runs(seconds: [f64; 4], noise: f64) -> Vec<(Load, f64)> {
+    fn runs(seconds: [f64; 4], noise: f64) -> Vec<(Workload, f64)> {
         let run = |(k, cells): (usize, f64)| {
             let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
             (load(cells), Model { seconds }.predict(&load(cells)) * (1.0 + sign * noise))
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn no_time_has_no_model() {
-        let nothing = Load { transfers: 0.0, updates: 0.0, node_steps: 0.0, steps: 0.0 };
+        let nothing = Workload { transfers: 0.0, updates: 0.0, node_steps: 0.0, steps: 0.0 };
         assert_eq!(Model::fit(&[]), None);
         assert_eq!(Model::fit(&[(load(8.0), f64::NAN), (load(8.0), 0.0)]), None);
         assert_eq!(Model::fit(&[(nothing, 1.0)]), None);
@@ -178,7 +178,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// Whatever the machine, with 3 % of noise a grid twice as fine is predicted within 15 %.
+        /// On any machine, with 3 % of noise, a grid twice as fine is predicted within 15 %.
         #[test]
         fn a_finer_level_is_predicted(
             a in 1e-10..1e-8_f64, b in 0.0..1e-7_f64, c in 0.0..1e-7_f64, d in 0.0..1e-5_f64,

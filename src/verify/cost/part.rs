@@ -17,10 +17,10 @@ const GROWS: f64 = 1.25;
 
 /// Neighbouring levels over which the error falls.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct ConvergingPart {
     /// The levels, as indices from coarse to fine.
     pub levels: Range<usize>,
-    /// What ends it.
+    /// Reason of its end.
     pub end: End,
 }
 
@@ -55,18 +55,18 @@ impl End {
     }
 }
 
-impl Part {
+impl ConvergingPart {
     /// The converging part of levels from coarse to fine: of several the one with the largest fall.
     /// Empty if there is none; its end then says why.
-    pub fn of(tried: &[Sample]) -> Self {
+    pub fn of(samples: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;
-        for end in 1..=tried.len() {
-            if end < tried.len() && falls(&tried[end - 1], &tried[end]) {
+        for end in 1..=samples.len() {
+            if end < samples.len() && falls(&samples[end - 1], &samples[end]) {
                 continue;
             }
             if end - start >= FEWEST {
-                let fall = tried[start].error / tried[end - 1].error;
+                let fall = samples[start].error / samples[end - 1].error;
                 if best.as_ref().is_none_or(|(most, _)| fall > *most) {
                     best = Some((fall, start..end));
                 }
@@ -74,9 +74,9 @@ impl Part {
             start = end;
         }
         if let Some((_, levels)) = best {
-            return Self { end: end(tried, levels.end), levels };
+            return Self { end: end(samples, levels.end), levels };
         }
-        let broke = tried.iter().any(|one| one.failed);
+        let broke = samples.iter().any(|one| one.failed);
         Self { levels: 0..0, end: if broke { End::Failed } else { End::NoTrend } }
     }
 }
@@ -89,14 +89,14 @@ fn falls(coarse: &Sample, fine: &Sample) -> bool {
     libm::log(coarse.error / fine.error) >= LEAST_ORDER * refinement && refinement > 0.0
 }
 
-/// What the level after the last one of a part does.
-fn end(tried: &[Sample], next: usize) -> End {
-    let Some(finer) = tried.get(next) else { return End::Levels };
+/// Reason why the level `next` belongs to the part no more.
+fn end(samples: &[Sample], next: usize) -> End {
+    let Some(finer) = samples.get(next) else { return End::Levels };
     if finer.failed || !finer.error.is_finite() {
         End::Failed
     } else if !finer.usable {
         End::Crossings
-    } else if finer.error > GROWS * tried[next - 1].error {
+    } else if finer.error > GROWS * samples[next - 1].error {
         End::Grows
     } else {
         End::Floor

@@ -4,7 +4,7 @@ use super::{
     TARGETS,
     exponent::Exponent,
     front::pareto_front,
-    part::{End, Part},
+    part::{ConvergingPart, End},
     reach::Reach,
     sample::Sample,
 };
@@ -16,8 +16,8 @@ use std::cmp::Ordering;
 pub struct MethodCost {
     /// Its name.
     pub name: String,
-    /// What was run.
-    pub tried: Vec<Sample>,
+    /// Its levels.
+    pub samples: Vec<Sample>,
     /// The order of the error in theory.
     pub formal_order: f64,
     /// The growth of the work in theory, see [`ErrorScale`](crate::verify::ErrorScale).
@@ -28,16 +28,16 @@ pub struct MethodCost {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// The method.
-    pub contender: MethodCost,
+    pub method: MethodCost,
     /// Where it converges.
-    pub part: Part,
+    pub part: ConvergingPart,
     /// Where it reaches each of the targets.
     pub reaches: Vec<Reach>,
     /// How many times the least work at each target it takes; none where it does not reach it.
     pub times: Vec<Option<f64>>,
     /// Least error of the converging part, or of all levels where there is none.
     pub best: Option<f64>,
-    /// What one more digit costs.
+    /// Cost of one more digit.
     pub exponent: Option<Exponent>,
     /// Its levels on the front.
     pub front: Vec<usize>,
@@ -48,7 +48,7 @@ pub struct Ranked {
 pub struct Ranking {
     /// The problem, in words.
     pub problem: String,
-    /// What errors were divided by.
+    /// Divisor of the errors.
     pub size: f64,
     /// The errors that were asked for, coarse to fine.
     pub targets: Vec<f64>,
@@ -58,22 +58,22 @@ pub struct Ranking {
 
 impl Ranking {
     /// Ranks `contenders` by what they take for each of `targets`.
-    pub fn new(problem: String, size: f64, targets: &[f64], contenders: Vec<MethodCost>) -> Self {
-        let all: Vec<(usize, usize, Sample)> = contenders
+    pub fn new(problem: String, size: f64, targets: &[f64], methods: Vec<MethodCost>) -> Self {
+        let all: Vec<(usize, usize, Sample)> = methods
             .iter()
             .enumerate()
-            .flat_map(|(c, one)| one.tried.iter().enumerate().map(move |(k, t)| (c, k, *t)))
+            .flat_map(|(c, one)| one.samples.iter().enumerate().map(move |(k, t)| (c, k, *t)))
             .collect();
-        let every: Vec<Sample> = all.iter().map(|(_, _, tried)| *tried).collect();
+        let every: Vec<Sample> = all.iter().map(|(_, _, samples)| *samples).collect();
         let front: Vec<(usize, usize)> =
             pareto_front(&every).into_iter().map(|i| (all[i].0, all[i].1)).collect();
-        let rank = |(c, contender): (usize, MethodCost)| {
+        let rank = |(c, method): (usize, MethodCost)| {
             let of_front = front.iter().filter(|(owner, _)| *owner == c);
             let mut levels: Vec<usize> = of_front.map(|(_, level)| *level).collect();
             levels.sort_unstable();
-            ranked(contender, targets, levels)
+            ranked(method, targets, levels)
         };
-        let mut rows: Vec<Ranked> = contenders.into_iter().enumerate().map(rank).collect();
+        let mut rows: Vec<Ranked> = methods.into_iter().enumerate().map(rank).collect();
         for k in 0..targets.len() {
             let works = rows.iter().filter_map(|row| row.reaches[k].work());
             let least = works.fold(f64::INFINITY, f64::min);
@@ -86,20 +86,20 @@ impl Ranking {
     }
 }
 
-fn ranked(contender: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
-    let tried = &contender.tried;
-    let part = Part::of(tried);
-    let reaches: Vec<Reach> = targets.iter().map(|t| Reach::of(tried, &part, *t)).collect();
-    let converging = if part.levels.is_empty() { 0..tried.len() } else { part.levels.clone() };
-    let counted = tried[converging].iter().filter(|one| one.counts());
+fn ranked(method: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
+    let samples = &method.samples;
+    let part = ConvergingPart::of(samples);
+    let reaches: Vec<Reach> = targets.iter().map(|t| Reach::of(samples, &part, *t)).collect();
+    let converging = if part.levels.is_empty() { 0..samples.len() } else { part.levels.clone() };
+    let counted = samples[converging].iter().filter(|one| one.counts());
     Ranked {
         best: counted.map(|one| one.error).reduce(f64::min),
-        exponent: Exponent::of(tried, &part, contender.formal_order, contender.growth),
+        exponent: Exponent::of(samples, &part, method.formal_order, method.growth),
         times: vec![None; targets.len()],
         reaches,
         front,
         part,
-        contender,
+        method,
     }
 }
 
@@ -124,8 +124,8 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
 }
 
 /// Rankings of the cases of a suite that can be compared, one for each problem; `work` tells what a
-/// level took. Cases that were compared with nothing are left out, and problems without a size or of
-/// fewer than three levels.
+/// level took. Cases that were compared with nothing are left out, and problems without a size or
+/// of fewer than three levels.
 pub fn rankings(
     cases: &[CaseOutcome],
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
@@ -137,7 +137,7 @@ pub fn rankings(
         if !(size > 0.0) || study.levels.len() < 3 {
             continue;
         }
-        let one = contender(case, study, &work);
+        let one = method(case, study, &work);
         let problem = study.error_scale.problem.as_str();
         match problems
             .iter_mut()
@@ -147,19 +147,19 @@ pub fn rankings(
             None => problems.push((problem, size, vec![one])),
         }
     }
-    let rank = |(problem, size, contenders): (&str, f64, Vec<MethodCost>)| {
-        Ranking::new(problem.to_owned(), size, &TARGETS, contenders)
+    let rank = |(problem, size, methods): (&str, f64, Vec<MethodCost>)| {
+        Ranking::new(problem.to_owned(), size, &TARGETS, methods)
     };
     problems.into_iter().map(rank).collect()
 }
 
-fn contender(
+fn method(
     case: &CaseOutcome,
     study: &Convergence,
     work: &impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
 ) -> MethodCost {
     let window = study.judgement.window.as_deref().unwrap_or_default();
-    let tried = |(k, level): (usize, &LevelOutcome)| Sample {
+    let samples = |(k, level): (usize, &LevelOutcome)| Sample {
         spacing: level.spacing,
         error: level.error / study.error_scale.size,
         work: work(case, k, level),
@@ -169,7 +169,7 @@ fn contender(
     };
     MethodCost {
         name: case.case.clone(),
-        tried: study.levels.iter().enumerate().map(tried).collect(),
+        samples: study.levels.iter().enumerate().map(samples).collect(),
         formal_order: study.formal_order,
         growth: study.error_scale.growth,
     }

@@ -1,6 +1,6 @@
 //! The work at which a method reaches an error.
 
-use super::{part::Part, sample::Sample};
+use super::{part::ConvergingPart, sample::Sample};
 
 /// Where an error is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,9 +25,9 @@ pub enum Reach {
 
 impl Reach {
     /// Where levels from coarse to fine, converging over `part`, reach the error `target`.
-    pub fn of(tried: &[Sample], part: &Part, target: f64) -> Self {
-        let mut counted = tried.iter().filter(|one| one.counts());
-        let unbroken = tried.iter().all(|one| !one.failed);
+    pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
+        let mut counted = samples.iter().filter(|one| one.counts());
+        let unbroken = samples.iter().all(|one| !one.failed);
         if let Some(first) = counted.next()
             && unbroken
             && first.error <= target
@@ -35,7 +35,7 @@ impl Reach {
         {
             return Self::Already { work: first.work, spacing: first.spacing };
         }
-        let levels = &tried[part.levels.clone()];
+        let levels = &samples[part.levels.clone()];
         let Some(k) = levels.iter().position(|one| one.error <= target) else {
             return Self::Never;
         };

@@ -7,7 +7,7 @@ pub struct Sample {
     pub spacing: f64,
     /// Error over the size of the solution.
     pub error: f64,
-    /// What it took: transfers, or seconds.
+    /// Work: transfers, or seconds.
     pub work: f64,
     /// Whether the judge may count the level.
     pub usable: bool,

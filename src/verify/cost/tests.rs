@@ -1,6 +1,8 @@
 //! Series whose answers are known.
 
-use super::{Agreement, End, Exponent, MethodCost, Part, Ranking, Reach, Sample, TARGETS};
+use super::{
+    Agreement, ConvergingPart, End, Exponent, MethodCost, Ranking, Reach, Sample, TARGETS,
+};
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 use rstest::rstest;
@@ -36,22 +38,22 @@ fn errors(errors: &[f64]) -> Vec<Sample> {
 #[case::up_and_down(&[1.0, 2.0, 1.0, 2.0], 0..0, End::NoTrend)]
 #[case::nothing(&[], 0..0, End::NoTrend)]
 fn parts(#[case] series: &[f64], #[case] levels: std::ops::Range<usize>, #[case] end: End) {
-    assert_eq!(Part::of(&errors(series)), Part { levels, end });
+    assert_eq!(ConvergingPart::of(&errors(series)), ConvergingPart { levels, end });
 }
 
 #[test]
 fn a_level_that_failed_or_does_not_count_ends_the_part() {
-    let mut tried = errors(&[1.0, 0.25, 0.06, 0.015]);
-    tried[3].usable = false;
-    assert_eq!(Part::of(&tried), Part { levels: 0..3, end: End::Crossings });
-    tried[3].failed = true;
-    assert_eq!(Part::of(&tried), Part { levels: 0..3, end: End::Failed });
-    tried[1].failed = true;
-    assert_eq!(Part::of(&tried), Part { levels: 0..0, end: End::Failed });
+    let mut samples = errors(&[1.0, 0.25, 0.06, 0.015]);
+    samples[3].usable = false;
+    assert_eq!(ConvergingPart::of(&samples), ConvergingPart { levels: 0..3, end: End::Crossings });
+    samples[3].failed = true;
+    assert_eq!(ConvergingPart::of(&samples), ConvergingPart { levels: 0..3, end: End::Failed });
+    samples[1].failed = true;
+    assert_eq!(ConvergingPart::of(&samples), ConvergingPart { levels: 0..0, end: End::Failed });
 }
 
-fn reach(tried: &[Sample], target: f64) -> Reach {
-    Reach::of(tried, &Part::of(tried), target)
+fn reach(samples: &[Sample], target: f64) -> Reach {
+    Reach::of(samples, &ConvergingPart::of(samples), target)
 }
 
 #[test]
@@ -79,9 +81,9 @@ fn targets(#[case] series: &[f64], #[case] target: f64, #[case] work: Option<f64
 /// Levels that break may not be passed over because the coarsest one was good.
 #[test]
 fn what_breaks_is_not_reached_already() {
-    let mut tried = errors(&[1e-5, 1e-6, 1e-7]);
-    tried[1].failed = true;
-    assert_eq!(reach(&tried, 1e-2), Reach::Never);
+    let mut samples = errors(&[1e-5, 1e-6, 1e-7]);
+    samples[1].failed = true;
+    assert_eq!(reach(&samples, 1e-2), Reach::Never);
 }
 
 #[rstest]
@@ -95,8 +97,8 @@ fn exponents(
     #[case] growth: f64,
     #[case] wanted: Agreement,
 ) {
-    let tried = power(p, g, 5);
-    let found = Exponent::of(&tried, &Part::of(&tried), order, growth).unwrap();
+    let samples = power(p, g, 5);
+    let found = Exponent::of(&samples, &ConvergingPart::of(&samples), order, growth).unwrap();
     assert_relative_eq!(found.observed.value, -g / p, max_relative = 1e-12);
     assert_relative_eq!(found.theory, -growth / order, max_relative = 1e-15);
     assert_relative_eq!(found.order.0, p, max_relative = 1e-12);
@@ -106,30 +108,30 @@ fn exponents(
 
 #[test]
 fn noise_widens_the_interval_about_the_exponent() {
-    let mut tried = power(2.0, 3.0, 6);
-    for (k, one) in tried.iter_mut().enumerate() {
+    let mut samples = power(2.0, 3.0, 6);
+    for (k, one) in samples.iter_mut().enumerate() {
         one.error *= if k % 2 == 0 { 1.2 } else { 1.0 / 1.2 };
     }
-    let found = Exponent::of(&tried, &Part::of(&tried), 2.0, 3.0).unwrap();
+    let found = Exponent::of(&samples, &ConvergingPart::of(&samples), 2.0, 3.0).unwrap();
     assert!(found.observed.low < -1.55 && found.observed.high > -1.45, "{:?}", found.observed);
     assert_eq!(found.agreement(), Agreement::Agrees);
 }
 
 #[test]
 fn levels_outside_the_window_do_not_make_the_exponent() {
-    let mut tried = power(2.0, 3.0, 6);
-    tried[0].error *= 10.0;
-    tried[0].asymptotic = false;
-    let found = Exponent::of(&tried, &Part::of(&tried), 2.0, 3.0).unwrap();
+    let mut samples = power(2.0, 3.0, 6);
+    samples[0].error *= 10.0;
+    samples[0].asymptotic = false;
+    let found = Exponent::of(&samples, &ConvergingPart::of(&samples), 2.0, 3.0).unwrap();
     assert_relative_eq!(found.observed.value, -1.5, max_relative = 1e-12);
 }
 
-fn contender(name: &str, tried: Vec<Sample>) -> MethodCost {
-    MethodCost { name: name.to_owned(), tried, formal_order: 2.0, growth: 2.0 }
+fn method(name: &str, samples: Vec<Sample>) -> MethodCost {
+    MethodCost { name: name.to_owned(), samples, formal_order: 2.0, growth: 2.0 }
 }
 
 fn names(ranking: &Ranking) -> Vec<&str> {
-    ranking.rows.iter().map(|row| row.contender.name.as_str()).collect()
+    ranking.rows.iter().map(|row| row.method.name.as_str()).collect()
 }
 
 #[test]
@@ -138,13 +140,13 @@ fn the_finest_target_decides_and_who_reaches_less_comes_last() {
         let dearer = |one: Sample| Sample { work: factor * one.work, ..one };
         power(2.0, 2.0, levels).into_iter().map(dearer).collect::<Vec<_>>()
     };
-    let contenders = vec![
-        contender("short", scaled(0.1, 4)),
-        contender("dear", scaled(3.0, 8)),
-        contender("cheap", scaled(1.0, 8)),
-        contender("broken", errors(&[f64::NAN, 1.0, f64::NAN])),
+    let methods = vec![
+        method("short", scaled(0.1, 4)),
+        method("dear", scaled(3.0, 8)),
+        method("cheap", scaled(1.0, 8)),
+        method("broken", errors(&[f64::NAN, 1.0, f64::NAN])),
     ];
-    let ranking = Ranking::new(String::new(), 1.0, &TARGETS, contenders);
+    let ranking = Ranking::new(String::new(), 1.0, &TARGETS, methods);
     assert_eq!(names(&ranking), ["cheap", "dear", "short", "broken"]);
     let [cheap, dear, short, broken] = &ranking.rows[..] else { panic!("four rows") };
     assert_relative_eq!(dear.times[2].unwrap(), 3.0, max_relative = 1e-12);
@@ -170,13 +172,13 @@ fn series() -> impl Strategy<Value = Vec<Sample>> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
-    /// Whatever was run, what is said to be reached was: some level that counts has at most this error,
+    /// An error that counts as reached was reached: some level that counts has at most this error,
     /// and the work lies between those of levels.
     #[test]
-    fn nothing_is_extrapolated(tried in series(), target in 1e-9..1.0_f64) {
-        if let Some(work) = reach(&tried, target).work() {
-            prop_assert!(tried.iter().any(|one| one.counts() && one.error <= target));
-            let works = || tried.iter().filter(|one| one.counts()).map(|one| one.work);
+    fn nothing_is_extrapolated(samples in series(), target in 1e-9..1.0_f64) {
+        if let Some(work) = reach(&samples, target).work() {
+            prop_assert!(samples.iter().any(|one| one.counts() && one.error <= target));
+            let works = || samples.iter().filter(|one| one.counts()).map(|one| one.work);
             let (least, most) = (works().fold(f64::INFINITY, f64::min), works().fold(0.0, f64::max));
             prop_assert!(least * (1.0 - 1e-12) <= work && work <= most * (1.0 + 1e-12));
         }
@@ -184,43 +186,43 @@ proptest! {
 
     /// A finer target is not reached where a coarser one is not.
     #[test]
-    fn a_coarser_target_is_reached_first(tried in series(), target in 1e-9..1e-1_f64) {
-        let fine = reach(&tried, target);
-        let coarse = reach(&tried, 10.0 * target);
+    fn a_coarser_target_is_reached_first(samples in series(), target in 1e-9..1e-1_f64) {
+        let fine = reach(&samples, target);
+        let coarse = reach(&samples, 10.0 * target);
         prop_assert!(fine.work().is_none() || coarse.work().is_some());
         if let (Some(fine), Some(coarse)) = (fine.spacing(), coarse.spacing()) {
             prop_assert!(fine <= coarse * (1.0 + 1e-12));
         }
     }
 
-    /// No level beats one on the front, and every level that counts is beaten or equalled by one, but
-    /// for errors that are the same to who reads them.
+    /// No level beats one on the front, and every level that counts is beaten or equalled by one,
+    /// but for errors that are the same to who reads them.
     #[test]
-    fn the_front_is_the_front(tried in series()) {
-        let front = super::pareto_front(&tried);
+    fn the_front_is_the_front(samples in series()) {
+        let front = super::pareto_front(&samples);
         let beats = |a: &Sample, b: &Sample| {
             a.work <= b.work && a.error <= b.error && (a.work, a.error) != (b.work, b.error)
         };
-        let counted = || tried.iter().filter(|one| one.counts());
+        let counted = || samples.iter().filter(|one| one.counts());
         for k in &front {
-            prop_assert!(!counted().any(|one| beats(one, &tried[*k])));
+            prop_assert!(!counted().any(|one| beats(one, &samples[*k])));
         }
         for one in counted() {
             let worth = one.error / (1.0 - super::front::WORTH) * (1.0 + 1e-12);
-            let covered = |k: &usize| tried[*k].work <= one.work && tried[*k].error <= worth;
+            let covered = |k: &usize| samples[*k].work <= one.work && samples[*k].error <= worth;
             prop_assert!(front.iter().any(covered));
         }
     }
 
     /// No unit of work or spacing changes an answer.
     #[test]
-    fn units_do_not_matter(tried in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
-        let other: Vec<Sample> = tried
+    fn units_do_not_matter(samples in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
+        let other: Vec<Sample> = samples
             .iter()
             .map(|one| Sample { work: unit * one.work, spacing: one.spacing / 8.0, ..*one })
             .collect();
-        prop_assert_eq!(Part::of(&tried), Part::of(&other));
-        match (reach(&tried, target).work(), reach(&other, target).work()) {
+        prop_assert_eq!(ConvergingPart::of(&samples), ConvergingPart::of(&other));
+        match (reach(&samples, target).work(), reach(&other, target).work()) {
             (Some(a), Some(b)) => prop_assert!((unit * a / b - 1.0).abs() < 1e-9),
             (a, b) => prop_assert_eq!(a, b),
         }

@@ -1,7 +1,7 @@
 //! A suite whose levels have been timed.
 
 use super::{
-    model::{Load, Model},
+    model::{Model, Workload},
     ranking::{Ranking, rankings},
     timing::{Machine, Timing},
 };
@@ -10,11 +10,11 @@ use crate::verify::outcome::{CaseOutcome, LevelOutcome, SuiteOutcome};
 /// A suite with the seconds of its levels.
 #[derive(Debug, Clone)]
 pub struct TimedSuite {
-    /// What has come out. Cases besides the suite's own are variants of them.
+    /// Results. Cases besides the suite's own are variants of them.
     pub outcome: SuiteOutcome,
-    /// For each case and level what it has to do, and how long that took; none of what could not be set
-    /// up. A run that broke took as long as until then.
-    pub levels: Vec<Vec<(Load, Option<Timing>)>>,
+    /// For each case and level what it has to do, and how long that took; none of what could not be
+    /// set up. A run that broke took as long as until then.
+    pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// Where.
     pub machine: Machine,
 }
@@ -44,7 +44,7 @@ impl TimedSuite {
     /// others only: a prediction before that level runs.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
-        let runs: Vec<(Load, f64)> =
+        let runs: Vec<(Workload, f64)> =
             levels.filter_map(|(load, timing)| Some((*load, timing.as_ref()?.median))).collect();
         let off = runs.split_last().and_then(|((finest, seconds), coarser)| {
             Some(Model::fit(coarser)?.predict(finest) / seconds - 1.0)
@@ -55,7 +55,7 @@ impl TimedSuite {
 
 /// The most accurate setting that a cost model predicts to be done within a budget, and what came.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bid {
+pub struct BestCandidate {
     /// The budget (s).
     pub budget: f64,
     /// The method.

@@ -13,18 +13,18 @@ pub struct Timing {
     pub repeats: usize,
 }
 
-/// What a reader must know of a machine to judge its seconds.
+/// State of the machine, by which its seconds can be judged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
     /// Cores that the process may use.
     pub cores: usize,
     /// Load average over a minute, before and after, where the system tells it.
     pub load: Option<[f64; 2]>,
-    /// Share of the time for which the measuring thread waited for a core; it has been left out of all
-    /// seconds. Absent where the system does not tell it: then it is in them.
+    /// Share of the time for which the measuring thread waited for a core; it has been left out of
+    /// all seconds. Absent where the system does not tell it: then it is in them.
     pub waited: Option<f64>,
-    /// A loop that always does the same, timed between all other measurements: its spread is the noise
-    /// of clock frequency and of other processes.
+    /// A loop that always does the same, timed between all other measurements: its spread is the
+    /// noise of clock frequency and of other processes.
     pub fixed_loop: Option<Timing>,
 }
 

@@ -1,27 +1,27 @@
-//! Keeping the state of a run while it goes on, so that an interrupted one need not start anew.
+//! Checkpoints of a run, from which an interrupted one goes on.
 //!
-//! What is kept is the state of the subject and of whoever watches it, after a step. Where it is kept, how
-//! often, and whether it is that of this very run is the keeper's business.
+//! A checkpoint is the state of the subject and of its monitor after a step. The store decides
+//! where and how often it is kept, and whether it belongs to this run.
 
 use crate::subject::{Checkpoint, Memory, Subject};
 
-/// Keeps the state of one run.
+/// Store of the checkpoints of one run.
 pub trait CheckpointStore {
-    /// What an earlier run like this one has left, if anything.
+    /// Checkpoint of an earlier run like this one, if there is any.
     fn left(&mut self) -> Option<Vec<u8>>;
 
-    /// Told what became of it: the number of steps after which the run goes on, or none if it is of no
-    /// use and the run starts anew.
+    /// Receives the number of steps after which the run goes on from that checkpoint, or none if it
+    /// does not fit and the run starts anew.
     fn taken(&mut self, steps: Option<u64>);
 
-    /// Whether the state is to be kept now: asked after every step but the last.
+    /// Whether a checkpoint is due, asked after every step but the last.
     fn is_due(&mut self) -> bool;
 
-    /// Keeps the state.
+    /// Keeps a checkpoint.
     fn keep(&mut self, state: &[u8]);
 }
 
-/// Keeps nothing.
+/// A store that keeps nothing.
 pub struct NoCheckpoints;
 
 impl CheckpointStore for NoCheckpoints {
@@ -38,57 +38,57 @@ impl CheckpointStore for NoCheckpoints {
     fn keep(&mut self, _: &[u8]) {}
 }
 
-/// A subject, what watches it, and the steps that they have taken: as a run that was interrupted has left
-/// them, or at the start.
+/// A subject, its monitor, and the steps taken: from the checkpoint of an interrupted run, or at the
+/// start.
 ///
 /// # Errors
-/// Those of `make`, which is asked for another subject if the first one has been given a state that does
-/// not fit.
+/// Those of `make`, which is asked for another subject if the first one has been given a state that
+/// does not fit.
 pub(crate) fn resumed<W: Memory, E>(
     mut make: impl FnMut() -> Result<Box<dyn Subject>, E>,
-    watch: impl Fn(&dyn Subject) -> W,
+    start: impl Fn(&dyn Subject) -> W,
     steps: u64,
-    keeper: &mut dyn CheckpointStore,
+    store: &mut dyn CheckpointStore,
 ) -> Result<(Box<dyn Subject>, W, u64), E> {
     let mut subject = make()?;
-    let mut watching = watch(subject.as_ref());
-    let Some(left) = keeper.left() else { return Ok((subject, watching, 0)) };
+    let mut monitor = start(subject.as_ref());
+    let Some(left) = store.left() else { return Ok((subject, monitor, 0)) };
     let (mut checkpoint, mut done) = (Checkpoint::of(&left), 0_u64);
-    let goes_on = visit(&mut checkpoint, &mut done, &mut watching, subject.as_mut())
+    let goes_on = visit(&mut checkpoint, &mut done, &mut monitor, subject.as_mut())
         && checkpoint.is_used_up()
         && (1..steps).contains(&done);
-    keeper.taken(goes_on.then_some(done));
+    store.taken(goes_on.then_some(done));
     if goes_on {
-        return Ok((subject, watching, done));
+        return Ok((subject, monitor, done));
     }
     let subject = make()?;
-    let watching = watch(subject.as_ref());
-    Ok((subject, watching, 0))
+    let monitor = start(subject.as_ref());
+    Ok((subject, monitor, 0))
 }
 
 /// Keeps the state after `done` of `steps` steps, if it is time and the subject can say it.
 pub(crate) fn keep_if_due(
-    keeper: &mut dyn CheckpointStore,
+    store: &mut dyn CheckpointStore,
     (mut done, steps): (u64, u64),
-    watch: &mut impl Memory,
+    monitor: &mut impl Memory,
     subject: &mut dyn Subject,
 ) {
-    if done == steps || !keeper.is_due() {
+    if done == steps || !store.is_due() {
         return;
     }
     let mut checkpoint = Checkpoint::empty();
-    if visit(&mut checkpoint, &mut done, watch, subject) {
-        keeper.keep(&checkpoint.into_bytes());
+    if visit(&mut checkpoint, &mut done, monitor, subject) {
+        store.keep(&checkpoint.into_bytes());
     }
 }
 
 fn visit(
     checkpoint: &mut Checkpoint<'_>,
     done: &mut u64,
-    watch: &mut impl Memory,
+    monitor: &mut impl Memory,
     subject: &mut dyn Subject,
 ) -> bool {
     checkpoint.visit(done);
-    checkpoint.visit(watch);
+    checkpoint.visit(monitor);
     subject.checkpoint(checkpoint)
 }

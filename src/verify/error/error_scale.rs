@@ -7,11 +7,11 @@ pub struct ErrorScale {
     /// compared.
     pub problem: String,
     /// Divisor that makes an error a share of the solution, in the unit of the judged error: 1
-    /// where the suite states a scale, which has been applied, else the largest exact magnitude. NaN
-    /// if there is none.
+    /// where the suite states a scale, which has been applied, else the largest exact magnitude.
+    /// NaN if there is none.
     pub size: f64,
-    /// Work grows like spacing^-growth: one power for each axis of the body that is refined, and that
-    /// of the time step.
+    /// Work grows like spacing^-growth: one power for each axis of the body that is refined, and
+    /// that of the time step.
     pub growth: f64,
 }
 

@@ -3,7 +3,7 @@
 use crate::{exact::Truth, subject::Samples};
 use serde::{Deserialize, Serialize};
 
-/// What was seen at one label during a run.
+/// Velocity at one label during a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// Reference position of the label that was watched: the nearest to the wanted one (m).

@@ -1,7 +1,7 @@
 //! Quantities that can be judged, each declared once.
 //!
-//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants below, and the
-//! line of [`Quantity::declaration`] that joins them.
+//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants below, and
+//! the line of [`Quantity::declaration`] that joins them.
 //!
 //! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
 //! length: the square root of the sum of the squares of all components.
@@ -41,8 +41,8 @@ struct Declaration {
     exact_at_all: Option<fn(&dyn Truth, usize, &[f64], f64, &mut [f64])>,
     /// Natural size of exact values, which errors are compared with.
     size: SolutionSize,
-    /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN where
-    /// it is not known.
+    /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN
+    /// where it is not known.
     rounding_size: fn(f64) -> f64,
     /// Whether it is an unknown that a subject solves for: tables show its errors.
     is_primary: bool,
@@ -183,8 +183,8 @@ impl Quantity {
         self.declaration().needs_deformation_gradient
     }
 
-    /// Size of the numbers whose rounding its error cannot fall below, on a body of length `length` (m);
-    /// NaN where it is not known.
+    /// Size of the numbers whose rounding its error cannot fall below, on a body of length `length`
+    /// (m); NaN where it is not known.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
@@ -210,9 +210,10 @@ impl Quantity {
         places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
 
-    /// The largest magnitude of the exact values at `places` (m) and `times` (s): of a vector its length,
-    /// of a tensor its Frobenius norm. Without a natural zero its change counts: F is taken from the
-    /// identity, of a temperature the range. NaN if the truth does not know it, or it is zero throughout.
+    /// The largest magnitude of the exact values at `places` (m) and `times` (s): of a vector its
+    /// length, of a tensor its Frobenius norm. Without a natural zero its change counts: F is taken
+    /// from the identity, of a temperature the range. NaN if the truth does not know it, or it is
+    /// zero throughout.
     pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for place in places {
@@ -244,8 +245,8 @@ impl Quantity {
         Some(exact.iter().fold(0.0, |all, x| libm::hypot(all, *x)))
     }
 
-    /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject or
-    /// the truth has no such quantity.
+    /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject
+    /// or the truth has no such quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         let components = self.components(samples.dimension);
         let computed = (self.declaration().computed)(samples);

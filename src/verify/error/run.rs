@@ -6,18 +6,18 @@ use super::{
     norm::{Norms, larger},
     observer::{History, displacement_at},
     quantity::Quantity,
-    run_result::Run,
+    run_result::RunResult,
 };
 use crate::{
     exact::Truth,
     subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals},
     verify::{
-        conservation::{Balance, Drift},
+        conservation::{Balance, ConservationError},
         energy_rate::energy_rate,
     },
 };
 
-/// What is compared in a run, besides the displacement.
+/// Quantities compared in a run, besides the displacement.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Comparison<'a> {
     /// The quantity that is judged.
@@ -40,12 +40,13 @@ pub fn run(
     truth: &dyn Truth,
     clock: &Clock,
     comparison: &Comparison<'_>,
-) -> Run {
-    let watch = RunMonitor::new(subject, truth, comparison);
-    go(subject, watch, clock, 0, &mut NoCheckpoints)
+) -> RunResult {
+    let monitor = RunMonitor::new(subject, truth, comparison);
+    go(subject, monitor, clock, 0, &mut NoCheckpoints)
 }
 
-/// The same run of a subject that `make` makes, from where `keeper` has something that was left of it.
+/// The same run of a subject that `make` makes, from where `keeper` has something that was left of
+/// it.
 ///
 /// # Errors
 /// Those of `make`.
@@ -54,28 +55,28 @@ pub fn resume<E>(
     truth: &dyn Truth,
     clock: &Clock,
     comparison: &Comparison<'_>,
-    keeper: &mut dyn CheckpointStore,
-) -> Result<Run, E> {
-    let watch = |subject: &dyn Subject| RunMonitor::new(subject, truth, comparison);
-    let (mut subject, watch, done) = resumed(make, watch, clock.steps, keeper)?;
-    Ok(go(subject.as_mut(), watch, clock, done, keeper))
+    store: &mut dyn CheckpointStore,
+) -> Result<RunResult, E> {
+    let monitor = |subject: &dyn Subject| RunMonitor::new(subject, truth, comparison);
+    let (mut subject, monitor, done) = resumed(make, monitor, clock.steps, store)?;
+    Ok(go(subject.as_mut(), monitor, clock, done, store))
 }
 
 fn go(
     subject: &mut dyn Subject,
-    mut watch: RunMonitor<'_>,
+    mut monitor: RunMonitor<'_>,
     clock: &Clock,
     done: u64,
-    keeper: &mut dyn CheckpointStore,
-) -> Run {
+    store: &mut dyn CheckpointStore,
+) -> RunResult {
     for step in done + 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
-            return watch.failed(subject, step, clock.time(step), &failure);
+            return monitor.failed(subject, step, clock.time(step), &failure);
         }
-        watch.look(subject, clock, step);
-        keep_if_due(keeper, (step, clock.steps), &mut watch, subject);
+        monitor.look(subject, clock, step);
+        keep_if_due(store, (step, clock.steps), &mut monitor, subject);
     }
-    watch.finished(subject, clock)
+    monitor.finished(subject, clock)
 }
 
 /// The state of the comparison while a subject runs.
@@ -89,7 +90,7 @@ struct RunMonitor<'a> {
     largest: Norms,
     balance: Option<Balance>,
     account: Vec<(f64, Totals)>,
-    unrest: Option<f64>,
+    residual_speed: Option<f64>,
     history: Option<(usize, History)>,
 }
 
@@ -112,7 +113,7 @@ impl<'a> RunMonitor<'a> {
             largest: Norms::ZERO,
             balance: subject.totals().map(Balance::start),
             account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
-            unrest: comparison.at_rest.map(|_| 0.0),
+            residual_speed: comparison.at_rest.map(|_| 0.0),
             history,
         }
     }
@@ -133,8 +134,9 @@ impl<'a> RunMonitor<'a> {
         }
         if let Some(speed) = self.comparison.at_rest {
             if t >= (1.0 - LAST) * clock.until {
-                let unrest = larger(self.unrest.unwrap_or(0.0), fastest(&self.samples) / speed);
-                self.unrest = Some(unrest);
+                let residual_speed =
+                    larger(self.residual_speed.unwrap_or(0.0), fastest(&self.samples) / speed);
+                self.residual_speed = Some(residual_speed);
             }
             if step < clock.steps {
                 return;
@@ -148,7 +150,7 @@ impl<'a> RunMonitor<'a> {
         self.largest = self.largest.larger(self.at_end);
     }
 
-    fn finished(self, subject: &dyn Subject, clock: &Clock) -> Run {
+    fn finished(self, subject: &dyn Subject, clock: &Clock) -> RunResult {
         let place = self.comparison.observe;
         let displacement = place.and_then(|place| displacement_at(&self.samples, place));
         let distance = |(place, u): (&[f64], &Vec<f64>)| {
@@ -156,7 +158,7 @@ impl<'a> RunMonitor<'a> {
             self.truth.displacement(place, clock.until, &mut exact);
             u.iter().zip(&exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
         };
-        Run {
+        RunResult {
             errors: self.errors,
             max_rms: self.max_rms,
             at_end: self.at_end,
@@ -169,19 +171,19 @@ impl<'a> RunMonitor<'a> {
             failure: None,
             observed_error: place.zip(displacement.as_ref()).map(distance),
             displacement,
-            unrest: self.unrest,
+            residual_speed: self.residual_speed,
             history: self.history.map(|(_, history)| history),
         }
     }
 
     /// A run that broke has no error, only a reason.
-    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> Run {
-        Run {
+    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
+        RunResult {
             errors: Norms::NONE,
             max_rms: f64::NAN,
             at_end: Norms::NONE,
             largest: Norms::NONE,
-            drift: self.balance.map(|_| Drift::NONE),
+            drift: self.balance.map(|_| ConservationError::NONE),
             energy_rate: None,
             account: self.account,
             counters: subject.counters(),
@@ -190,12 +192,12 @@ impl<'a> RunMonitor<'a> {
             history: None,
             displacement: None,
             observed_error: None,
-            unrest: self.unrest.map(|_| f64::NAN),
+            residual_speed: self.residual_speed.map(|_| f64::NAN),
         }
     }
 }
 
-/// What is seen at an instant is seen anew at the next one, and the last step ends at one.
+/// Samples are no part of it: each instant takes them anew, and the last step ends at an instant.
 impl Memory for RunMonitor<'_> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {
@@ -208,7 +210,7 @@ impl Memory for RunMonitor<'_> {
             largest,
             balance,
             account,
-            unrest,
+            residual_speed,
             history,
         } = self;
         for norms in [errors, at_end, largest] {
@@ -219,7 +221,7 @@ impl Memory for RunMonitor<'_> {
             checkpoint.visit(balance);
         }
         checkpoint.visit(account);
-        checkpoint.visit(unrest);
+        checkpoint.visit(residual_speed);
         if let Some((_, history)) = history {
             checkpoint.visit(&mut history.velocity);
         }
@@ -267,9 +269,9 @@ mod tests {
         }
     }
 
-    struct Rest;
+    struct AtRest;
 
-    impl Truth for Rest {
+    impl Truth for AtRest {
         fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
             into.fill(0.0);
         }
@@ -285,14 +287,14 @@ mod tests {
         let until = 2.5 * std::f64::consts::PI;
         let clock = Clock::new(until, until / 100.0, 100).unwrap();
         let comparison = Comparison { at_rest: Some(2.0), ..Comparison::default() };
-        let found = run(&mut Swing(0.0), &Rest, &clock, &comparison);
+        let found = run(&mut Swing(0.0), &AtRest, &clock, &comparison);
         assert_relative_eq!(
-            found.unrest.unwrap(),
+            found.residual_speed.unwrap(),
             libm::cos(0.9 * until) / 2.0,
             max_relative = 1e-9
         );
         assert_relative_eq!(found.max_rms, 1.0 / (1.0 + until), max_relative = 1e-12);
-        let moving = run(&mut Swing(0.0), &Rest, &clock, &Comparison::default());
-        assert_eq!((moving.unrest, moving.max_rms > 0.9), (None, true));
+        let moving = run(&mut Swing(0.0), &AtRest, &clock, &Comparison::default());
+        assert_eq!((moving.residual_speed, moving.max_rms > 0.9), (None, true));
     }
 }

@@ -1,15 +1,15 @@
-//! What one run has shown: all that is judged, reported and kept of it.
+//! Results of one run: all that is judged, reported and kept of it.
 
 use super::{norm::Norms, observer::History};
 use crate::{
     subject::{RunCounters, Totals},
-    verify::{conservation::Drift, order::fit::Interval},
+    verify::{conservation::ConservationError, order::fit::Interval},
 };
 use serde::{Deserialize, Serialize};
 
-/// What a run has shown.
+/// Results of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Run {
+pub struct RunResult {
     /// Errors of the displacement at the end (m); all NaN if the run failed.
     pub errors: Norms,
     /// Largest RMS error over the instants (m); NaN if the run failed.
@@ -19,7 +19,7 @@ pub struct Run {
     /// The largest of each over the instants; all NaN if the run failed.
     pub largest: Norms,
     /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
-    pub drift: Option<Drift>,
+    pub drift: Option<ConservationError>,
     /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
     pub account: Vec<(f64, Totals)>,
     /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
@@ -36,6 +36,7 @@ pub struct Run {
     pub displacement: Option<Vec<f64>>,
     /// Its distance (m) from the exact one.
     pub observed_error: Option<f64>,
-    /// Largest speed towards the end, over [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
-    pub unrest: Option<f64>,
+    /// Largest speed towards the end, over
+    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
+    pub residual_speed: Option<f64>,
 }

@@ -1,8 +1,8 @@
 //! Bounds on figures, for expectations that name no order: one level is enough for them.
 
 use crate::verify::{
-    conservation::{Conserved, Drift},
-    order::format_number::figures,
+    conservation::{ConservationError, Conserved},
+    order::format_number::format_number,
 };
 
 /// Bounds, themselves allowed. Every one that is given must hold.
@@ -19,12 +19,12 @@ pub struct Limits {
     pub rest_below: Option<f64>,
     /// Largest relative drifts on any level that counts.
     pub drift: Vec<(Conserved, f64)>,
-    /// What must hold the whole confidence interval of the rate of the energy (1/s) on every level
-    /// that counts.
+    /// Range that must hold the whole confidence interval of the rate of the energy (1/s) on every
+    /// level that counts.
     pub energy_rate: Option<(f64, f64)>,
 }
 
-/// What limits speak of.
+/// Measured values that are limited.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// Smallest and largest judged error of the levels that count; `None` if none counts.
@@ -33,9 +33,9 @@ pub struct Measured {
     pub observed: Option<f64>,
     /// Largest speed towards the end of the levels that count, over the wave speed; `None` if the
     /// truth is no state of rest.
-    pub unrest: Option<f64>,
+    pub residual_speed: Option<f64>,
     /// Largest drifts of the levels that count; `None` if the subject gives no totals.
-    pub drift: Option<Drift>,
+    pub drift: Option<ConservationError>,
     /// The confidence intervals of the rate of the energy (1/s) on the levels that count, together;
     /// `None` if one level has none.
     pub energy_rate: Option<(f64, f64)>,
@@ -62,7 +62,7 @@ impl Check {
     }
 
     fn got(&self) -> String {
-        self.got.map_or("none".to_owned(), figures)
+        self.got.map_or("none".to_owned(), format_number)
     }
 }
 
@@ -77,7 +77,7 @@ impl Limits {
         self.drift.iter().map(|(sum, _)| *sum).collect()
     }
 
-    /// What did not hold, in words.
+    /// Limits that do not hold, in words.
     pub(crate) fn unmet(&self, measured: &Measured) -> Vec<String> {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
         let mut unmet: Vec<String> = broken
@@ -119,7 +119,7 @@ impl Limits {
         parts
     }
 
-    /// What was measured, in words; empty if nothing is limited.
+    /// Measured values in words; empty if nothing is limited.
     pub fn found(&self, measured: &Measured) -> String {
         let said = |check: &Check| format!("{} {}", check.what, check.got());
         let mut parts: Vec<String> = self.checks(Some(measured)).iter().map(said).collect();
@@ -140,13 +140,13 @@ impl Limits {
     fn checks(&self, measured: Option<&Measured>) -> Vec<Check> {
         let errors = measured.and_then(|measured| measured.errors);
         let observed = measured.and_then(|measured| measured.observed);
-        let unrest = measured.and_then(|measured| measured.unrest);
+        let residual_speed = measured.and_then(|measured| measured.residual_speed);
         let (least, most) = (errors.map(|(least, _)| least), errors.map(|(_, most)| most));
         let figures = [
             ("largest error", self.error_below, most, false),
             ("smallest error", self.error_above, least, true),
             ("error at the observed place (m)", self.observed_within, observed, false),
-            ("speed at rest over the wave speed", self.rest_below, unrest, false),
+            ("speed at rest over the wave speed", self.rest_below, residual_speed, false),
         ];
         let check = |(what, limit, got, least): (_, Option<f64>, _, _)| {
             Some(Check { what, limit: limit?, got, least })
@@ -160,7 +160,7 @@ fn rate_within(bounds: (f64, f64)) -> String {
 }
 
 fn rates((low, high): (f64, f64)) -> String {
-    format!("[{}, {}]", figures(low), figures(high))
+    format!("[{}, {}]", format_number(low), format_number(high))
 }
 
 /// Of a drift one digit says enough: it is rounding, or far too much.
@@ -181,7 +181,7 @@ mod tests {
         Measured {
             errors: Some((1e-3, 1e-2)),
             observed: Some(1e-4),
-            unrest: Some(1e-7),
+            residual_speed: Some(1e-7),
             drift: Some(still),
             energy_rate: Some((-2e-5, 1e-5)),
         }
@@ -206,10 +206,10 @@ mod tests {
     #[case::nan_errors(Measured { errors: Some((NAN, NAN)), ..measured() }, 2)]
     #[case::far_off(Measured { observed: Some(2e-3), ..measured() }, 1)]
     #[case::observed_nan(Measured { observed: Some(NAN), ..measured() }, 1)]
-    #[case::still_moving(Measured { unrest: Some(2e-6), ..measured() }, 1)]
-    #[case::unrest_nan(Measured { unrest: Some(NAN), ..measured() }, 1)]
+    #[case::still_moving(Measured { residual_speed: Some(2e-6), ..measured() }, 1)]
+    #[case::unrest_nan(Measured { residual_speed: Some(NAN), ..measured() }, 1)]
     #[case::not_observed(Measured { observed: None, ..measured() }, 1)]
-    #[case::failed(Measured { drift: Some(Drift::NONE), ..measured() }, 2)]
+    #[case::failed(Measured { drift: Some(ConservationError::NONE), ..measured() }, 2)]
     #[case::no_totals(Measured { drift: None, ..measured() }, 2)]
     #[case::energy_lost(Measured { energy_rate: Some((-2.1e-5, 0.0)), ..measured() }, 1)]
     #[case::energy_made(Measured { energy_rate: Some((0.0, 1.1e-5)), ..measured() }, 1)]
@@ -239,8 +239,13 @@ mod tests {
 
     #[test]
     fn what_is_not_limited_may_be_anything() {
-        let nothing =
-            Measured { errors: None, observed: None, unrest: None, drift: None, energy_rate: None };
+        let nothing = Measured {
+            errors: None,
+            observed: None,
+            residual_speed: None,
+            drift: None,
+            energy_rate: None,
+        };
         assert!(Limits::default().unmet(&nothing).is_empty());
         assert!(Limits::default().is_empty() && !limits().is_empty());
     }

@@ -1,4 +1,4 @@
-//! What a suite expects of a case, and whether it came so.
+//! Expectations of a suite for a case, and their check.
 
 pub(crate) mod limits;
 
@@ -30,9 +30,9 @@ pub struct Expectation {
     pub because: String,
 }
 
-/// What was seen of a case, as far as expectations speak of it.
+/// Findings of a case that expectations speak of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct CaseFindings {
     /// The judge's verdict.
     pub verdict: Verdict,
     /// Confidence interval of the observed order.
@@ -41,7 +41,7 @@ pub struct Seen {
     pub finest_pair: Option<f64>,
     /// Crossings on the finest level.
     pub crossings: Option<u64>,
-    /// What limits speak of.
+    /// Measured values that are limited.
     pub measured: Measured,
     /// Whose error the finest level shows, if that was asked and could be told.
     pub floor: Option<FloorCause>,
@@ -49,44 +49,44 @@ pub struct Seen {
 
 impl Expectation {
     /// Everything that did not come as expected, in words; empty if all did.
-    pub fn unmet(&self, seen: &Seen) -> Vec<String> {
+    pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let mut unmet = Vec::new();
         match self.verdict {
-            Some(verdict) if seen.verdict != verdict => {
-                unmet.push(format!("expected the verdict `{verdict}`, got `{}`", seen.verdict));
+            Some(verdict) if found.verdict != verdict => {
+                unmet.push(format!("expected the verdict `{verdict}`, got `{}`", found.verdict));
             }
-            None if seen.verdict == Verdict::Failed => {
+            None if found.verdict == Verdict::Failed => {
                 unmet.push("expected every level to run to its end".to_owned());
             }
             _ => {}
         }
         if let Some(bounds) = self.order {
             let inside =
-                seen.order.is_some_and(|(low, high)| within(low, bounds) && within(high, bounds));
+                found.order.is_some_and(|(low, high)| within(low, bounds) && within(high, bounds));
             if !inside {
-                let got = seen.order.map_or("none".to_owned(), show);
+                let got = found.order.map_or("none".to_owned(), show);
                 unmet.push(format!("expected the order within {}, got {got}", show(bounds)));
             }
         }
         if let Some(bounds) = self.finest_pair
-            && !seen.finest_pair.is_some_and(|order| within(order, bounds))
+            && !found.finest_pair.is_some_and(|order| within(order, bounds))
         {
-            let got = seen.finest_pair.map_or("none".to_owned(), |order| format!("{order:.2}"));
+            let got = found.finest_pair.map_or("none".to_owned(), |order| format!("{order:.2}"));
             let wanted = show(bounds);
             unmet.push(format!("expected the finest pair's order within {wanted}, got {got}"));
         }
         if let Some(some) = self.crossings
-            && seen.crossings.map(|n| n > 0) != Some(some)
+            && found.crossings.map(|n| n > 0) != Some(some)
         {
             let wanted = if some { "some" } else { "no" };
-            let got = seen.crossings.map_or("none counted".to_owned(), |n| n.to_string());
+            let got = found.crossings.map_or("none counted".to_owned(), |n| n.to_string());
             unmet.push(format!("expected {wanted} crossings on the finest level, got {got}"));
         }
-        unmet.extend(self.limits.unmet(&seen.measured));
+        unmet.extend(self.limits.unmet(&found.measured));
         if let Some(cause) = self.floor
-            && seen.floor != Some(cause)
+            && found.floor != Some(cause)
         {
-            let got = seen.floor.map_or("not told", FloorCause::name);
+            let got = found.floor.map_or("not told", FloorCause::name);
             unmet.push(format!("expected the floor of `{}`, got `{got}`", cause.name()));
         }
         unmet
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    const SEEN: Seen = Seen {
+    const SEEN: CaseFindings = CaseFindings {
         verdict: Verdict::Converging,
         order: Some((1.95, 2.05)),
         finest_pair: Some(1.99),
@@ -128,7 +128,7 @@ mod tests {
         measured: Measured {
             errors: Some((1e-6, 1e-3)),
             observed: None,
-            unrest: None,
+            residual_speed: None,
             drift: None,
             energy_rate: None,
         },
@@ -149,27 +149,27 @@ mod tests {
 
     #[rstest]
     #[case::all_met(SEEN, 0)]
-    #[case::verdict(Seen { verdict: Verdict::Divergent, ..SEEN }, 1)]
-    #[case::interval_sticks_out_below(Seen { order: Some((1.8, 2.05)), ..SEEN }, 1)]
-    #[case::interval_sticks_out_above(Seen { order: Some((1.95, 60.0)), ..SEEN }, 1)]
-    #[case::no_order(Seen { order: None, ..SEEN }, 1)]
-    #[case::nan_order(Seen { order: Some((f64::NAN, f64::NAN)), ..SEEN }, 1)]
-    #[case::nan_pair(Seen { finest_pair: Some(f64::NAN), ..SEEN }, 1)]
-    #[case::crossings(Seen { crossings: Some(3), ..SEEN }, 1)]
-    #[case::crossings_not_counted(Seen { crossings: None, ..SEEN }, 1)]
-    #[case::limit(Seen { measured: Measured { errors: None, ..SEEN.measured }, ..SEEN }, 1)]
-    #[case::floor(Seen { floor: Some(FloorCause::Nothing), ..SEEN }, 1)]
-    #[case::floor_not_told(Seen { floor: None, ..SEEN }, 1)]
-    fn every_part_must_hold(#[case] seen: Seen, #[case] unmet: usize) {
-        assert_eq!(expectation().unmet(&seen).len(), unmet, "{:?}", expectation().unmet(&seen));
+    #[case::verdict(CaseFindings { verdict: Verdict::Divergent, ..SEEN }, 1)]
+    #[case::interval_sticks_out_below(CaseFindings { order: Some((1.8, 2.05)), ..SEEN }, 1)]
+    #[case::interval_sticks_out_above(CaseFindings { order: Some((1.95, 60.0)), ..SEEN }, 1)]
+    #[case::no_order(CaseFindings { order: None, ..SEEN }, 1)]
+    #[case::nan_order(CaseFindings { order: Some((f64::NAN, f64::NAN)), ..SEEN }, 1)]
+    #[case::nan_pair(CaseFindings { finest_pair: Some(f64::NAN), ..SEEN }, 1)]
+    #[case::crossings(CaseFindings { crossings: Some(3), ..SEEN }, 1)]
+    #[case::crossings_not_counted(CaseFindings { crossings: None, ..SEEN }, 1)]
+    #[case::limit(CaseFindings { measured: Measured { errors: None, ..SEEN.measured }, ..SEEN }, 1)]
+    #[case::floor(CaseFindings { floor: Some(FloorCause::Nothing), ..SEEN }, 1)]
+    #[case::floor_not_told(CaseFindings { floor: None, ..SEEN }, 1)]
+    fn every_part_must_hold(#[case] found: CaseFindings, #[case] unmet: usize) {
+        assert_eq!(expectation().unmet(&found).len(), unmet, "{:?}", expectation().unmet(&found));
     }
 
     #[test]
     fn a_verdict_that_is_not_asked_for_may_be_any_but_a_failure() {
         let bounded =
             Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
-        assert!(bounded.unmet(&Seen { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
-        assert_eq!(bounded.unmet(&Seen { verdict: Verdict::Failed, ..SEEN }).len(), 1);
+        assert!(bounded.unmet(&CaseFindings { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
+        assert_eq!(bounded.unmet(&CaseFindings { verdict: Verdict::Failed, ..SEEN }).len(), 1);
         let summary = "no crossings on the finest level, largest error at most 1e-2, floor of time";
         assert_eq!(bounded.summary(), summary);
     }

@@ -1,4 +1,4 @@
-//! What a study refines: cells, time steps or particles.
+//! Axes of refinement: cells, time steps or particles.
 
 use crate::named::named;
 

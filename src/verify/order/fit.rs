@@ -36,7 +36,7 @@ impl Interval {
 
 /// One level on logarithmic axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Point {
+pub(crate) struct LogPoint {
     /// Its place among the sorted levels.
     pub(crate) level: usize,
     /// `ln h`
@@ -47,7 +47,7 @@ pub(crate) struct Point {
 
 /// The line of least squares.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
+pub(crate) struct FittedLine {
     pub(crate) slope: f64,
     /// Residual sum of squares.
     pub(crate) rss: f64,
@@ -57,9 +57,9 @@ pub(crate) struct Line {
     points: usize,
 }
 
-impl Line {
+impl FittedLine {
     /// None if the points have no two distinct `x`.
-    pub(crate) fn through(points: &[Point]) -> Option<Self> {
+    pub(crate) fn through(points: &[LogPoint]) -> Option<Self> {
         let n = points.len() as f64;
         let mean_x = points.iter().map(|p| p.x).sum::<f64>() / n;
         let mean_y = points.iter().map(|p| p.y).sum::<f64>() / n;
@@ -72,7 +72,7 @@ impl Line {
     }
 
     /// How far a point lies above the line: `ln` of its error over the error the line predicts.
-    pub(crate) fn departure(&self, point: &Point) -> f64 {
+    pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }
 
@@ -86,15 +86,15 @@ impl Line {
 
     /// The drift of the order over the points this line was put through: fits the parabola
     /// `line + c q(x)`, `q` being `x^2` made orthogonal to the line.
-    pub(crate) fn drift(&self, points: &[Point]) -> Option<Drift> {
-        let parabola: Vec<Point> =
-            points.iter().map(|p| Point { y: square(p.x - self.mean_x), ..*p }).collect();
+    pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
+        let parabola: Vec<LogPoint> =
+            points.iter().map(|p| LogPoint { y: square(p.x - self.mean_x), ..*p }).collect();
         let base = Self::through(&parabola)?;
         let sqy: f64 =
             parabola.iter().zip(points).map(|(q, p)| base.departure(q) * self.departure(p)).sum();
         let rest = (self.rss - sqy * sqy / base.rss).max(0.0);
         let span = points.last()?.x - points.first()?.x;
-        Some(Drift {
+        Some(Trend {
             change: 2.0 * (sqy / base.rss) * span,
             p_value: f_test::regularised(rest / self.rss, self.points.saturating_sub(3), 1),
         })
@@ -103,7 +103,7 @@ impl Line {
 
 /// A steady change of the order along a window.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Drift {
+pub(crate) struct Trend {
     /// Order at the finest level less the order at the coarsest.
     pub(crate) change: f64,
     /// The probability that noise about a straight line shows a change at least as large.
@@ -119,19 +119,19 @@ mod tests {
     use super::*;
     use approx::assert_abs_diff_eq;
 
-    fn points(y: impl Fn(f64) -> f64) -> Vec<Point> {
+    fn points(y: impl Fn(f64) -> f64) -> Vec<LogPoint> {
         (0..6)
             .map(|level| {
                 let x = -f64::from(level);
                 let level = level as usize;
-                Point { level, x, y: y(x) }
+                LogPoint { level, x, y: y(x) }
             })
             .collect()
     }
 
     #[test]
     fn a_straight_line_has_an_interval_of_no_width() {
-        let order = Line::through(&points(|x| 2.5 * x - 7.0)).unwrap().order();
+        let order = FittedLine::through(&points(|x| 2.5 * x - 7.0)).unwrap().order();
         assert_abs_diff_eq!(order.value, 2.5, epsilon = 1e-14);
         assert_abs_diff_eq!(order.half_width(), 0.0, epsilon = 1e-13);
     }
@@ -140,9 +140,9 @@ mod tests {
     #[test]
     fn three_points_by_hand() {
         let y = [0.0, 0.0, 3.0];
-        let points: Vec<Point> =
-            (0..3).map(|level| Point { level, x: level as f64, y: y[level] }).collect();
-        let order = Line::through(&points).unwrap().order();
+        let points: Vec<LogPoint> =
+            (0..3).map(|level| LogPoint { level, x: level as f64, y: y[level] }).collect();
+        let order = FittedLine::through(&points).unwrap().order();
         assert_abs_diff_eq!(order.value, 1.5, epsilon = 1e-14);
         let half_width = 12.7062 * 0.75_f64.sqrt();
         assert_abs_diff_eq!(order.half_width(), half_width, epsilon = 1e-4);
@@ -151,17 +151,17 @@ mod tests {
     #[test]
     fn a_parabola_drifts_and_a_line_does_not() {
         let curved = points(|x| 2.0 * x + 0.1 * x * x);
-        let drift = Line::through(&curved).unwrap().drift(&curved).unwrap();
+        let drift = FittedLine::through(&curved).unwrap().drift(&curved).unwrap();
         assert_abs_diff_eq!(drift.change, -1.0, epsilon = 1e-12);
         assert!(drift.p_value < 1e-9);
         let straight = points(|x| 2.0 * x);
-        let drift = Line::through(&straight).unwrap().drift(&straight).unwrap();
+        let drift = FittedLine::through(&straight).unwrap().drift(&straight).unwrap();
         assert_abs_diff_eq!(drift.change, 0.0, epsilon = 1e-12);
     }
 
     #[test]
     fn one_place_has_no_slope() {
-        assert!(Line::through(&points(|_| 0.0)[..1]).is_none());
-        assert!(Line::through(&[]).is_none());
+        assert!(FittedLine::through(&points(|_| 0.0)[..1]).is_none());
+        assert!(FittedLine::through(&[]).is_none());
     }
 }

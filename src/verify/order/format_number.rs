@@ -6,7 +6,7 @@ use super::fit::Interval;
 const DIGITS: usize = 4;
 
 /// A number to four significant digits: `0.4167`, `25`, `1.563e-14`.
-pub(crate) fn figures(x: f64) -> String {
+pub(crate) fn format_number(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return format!("{}", x + 0.0);
     }
@@ -52,6 +52,6 @@ mod tests {
     #[case(f64::NAN, "NaN")]
     #[case(f64::INFINITY, "inf")]
     fn four_significant_digits(#[case] x: f64, #[case] text: &str) {
-        assert_eq!(figures(x), text);
+        assert_eq!(format_number(x), text);
     }
 }

@@ -1,15 +1,16 @@
-//! What a series of errors is expected to show.
+//! The hypothesis that a series of errors is tested against.
 
-use super::{axis::Axis, format_number::figures};
+use super::{axis::Axis, format_number::format_number};
 
 /// An order that theory gives, and the range in which the observed one must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrderHypothesis {
     /// The order of the method in theory.
     pub formal_order: f64,
-    /// The range of the observed order; `formal_order` -+ [`OrderHypothesis::TOLERANCE`] if not given.
+    /// The range of the observed order; `formal_order` -+ [`OrderHypothesis::TOLERANCE`] if not
+    /// given.
     pub expected: Option<(f64, f64)>,
-    /// What is refined: names the spacing in sentences, changes no figure.
+    /// Axis of refinement: names the spacing in sentences, changes no figure.
     pub axis: Axis,
 }
 
@@ -47,11 +48,11 @@ impl OrderHypothesis {
 
     /// Why this claim cannot be tested, if it cannot: no finite positive range, or one so wide
     /// that it would let nearly everything pass.
-    pub(crate) fn complaint(&self) -> Option<String> {
+    pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];
         let positive = orders.iter().all(|p| p.is_finite() && *p > 0.0);
-        let (from, to) = (figures(low), figures(high));
+        let (from, to) = (format_number(low), format_number(high));
         if !(positive && low <= high) {
             return Some(format!("[{from}, {to}] is not a range of orders"));
         }
@@ -70,8 +71,8 @@ mod tests {
     #[case(OrderHypothesis::formal(2.0))]
     #[case(OrderHypothesis::within(2.0, 1.6, 2.6))]
     #[case(OrderHypothesis::within(2.0, 2.0, 2.0))]
-    fn testable(#[case] claim: OrderHypothesis) {
-        assert_eq!(claim.complaint(), None);
+    fn testable(#[case] hypothesis: OrderHypothesis) {
+        assert_eq!(hypothesis.diagnostic(), None);
     }
 
     #[rstest]
@@ -80,8 +81,8 @@ mod tests {
     #[case(OrderHypothesis::within(2.0, 2.1, 1.9), "[2.1, 1.9] is not a range of orders")]
     #[case(OrderHypothesis::within(2.0, 1.0, f64::INFINITY), "[1, inf] is not a range of orders")]
     #[case(OrderHypothesis::within(60.0, 10.0, 110.0), "too wide to test anything")]
-    fn not_testable(#[case] claim: OrderHypothesis, #[case] expected: &str) {
-        let complaint = claim.complaint().unwrap();
-        assert!(complaint.contains(expected), "{complaint}");
+    fn not_testable(#[case] hypothesis: OrderHypothesis, #[case] expected: &str) {
+        let diagnostic = hypothesis.diagnostic().unwrap();
+        assert!(diagnostic.contains(expected), "{diagnostic}");
     }
 }

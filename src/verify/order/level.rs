@@ -1,8 +1,8 @@
-//! What is judged: the levels of a refinement study, put in order and checked.
+//! Levels of a refinement study, put in order and checked.
 
 use std::cmp::Ordering;
 
-use super::{axis::Axis, format_number::figures};
+use super::{axis::Axis, format_number::format_number};
 
 /// One level of refinement: a spacing and the error measured there.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +36,9 @@ impl Level {
         Self { failed: Some(reason.into()), ..self }
     }
 
-    /// What makes this level worthless, usable or not.
-    fn complaint(&self, axis: Axis) -> Option<String> {
-        let (name, h) = (axis.symbol(), figures(self.h));
+    /// Defect that makes this level worthless, usable or not.
+    fn diagnostic(&self, axis: Axis) -> Option<String> {
+        let (name, h) = (axis.symbol(), format_number(self.h));
         if let Some(reason) = &self.failed {
             return Some(format!("{name} = {h}: {reason}"));
         }
@@ -46,7 +46,7 @@ impl Level {
             return Some(format!("{name} = {h} is not a spacing"));
         }
         if !(self.error.is_finite() && self.error >= 0.0) {
-            let error = figures(self.error);
+            let error = format_number(self.error);
             return Some(format!("{name} = {h}: {error} is not an error"));
         }
         None
@@ -54,7 +54,7 @@ impl Level {
 }
 
 /// Sorts from coarse to fine and merges identical levels; one that counts and one that does not
-/// merge into one that does not. The complaint names the first thing that makes the series void.
+/// merge into one that does not. The diagnostic names the first thing that makes the series void.
 pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));
@@ -66,17 +66,18 @@ pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<Strin
         }
         same
     });
-    let complaint = sorted
+    let diagnostic = sorted
         .iter()
-        .find_map(|level| level.complaint(axis))
+        .find_map(|level| level.diagnostic(axis))
         .or_else(|| sorted.windows(2).find_map(|pair| contradiction(pair, axis)));
-    (sorted, complaint)
+    (sorted, diagnostic)
 }
 
 fn contradiction(pair: &[Level], axis: Axis) -> Option<String> {
     let [a, b] = pair else { return None };
     same(a.h, b.h).then(|| {
-        let (h, first, second) = (figures(a.h), figures(a.error), figures(b.error));
+        let (h, first, second) =
+            (format_number(a.h), format_number(a.error), format_number(b.error));
         format!("{} = {h} appears twice, with errors {first} and {second}", axis.symbol())
     })
 }
@@ -98,10 +99,10 @@ mod tests {
             Level::new(1.0, 0.1).unusable(),
             Level::new(2.0, 0.3),
         ];
-        let (levels, complaint) = arrange(&given, Axis::Space);
+        let (levels, diagnostic) = arrange(&given, Axis::Space);
         let expected = [given[1].clone(), given[3].clone(), given[2].clone()];
         assert_eq!(levels, expected);
-        assert_eq!(complaint, None);
+        assert_eq!(diagnostic, None);
     }
 
     #[rstest]
@@ -113,8 +114,8 @@ mod tests {
     #[case(Level::new(2.0, -1.0), "h = 2: -1 is not an error")]
     #[case(Level::new(2.0, 1.0).failing("particle 7 inverted"), "h = 2: particle 7 inverted")]
     #[case(Level::new(1.0, 0.25), "h = 1 appears twice, with errors 0.25 and 0.5")]
-    fn complaints(#[case] level: Level, #[case] expected: &str) {
-        let (_, complaint) = arrange(&[Level::new(1.0, 0.5), level], Axis::Space);
-        assert_eq!(complaint.as_deref(), Some(expected));
+    fn diagnostics(#[case] level: Level, #[case] expected: &str) {
+        let (_, diagnostic) = arrange(&[Level::new(1.0, 0.5), level], Axis::Space);
+        assert_eq!(diagnostic.as_deref(), Some(expected));
     }
 }

@@ -54,7 +54,7 @@ impl fmt::Display for RichardsonClass {
     }
 }
 
-/// What three values at the same place and time say about their limit.
+/// Convergence of three values at the same place and time, and their limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Richardson {
     /// `(u2 - u3) / (u1 - u2)`, the coarse change over the fine one; `2^p` for halvings.

@@ -20,7 +20,7 @@ use std::ops::Range;
 
 use super::{
     f_test,
-    fit::{Line, Point},
+    fit::{FittedLine, LogPoint},
 };
 
 /// Fewest levels of which an order is claimed: two degrees of freedom remain to contradict it.
@@ -45,30 +45,31 @@ const FLOOR_FRACTION: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) range: Range<usize>,
-    pub(crate) line: Line,
+    pub(crate) line: FittedLine,
 }
 
 impl Window {
-    fn over(points: &[Point], range: Range<usize>) -> Option<Self> {
-        let line = Line::through(&points[range.clone()])?;
+    fn over(points: &[LogPoint], range: Range<usize>) -> Option<Self> {
+        let line = FittedLine::through(&points[range.clone()])?;
         Some(Self { range, line })
     }
 
     /// Whether the error leaves the line at the fine end for a floor.
-    pub(crate) fn meets_floor(&self, points: &[Point], formal_order: f64) -> bool {
+    pub(crate) fn meets_floor(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let end = self.range.end;
         let above = points[end..].iter().all(|p| self.line.departure(p) > 0.0);
         let limit = FLOOR_FRACTION * self.line.slope.min(formal_order);
         end < points.len()
             && above
-            && Line::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
+            && FittedLine::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
     }
 
     /// Whether what lies outside may be dropped, were there evidence to do so.
-    fn may_drop_rest(&self, points: &[Point], formal_order: f64) -> bool {
+    fn may_drop_rest(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let Range { start, end } = self.range;
-        let departures =
-            |rest: &[Point]| -> Vec<f64> { rest.iter().map(|p| self.line.departure(p)).collect() };
+        let departures = |rest: &[LogPoint]| -> Vec<f64> {
+            rest.iter().map(|p| self.line.departure(p)).collect()
+        };
         let mut coarse = departures(&points[..start]);
         coarse.reverse();
         let fine = departures(&points[end..]);
@@ -86,7 +87,7 @@ impl Window {
     }
 
     /// The longest shorter window for which there is strong evidence.
-    fn improved(&self, points: &[Point], formal_order: f64) -> Option<Self> {
+    fn improved(&self, points: &[LogPoint], formal_order: f64) -> Option<Self> {
         let candidates = shorter_ranges(&self.range);
         let risk = SELECTION_RISK / candidates.len() as f64;
         candidates.into_iter().filter_map(|range| Self::over(points, range)).find(|shorter| {
@@ -97,7 +98,7 @@ impl Window {
 
 /// The asymptotic window among the points before `end`, where a floor begins if one is known
 /// to; None if there are too few, or no line through them.
-pub(crate) fn asymptotic(points: &[Point], end: usize, formal_order: f64) -> Option<Window> {
+pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;
     }
@@ -134,13 +135,13 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    fn points(orders: &[f64]) -> Vec<Point> {
+    fn points(orders: &[f64]) -> Vec<LogPoint> {
         let mut y = 0.0;
-        let mut points = vec![Point { level: 0, x: 0.0, y }];
+        let mut points = vec![LogPoint { level: 0, x: 0.0, y }];
         for (k, order) in orders.iter().enumerate() {
             y -= order;
             let level = k + 1;
-            points.push(Point { level, x: -(level as f64), y });
+            points.push(LogPoint { level, x: -(level as f64), y });
         }
         points
     }

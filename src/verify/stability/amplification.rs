@@ -1,10 +1,10 @@
 //! One step of a frozen subject as a matrix.
 //!
-//! About a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A is
-//! what the subject itself makes of a unit perturbation of number j of its state: there is no second
-//! implementation to agree with. The difference is taken on both sides of rest, so that what is
-//! quadratic (volume times stress) drops out, and numbers are measured in their natural sizes, which
-//! is a similarity and leaves eigenvalues alone.
+//! About a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of
+//! A is what the subject itself makes of a unit perturbation of number j of its state: there is no
+//! second implementation to agree with. The difference is taken on both sides of rest, so that what
+//! is quadratic (volume times stress) drops out, and numbers are measured in their natural sizes,
+//! which is a similarity and leaves eigenvalues alone.
 
 use crate::subject::Perturbable;
 use nalgebra::DMatrix;
@@ -12,16 +12,17 @@ use nalgebra::DMatrix;
 /// Size of a perturbation. Laws of the deformation round it against F = I, to 1e-10 of the result.
 const STEP: f64 = 1e-6;
 
-/// What a state of rest may change by in a step, in natural sizes.
+/// Largest change of a state of rest in a step, in natural sizes.
 const REST: f64 = 1e-12;
 
-/// What differences of rounded numbers leave where there is nothing.
+/// Size of differences of rounded numbers whose exact difference is zero.
 const ROUNDING: f64 = 1e-8;
 
-/// The amplification matrix of a step, or of several steps of the lengths `dt` (s) after one another. `subject` must be frozen and at rest, with speeds
-/// of the size `speed` (m/s) and stresses of the size `modulus` (Pa). Numbers of the state that nothing
-/// else depends on and that only keep their own perturbation (the volume of a particle without
-/// stress) have an eigenvalue of one and no row.
+/// The amplification matrix of a step, or of several steps of the lengths `dt` (s) after one
+/// another. `subject` must be frozen and at rest, with speeds of the size `speed` (m/s) and
+/// stresses of the size `modulus` (Pa). Numbers of the state that nothing else depends on and that
+/// only keep their own perturbation (the volume of a particle without stress) have an eigenvalue of
+/// one and no row.
 ///
 /// # Errors
 /// One line, if the subject is not at rest or a perturbed step fails.

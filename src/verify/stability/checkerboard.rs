@@ -25,9 +25,9 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// The RMS of what the mean normal stress of a particle differs by from that of its neighbours, over
-/// the RMS of the mean normal stress itself. NaN without stresses or neighbours, or from too many
-/// particles.
+/// The RMS of what the mean normal stress of a particle differs by from that of its neighbours,
+/// over the RMS of the mean normal stress itself. NaN without stresses or neighbours, or from too
+/// many particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {

@@ -1,4 +1,4 @@
-//! What must come out of a stability study, row by row.
+//! Expectations of a stability study, row by row.
 
 use super::{
     figure::RunFigure,
@@ -7,22 +7,22 @@ use super::{
     trial_result::Trial,
     verdict::Stability,
 };
-use crate::verify::order::format_number::figures;
+use crate::verify::order::format_number::format_number;
 
-/// What is expected of one row.
+/// Expectation of one row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StabilityExpectation {
     /// How the run ends.
     pub verdict: Option<Stability>,
     /// The limit that is sought.
-    pub critical: Option<Wanted>,
+    pub critical: Option<FigureBounds>,
     /// Figures of the run.
-    pub figures: Vec<(RunFigure, Wanted)>,
+    pub figures: Vec<(RunFigure, FigureBounds)>,
 }
 
-/// What a figure must be; whatever is given must hold.
+/// Bounds of a figure; all that are given must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Wanted {
+pub struct FigureBounds {
     /// A value, and how far from it the figure may be: a share of the value, or of one if that is
     /// larger.
     pub is: Option<(f64, f64)>,
@@ -32,8 +32,8 @@ pub struct Wanted {
     pub below: Option<f64>,
 }
 
-impl Wanted {
-    /// What does not hold, in words. Written so that NaN never holds.
+impl FigureBounds {
+    /// Bounds that do not hold, in words. Written so that NaN never holds.
     fn unmet(&self, name: &str, got: f64) -> Vec<String> {
         let mut unmet = Vec::new();
         if let Some((value, within)) = self.is {
@@ -41,16 +41,16 @@ impl Wanted {
             if !(error <= within) {
                 unmet.push(format!(
                     "expected {name} {} within {within:e}, got {} (off by {error:.1e})",
-                    figures(value),
-                    figures(got)
+                    format_number(value),
+                    format_number(got)
                 ));
             }
         }
         if let Some(least) = self.above.filter(|least| !(got >= *least)) {
-            unmet.push(format!("expected {name} at least {least:e}, got {}", figures(got)));
+            unmet.push(format!("expected {name} at least {least:e}, got {}", format_number(got)));
         }
         if let Some(most) = self.below.filter(|most| !(got <= *most)) {
-            unmet.push(format!("expected {name} at most {most:e}, got {}", figures(got)));
+            unmet.push(format!("expected {name} at most {most:e}, got {}", format_number(got)));
         }
         unmet
     }
@@ -58,7 +58,11 @@ impl Wanted {
     /// The same for a limit, which may lie beyond the range in which it was sought.
     fn unmet_by_limit(&self, limit: StabilityLimit) -> Vec<String> {
         let beyond = |known: f64, holds: bool, side: &str| {
-            if holds { Vec::new() } else { vec![format!("the limit is {side} {}", figures(known))] }
+            if holds {
+                Vec::new()
+            } else {
+                vec![format!("the limit is {side} {}", format_number(known))]
+            }
         };
         match limit {
             StabilityLimit::At(value) => self.closed(value),
@@ -81,8 +85,8 @@ impl Wanted {
             if !(error <= within) {
                 unmet.push(format!(
                     "expected the limit {} within {within:e}, got {} (off by {error:.1e})",
-                    figures(value),
-                    figures(got)
+                    format_number(value),
+                    format_number(got)
                 ));
             }
         }
@@ -91,7 +95,7 @@ impl Wanted {
 }
 
 impl StabilityExpectation {
-    /// What did not come as expected.
+    /// Expectations that are not met.
     pub fn unmet(&self, row: &StabilityRow) -> Vec<String> {
         if let Some(reason) = &row.refused {
             return vec![format!("the run could not be set up: {reason}")];

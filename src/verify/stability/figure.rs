@@ -23,10 +23,11 @@ named! {
         /// At the end, the kinetic energy in the null space of the map to the grid over the largest
         /// kinetic energy of the run.
         NullShare = "null_share",
-        /// The largest kinetic energy met in the null space over the largest kinetic energy of the run.
+        /// The largest kinetic energy met in the null space over the largest kinetic energy of the
+        /// run.
         LargestNullShare = "largest_null_share",
-        /// At the end, the part of the stress that changes from particle to particle and no further,
-        /// over its mean size.
+        /// At the end, the part of the stress that changes from particle to particle and no
+        /// further, over its mean size.
         Checkerboard = "checkerboard",
         /// At the end, the largest less the smallest mean normal stress over the largest.
         StressSpread = "stress_spread",
@@ -40,7 +41,7 @@ named! {
 }
 
 impl RunFigure {
-    /// What tables call it.
+    /// Heading in tables.
     pub fn head(self) -> &'static str {
         match self {
             Self::Energy => "largest energy",
@@ -60,7 +61,8 @@ impl RunFigure {
         }
     }
 
-    /// Whether it is measured of what the grid cannot see, which is done only where it is asked for.
+    /// Whether it is measured of what the grid cannot see, which is done only where it is asked
+    /// for.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }

@@ -1,13 +1,13 @@
-//! Stability: does a run stay what it started as, and up to which value of a parameter?
+//! Stability: whether a run stays bounded, and up to which value of a parameter.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`verdict`](Stability) | the words |
-//! | [`trial`](trial()) | one run, watched: energy against its start, J, the largest speed |
+//! | [`verdict`](Stability) | the verdicts |
+//! | [`trial`](trial()) | one run: energy over that at the start, J, the largest speed |
 //! | [`amplification`](amplification()) | one step as a matrix, by running the subject itself |
 //! | [`radius`](spectral_radius) | the largest eigenvalue of that matrix |
-//! | [`limit`](stability_limit()) | the smallest value of a parameter that is not stable, by bisection |
-//! | [`expectation`](StabilityExpectation) | what must come out |
+//! | [`limit`](stability_limit()) | smallest value of a parameter that is not stable |
+//! | [`expectation`](StabilityExpectation) | expectations of suites |
 //! | [`outcome`](StabilityStudy) | the rows of a report |
 
 mod amplification;
@@ -22,7 +22,7 @@ mod trial_result;
 mod verdict;
 
 pub use amplification::amplification;
-pub use expectation::{StabilityExpectation, Wanted};
+pub use expectation::{FigureBounds, StabilityExpectation};
 pub use figure::RunFigure;
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};

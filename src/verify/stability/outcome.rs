@@ -1,7 +1,7 @@
 //! The results of a stability study.
 
 use super::{figure::RunFigure, limit::StabilityLimit, trial_result::Trial, verdict::Stability};
-use crate::verify::order::format_number::figures;
+use crate::verify::order::format_number::format_number;
 
 /// Results of a stability study: one row for each value of the parameter that is swept.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Critical {
     pub observed: Option<StabilityLimit>,
 }
 
-/// What an amplification matrix says.
+/// Limit predicted by an amplification matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
     /// Where the spectral radius leaves one.
@@ -92,7 +92,7 @@ impl StabilityStudy {
         let found = if values.is_empty() {
             format!("none in the range, over {count} {rows}")
         } else {
-            let (least, most) = (figures(least), figures(most));
+            let (least, most) = (format_number(least), format_number(most));
             format!("from {least} to {most} over {count} {rows}")
         };
         if runs == 0 { found } else { format!("{found}; {runs} runs beside the predictions") }

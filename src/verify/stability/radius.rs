@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, linalg::Schur};
 /// Iterations of the QR algorithm after which powers of the matrix answer instead.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero if it is this share of its neighbours on it. With less
-/// than some tens of roundings the algorithm waits for what rounding does not let happen.
+/// An entry below the diagonal counts as zero if it is this share of its neighbours on it. With
+/// less than some tens of roundings the algorithm waits for what rounding does not let happen.
 const SMALL: f64 = 1e-13;
 
 /// Squarings of the matrix: powers up to 2^30.
@@ -17,16 +17,17 @@ const SQUARINGS: i32 = 30;
 pub struct Radius {
     /// The modulus; infinite if an entry of the matrix is not finite.
     pub radius: f64,
-    /// Real part and magnitude of the imaginary part of the eigenvalue that has it, if it was computed:
-    /// -1 is a mode that changes its sign in every step, a complex one a slower oscillation.
+    /// Real part and magnitude of the imaginary part of the eigenvalue that has it, if it was
+    /// computed: -1 is a mode that changes its sign in every step, a complex one a slower
+    /// oscillation.
     pub eigenvalue: Option<(f64, f64)>,
 }
 
-/// The spectral radius, from the real Schur form of `A + s I` with s = |A|. Without the shift the QR
-/// algorithm goes round for ever on many a matrix of a step: `nalgebra` calls an entry small beside
-/// its neighbours on the diagonal, and a filter (PIC, MUSL) has defective eigenvalues zero, where the
-/// neighbours are rounding themselves. Should it not converge all the same, by Gelfand's formula,
-/// `|A^k|^(1/k)` with k = 2^30.
+/// The spectral radius, from the real Schur form of `A + s I` with s = |A|. Without the shift the
+/// QR algorithm goes round for ever on many a matrix of a step: `nalgebra` calls an entry small
+/// beside its neighbours on the diagonal, and a filter (PIC, MUSL) has defective eigenvalues zero,
+/// where the neighbours are rounding themselves. Should it not converge all the same, by Gelfand's
+/// formula, `|A^k|^(1/k)` with k = 2^30.
 pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Radius { radius: f64::INFINITY, eigenvalue: None };
@@ -67,8 +68,8 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// The matrix times itself, summed in the order of its columns: the product of the library takes another
-/// order, and fused operations, where the processor has wider registers.
+/// The matrix times itself, summed in the order of its columns: the product of the library takes
+/// another order, and fused operations, where the processor has wider registers.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {

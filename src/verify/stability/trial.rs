@@ -1,9 +1,9 @@
 //! One run, watched for growth.
 //!
-//! The energy is that of a small motion: the kinetic one and `V |sigma|^2 / (2 M)`, with M the stiffness
-//! against uniaxial strain. In 1-D and at small strain that is the strain energy; elsewhere it is a
-//! measure of the size of the stress, which is all that growth needs. It is compared with its start,
-//! or, in a body that starts at rest, with the energy of a strain of one.
+//! The energy is that of a small motion: the kinetic one and `V |sigma|^2 / (2 M)`, with M the
+//! stiffness against uniaxial strain. In 1-D and at small strain that is the strain energy;
+//! elsewhere it is a measure of the size of the stress, which is all that growth needs. It is
+//! compared with its start, or, in a body that starts at rest, with the energy of a strain of one.
 
 use super::{
     checkerboard::{checkerboard, stress_spread},
@@ -13,7 +13,7 @@ use super::{
 use crate::{
     subject::{Checkpoint, Failure, Memory, Samples, Subject},
     verify::{
-        conservation::{Balance, Conserved, Drift},
+        conservation::{Balance, ConservationError, Conserved},
         error::{
             checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed},
             norm::larger,
@@ -29,11 +29,12 @@ const EVERY: u64 = 16;
 /// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
 /// unstable or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
-    let watch = TrialMonitor::new(subject, *scales);
-    go(subject, watch, dt, (0, steps), &mut NoCheckpoints)
+    let monitor = TrialMonitor::new(subject, *scales);
+    go(subject, monitor, dt, (0, steps), &mut NoCheckpoints)
 }
 
-/// The same trial of a subject that `make` makes, from where `keeper` has something that was left of it.
+/// The same trial of a subject that `make` makes, from where `keeper` has something that was left
+/// of it.
 ///
 /// # Errors
 /// Those of `make`.
@@ -42,42 +43,42 @@ pub fn resume_trial<E>(
     dt: &[f64],
     steps: u64,
     scales: &Scales,
-    keeper: &mut dyn CheckpointStore,
+    store: &mut dyn CheckpointStore,
 ) -> Result<Trial, E> {
-    let watch = |subject: &dyn Subject| TrialMonitor::new(subject, *scales);
-    let (mut subject, watch, done) = resumed(make, watch, steps, keeper)?;
-    Ok(go(subject.as_mut(), watch, dt, (done, steps), keeper))
+    let monitor = |subject: &dyn Subject| TrialMonitor::new(subject, *scales);
+    let (mut subject, monitor, done) = resumed(make, monitor, steps, store)?;
+    Ok(go(subject.as_mut(), monitor, dt, (done, steps), store))
 }
 
 fn go(
     subject: &mut dyn Subject,
-    mut watch: TrialMonitor,
+    mut monitor: TrialMonitor,
     dt: &[f64],
     (done, steps): (u64, u64),
-    keeper: &mut dyn CheckpointStore,
+    store: &mut dyn CheckpointStore,
 ) -> Trial {
-    let scales = watch.scales;
+    let scales = monitor.scales;
     let mut lengths = dt.iter().cycle().skip(done as usize % dt.len().max(1));
     for step in done + 1..=steps {
         let dt = *lengths.next().unwrap_or(&f64::NAN);
-        watch.time += dt;
+        monitor.time += dt;
         if let Err(failure) = subject.step(dt) {
-            return watch.failed(subject, step, &failure);
+            return monitor.failed(subject, step, &failure);
         }
         if step <= FIRST || step % EVERY == 0 || step == steps {
-            watch.look(subject);
-            if !(watch.energy <= scales.unstable_above) {
-                return watch.grown(subject, step);
+            monitor.look(subject);
+            if !(monitor.energy <= scales.unstable_above) {
+                return monitor.grown(subject, step);
             }
         }
-        keep_if_due(keeper, (step, steps), &mut watch, subject);
+        keep_if_due(store, (step, steps), &mut monitor, subject);
     }
-    let verdict = if watch.energy <= scales.stable_below {
+    let verdict = if monitor.energy <= scales.stable_below {
         Stability::Stable
     } else {
         Stability::BoundedGrowth
     };
-    watch.ended(subject, verdict, None, steps)
+    monitor.ended(subject, verdict, None, steps)
 }
 
 struct TrialMonitor {
@@ -108,7 +109,7 @@ impl TrialMonitor {
         } else {
             0.5 * scales.modulus * samples.weight.iter().sum::<f64>()
         };
-        let mut watch = Self {
+        let mut monitor = Self {
             scales,
             time: 0.0,
             samples,
@@ -122,8 +123,8 @@ impl TrialMonitor {
             null: f64::NAN,
             null_most: 0.0,
         };
-        watch.look(subject);
-        watch
+        monitor.look(subject);
+        monitor
     }
 
     fn look(&mut self, subject: &dyn Subject) {
@@ -168,7 +169,7 @@ impl TrialMonitor {
         why: Option<String>,
         steps: u64,
     ) -> Trial {
-        let drift = self.balance.as_ref().map_or(Drift::NONE, Balance::drift);
+        let drift = self.balance.as_ref().map_or(ConservationError::NONE, Balance::drift);
         let largest = |column: &[f64], size: usize| {
             column.chunks_exact(size.max(1)).map(length).fold(0.0, larger)
         };

@@ -1,9 +1,9 @@
-//! What a trial has shown, and what it measures with.
+//! Results of a trial, and the scales of its measurements.
 
 use super::verdict::Stability;
 use serde::{Deserialize, Serialize};
 
-/// What a trial measures with.
+/// Scales of the measurements of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     /// Wave speed (m/s).
@@ -21,7 +21,7 @@ pub struct Scales {
     pub null_space: bool,
 }
 
-/// What a run has shown. Figures of a run that failed are those up to its last step.
+/// Results of a run. Figures of a run that failed are those up to its last step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// How it ended.
@@ -44,8 +44,8 @@ pub struct Trial {
     pub least_j: f64,
     /// The largest speed met, over the wave speed.
     pub speed: f64,
-    /// Kinetic energy in the null space of the map to the grid, at the end, over the largest kinetic
-    /// energy met; NaN where it is not measured.
+    /// Kinetic energy in the null space of the map to the grid, at the end, over the largest
+    /// kinetic energy met; NaN where it is not measured.
     pub null_share: f64,
     /// The largest kinetic energy met in the null space over the largest kinetic energy met.
     pub largest_null_share: f64,

@@ -4,7 +4,7 @@
 use std::f64::consts::LN_2;
 
 use crate::verify::order::{
-    fit::{Line, Point},
+    fit::{FittedLine, LogPoint},
     window::{FEWEST_LEVELS, FLAT_ORDER},
 };
 
@@ -39,7 +39,7 @@ const TURNS: usize = 3;
 /// confidence interval excludes zero. Otherwise the part judged begins at the smallest error. It
 /// must have at least three levels, grow at least twofold, and either end above the first error
 /// of the series by that factor, or rise over its last two pairs, or have a rising line as above.
-pub(crate) fn divergence(points: &[Point]) -> Option<usize> {
+pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;
     }
@@ -54,16 +54,16 @@ pub(crate) fn divergence(points: &[Point]) -> Option<usize> {
         .then_some(start)
 }
 
-fn lowest(points: &[Point]) -> Option<usize> {
+fn lowest(points: &[LogPoint]) -> Option<usize> {
     (0..points.len()).min_by(|&a, &b| points[a].y.total_cmp(&points[b].y))
 }
 
-fn rises_twice(part: &[Point]) -> bool {
+fn rises_twice(part: &[LogPoint]) -> bool {
     part.windows(2).rev().take(2).all(|pair| pair[1].y > pair[0].y)
 }
 
-fn line_rises(part: &[Point]) -> bool {
-    Line::through(part)
+fn line_rises(part: &[LogPoint]) -> bool {
+    FittedLine::through(part)
         .map(|line| line.order())
         .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
 }
@@ -71,7 +71,7 @@ fn line_rises(part: &[Point]) -> bool {
 /// From which point on the error is flat, if it is at the fine end: the longest tail whose errors
 /// lie in a band of a factor of two with an order of less than 0.2, after a part that fell (or
 /// from the first level on). None if the formal order would not have shown there either.
-pub(crate) fn flat_tail(points: &[Point], formal_order: f64) -> Option<usize> {
+pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {
         let tail = &points[start..];
@@ -83,17 +83,17 @@ pub(crate) fn flat_tail(points: &[Point], formal_order: f64) -> Option<usize> {
     })
 }
 
-fn slope(points: &[Point]) -> Option<f64> {
-    Line::through(points).map(|line| line.slope)
+fn slope(points: &[LogPoint]) -> Option<f64> {
+    FittedLine::through(points).map(|line| line.slope)
 }
 
-fn spread(points: &[Point]) -> f64 {
+fn spread(points: &[LogPoint]) -> f64 {
     let ys = || points.iter().map(|p| p.y);
     ys().fold(f64::NEG_INFINITY, f64::max) - ys().fold(f64::INFINITY, f64::min)
 }
 
 /// Whether the error goes up and down by much and without a convincing trend.
-pub(crate) fn oscillates(points: &[Point]) -> bool {
+pub(crate) fn oscillates(points: &[LogPoint]) -> bool {
     let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].y - pair[0].y).collect();
     let turns = steps.windows(2).filter(|s| s[0] * s[1] < 0.0).count();
     let rises: f64 = steps.iter().filter(|s| **s > 0.0).sum();
@@ -110,8 +110,8 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    fn points(errors: &[f64]) -> Vec<Point> {
-        let place = |(level, error): (usize, &f64)| Point {
+    fn points(errors: &[f64]) -> Vec<LogPoint> {
+        let place = |(level, error): (usize, &f64)| LogPoint {
             level,
             x: -LN_2 * level as f64,
             y: libm::log(*error),

@@ -1,13 +1,13 @@
 //! Whose error a floor is: what happens to it when another axis is refined.
 //!
-//! The shape of a series tells that the error has stopped falling, not why. So the finest level is run
-//! again with the spacing of another axis halved, one axis at a time. (An error is a sum of terms in h,
-//! in dt and in what else there is; refining one spacing leaves the others' terms: Roy 2005, J. Comput.
-//! Phys. 205, 131.)
+//! The shape of a series tells that the error has stopped falling, not why. So the finest level is
+//! run again with the spacing of another axis halved, one axis at a time. (An error is a sum of
+//! terms in h, in dt and in what else there is; refining one spacing leaves the others' terms: Roy
+//! 2005, J. Comput. Phys. 205, 131.)
 
 use crate::{
     named::named,
-    verify::order::{axis::Axis, format_number::figures},
+    verify::order::{axis::Axis, format_number::format_number},
 };
 
 /// An axis is named if halving its spacing takes at least a quarter off the error. With order one
@@ -38,7 +38,7 @@ pub struct Probe {
     pub error: Result<f64, String>,
 }
 
-/// What was tried on the finest level of a series.
+/// Errors of the finest level with another spacing halved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Floor {
     /// The error there.
@@ -85,10 +85,12 @@ impl Floor {
         let probe = |(k, probe): (usize, &Probe)| {
             let halved = format!("half the {}", probe.axis.noun());
             let from =
-                if k == 0 { format!("from {} ", figures(self.error)) } else { String::new() };
+                if k == 0 { format!("from {} ", format_number(self.error)) } else { String::new() };
             match &probe.error {
-                Ok(error) if k == 0 => format!("{halved} takes it {from}to {}", figures(*error)),
-                Ok(error) => format!("{halved} to {}", figures(*error)),
+                Ok(error) if k == 0 => {
+                    format!("{halved} takes it {from}to {}", format_number(*error))
+                }
+                Ok(error) => format!("{halved} to {}", format_number(*error)),
                 Err(reason) => format!("{halved} fails ({reason})"),
             }
         };

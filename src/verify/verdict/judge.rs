@@ -1,9 +1,9 @@
 //! From levels to a verdict: the questions, in the order in which they are asked.
 //!
-//! 1. Is every level sound, and the claim testable? Else `failed`.
+//! 1. Is every level sound, and the hypothesis testable? Else `failed`.
 //! 2. Are there four usable levels? Else `too few levels`.
-//! 3. Does the error go up and down, grow, or rest on a floor? `oscillatory`, `divergent`,
-//!    `at floor`, by the shapes of [`error_trend`](super::error_trend) and, for an exact zero, as such.
+//! 3. Does the error go up and down, grow, or rest on a floor? `oscillatory`, `divergent`, `at
+//!    floor`, by the shapes of [`error_trend`](super::error_trend) and, for an exact zero, as such.
 //! 4. Which levels are asymptotic? The [`window`]; if it leaves out levels at the fine end, the
 //!    verdict is `at floor`.
 //! 5. Has the order settled there? A wide interval or a drift is `pre-asymptotic`.
@@ -16,7 +16,7 @@ use std::ops::Range;
 
 use super::{error_trend, name::Verdict, reason::Reason};
 use crate::verify::order::{
-    fit::{Interval, Line, Point},
+    fit::{FittedLine, Interval, LogPoint},
     hypothesis::OrderHypothesis,
     level::{Level, arrange},
     pairwise::pairwise,
@@ -60,11 +60,11 @@ pub struct Judgement {
 }
 
 /// Judges the errors of a refinement study against a claimed order.
-pub fn judge(levels: &[Level], claim: &OrderHypothesis) -> Judgement {
-    let (levels, complaint) = arrange(levels, claim.axis);
-    let finding = match complaint.or_else(|| claim.complaint()) {
-        Some(complaint) => Finding::without_order(Verdict::Failed, Reason::Failed(complaint)),
-        None => Series::new(&levels).finding(claim),
+pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
+    let (levels, diagnostic) = arrange(levels, hypothesis.axis);
+    let finding = match diagnostic.or_else(|| hypothesis.diagnostic()) {
+        Some(diagnostic) => Finding::without_order(Verdict::Failed, Reason::Failed(diagnostic)),
+        None => JudgedSeries::new(&levels).finding(hypothesis),
     };
     let window = finding.window.as_deref();
     Judgement {
@@ -72,7 +72,7 @@ pub fn judge(levels: &[Level], claim: &OrderHypothesis) -> Judgement {
         order: finding.line.map(|line| line.order()),
         window: window.map(|points| points.iter().map(|p| p.level).collect()),
         pairwise: pairwise(&levels),
-        reason: finding.reason.sentence(&levels, claim.axis, window, finding.line.as_ref()),
+        reason: finding.reason.sentence(&levels, hypothesis.axis, window, finding.line.as_ref()),
         levels,
     }
 }
@@ -81,8 +81,8 @@ pub fn judge(levels: &[Level], claim: &OrderHypothesis) -> Judgement {
 struct Finding {
     verdict: Verdict,
     reason: Reason,
-    window: Option<Vec<Point>>,
-    line: Option<Line>,
+    window: Option<Vec<LogPoint>>,
+    line: Option<FittedLine>,
 }
 
 impl Finding {
@@ -90,24 +90,29 @@ impl Finding {
         Self { verdict, reason, window: None, line: None }
     }
 
-    fn over(verdict: Verdict, reason: Reason, points: &[Point], line: Option<Line>) -> Self {
+    fn over(
+        verdict: Verdict,
+        reason: Reason,
+        points: &[LogPoint],
+        line: Option<FittedLine>,
+    ) -> Self {
         Self { verdict, reason, window: line.map(|_| points.to_vec()), line }
     }
 }
 
 /// The usable levels.
-struct Series {
+struct JudgedSeries {
     /// Those with a non-zero error, on logarithmic axes.
-    points: Vec<Point>,
+    points: Vec<LogPoint>,
     /// The indices of those with an exact zero.
     zeros: Vec<usize>,
 }
 
-impl Series {
+impl JudgedSeries {
     fn new(levels: &[Level]) -> Self {
         let usable = || levels.iter().enumerate().filter(|(_, level)| level.usable);
         let (nonzero, zero): (Vec<_>, Vec<_>) = usable().partition(|(_, level)| level.error > 0.0);
-        let point = |(k, level): (usize, &Level)| Point {
+        let point = |(k, level): (usize, &Level)| LogPoint {
             level: k,
             x: libm::log(level.h),
             y: libm::log(level.error),
@@ -118,7 +123,7 @@ impl Series {
         }
     }
 
-    fn finding(&self, claim: &OrderHypothesis) -> Finding {
+    fn finding(&self, hypothesis: &OrderHypothesis) -> Finding {
         let usable = self.points.len() + self.zeros.len();
         if usable < FEWEST_LEVELS {
             let reason = Reason::TooFew { usable };
@@ -126,9 +131,9 @@ impl Series {
         }
         self.oscillatory()
             .or_else(|| self.divergent())
-            .or_else(|| self.zero(claim))
-            .or_else(|| self.flat(claim))
-            .unwrap_or_else(|| self.asymptotic(claim))
+            .or_else(|| self.zero(hypothesis))
+            .or_else(|| self.flat(hypothesis))
+            .unwrap_or_else(|| self.asymptotic(hypothesis))
     }
 
     fn oscillatory(&self) -> Option<Finding> {
@@ -143,57 +148,62 @@ impl Series {
         let part = &self.points[start..];
         (self.zeros.iter().all(|&zero| zero < finest)).then(|| {
             let reason = Reason::Divergent { from: part[0].level, to: finest };
-            Finding::over(Verdict::Divergent, reason, part, Line::through(part))
+            Finding::over(Verdict::Divergent, reason, part, FittedLine::through(part))
         })
     }
 
     /// An exact zero is an error at or below round-off.
-    fn zero(&self, claim: &OrderHypothesis) -> Option<Finding> {
+    fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);
-        let flat = error_trend::flat_tail(&self.points[..end], claim.formal_order);
-        Some(self.before_floor(from, flat.unwrap_or(end), claim))
+        let flat = error_trend::flat_tail(&self.points[..end], hypothesis.formal_order);
+        Some(self.before_floor(from, flat.unwrap_or(end), hypothesis))
     }
 
-    fn flat(&self, claim: &OrderHypothesis) -> Option<Finding> {
-        let start = error_trend::flat_tail(&self.points, claim.formal_order)?;
-        Some(self.before_floor(self.points[start].level, start, claim))
+    fn flat(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
+        let start = error_trend::flat_tail(&self.points, hypothesis.formal_order)?;
+        Some(self.before_floor(self.points[start].level, start, hypothesis))
     }
 
     /// At a floor that begins with the level `from`; the order is that of the asymptotic part of
     /// the points before `end`.
-    fn before_floor(&self, from: usize, end: usize, claim: &OrderHypothesis) -> Finding {
-        let window = window::asymptotic(&self.points, end, claim.formal_order);
+    fn before_floor(&self, from: usize, end: usize, hypothesis: &OrderHypothesis) -> Finding {
+        let window = window::asymptotic(&self.points, end, hypothesis.formal_order);
         self.floor(from, window.map_or(0..end, |window| window.range))
     }
 
     fn floor(&self, from: usize, range: Range<usize>) -> Finding {
         let points = &self.points[range];
         let enough = points.len() >= FEWEST_BEFORE_FLOOR;
-        let line = Line::through(points).filter(|_| enough);
+        let line = FittedLine::through(points).filter(|_| enough);
         Finding::over(Verdict::AtFloor, Reason::Floor { from }, points, line)
     }
 
-    fn asymptotic(&self, claim: &OrderHypothesis) -> Finding {
-        let Some(window) = window::asymptotic(&self.points, self.points.len(), claim.formal_order)
+    fn asymptotic(&self, hypothesis: &OrderHypothesis) -> Finding {
+        let Some(window) =
+            window::asymptotic(&self.points, self.points.len(), hypothesis.formal_order)
         else {
-            let complaint = "the spacings cannot be told apart".into();
-            return Finding::without_order(Verdict::Failed, Reason::Failed(complaint));
+            let diagnostic = "the spacings cannot be told apart".into();
+            return Finding::without_order(Verdict::Failed, Reason::Failed(diagnostic));
         };
-        if window.meets_floor(&self.points, claim.formal_order) {
+        if window.meets_floor(&self.points, hypothesis.formal_order) {
             let from = self.points[window.range.end].level;
             return self.floor(from, window.range);
         }
         let points = &self.points[window.range.clone()];
-        let (verdict, reason) = settled(&window, points, claim);
+        let (verdict, reason) = settled(&window, points, hypothesis);
         Finding::over(verdict, reason, points, Some(window.line))
     }
 }
 
 /// The last two questions.
-fn settled(window: &Window, points: &[Point], claim: &OrderHypothesis) -> (Verdict, Reason) {
+fn settled(
+    window: &Window,
+    points: &[LogPoint],
+    hypothesis: &OrderHypothesis,
+) -> (Verdict, Reason) {
     let order = window.line.order();
-    let range @ (low, high) = claim.range();
+    let range @ (low, high) = hypothesis.range();
     let narrow = order.half_width() <= SETTLED.max(SETTLED_FRACTION * order.value);
     if !narrow {
         return (Verdict::PreAsymptotic, Reason::Wide);
@@ -214,7 +224,7 @@ fn settled(window: &Window, points: &[Point], claim: &OrderHypothesis) -> (Verdi
 }
 
 /// The change of the order along the window, if it is significant and material.
-fn drift(window: &Window, points: &[Point]) -> Option<f64> {
+fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// What a series of errors shows. Only [`Verdict::Converging`] supports a claimed order; every
+/// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order; every
 /// other word is a different way of not doing so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Verdict {
@@ -101,8 +101,8 @@ mod tests {
 
     #[test]
     fn an_unknown_word_is_refused_and_the_known_ones_are_listed() {
-        let complaint = "fine".parse::<Verdict>().unwrap_err().to_string();
-        assert!(complaint.starts_with("`fine` is not a verdict"));
-        assert!(Verdict::ALL.iter().all(|v| complaint.contains(v.name())));
+        let diagnostic = "fine".parse::<Verdict>().unwrap_err().to_string();
+        assert!(diagnostic.starts_with("`fine` is not a verdict"));
+        assert!(Verdict::ALL.iter().all(|v| diagnostic.contains(v.name())));
     }
 }

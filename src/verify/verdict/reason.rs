@@ -3,13 +3,13 @@
 use super::name::Verdict;
 use crate::verify::order::{
     axis::Axis,
-    fit::{Line, Point},
-    format_number::{figures, order},
+    fit::{FittedLine, LogPoint},
+    format_number::{format_number, order},
     level::Level,
     window::FEWEST_LEVELS,
 };
 
-/// What led to a verdict; levels by index.
+/// Reason of a verdict; levels by index.
 pub(crate) enum Reason {
     Failed(String),
     TooFew { usable: usize },
@@ -27,8 +27,8 @@ impl Reason {
         &self,
         levels: &[Level],
         axis: Axis,
-        window: Option<&[Point]>,
-        line: Option<&Line>,
+        window: Option<&[LogPoint]>,
+        line: Option<&FittedLine>,
     ) -> String {
         let order = window.zip(line).map(|(points, line)| order_over(levels, axis, points, line));
         let cause = self.cause(levels, axis);
@@ -43,7 +43,7 @@ impl Reason {
 
     fn cause(&self, levels: &[Level], axis: Axis) -> String {
         match self {
-            Self::Failed(complaint) => complaint.clone(),
+            Self::Failed(diagnostic) => diagnostic.clone(),
             Self::TooFew { usable } => {
                 format!("{usable} usable levels, a claim needs {FEWEST_LEVELS}")
             }
@@ -63,33 +63,33 @@ impl Reason {
 }
 
 /// `order 2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`
-fn order_over(levels: &[Level], axis: Axis, points: &[Point], line: &Line) -> String {
+fn order_over(levels: &[Level], axis: Axis, points: &[LogPoint], line: &FittedLine) -> String {
     let ends = [points.first(), points.last()];
     let [coarse, fine] = ends.map(|p| p.map_or(f64::NAN, |p| levels[p.level].h));
     let (order, count) = (order(&line.order()), points.len());
-    let (coarse, fine) = (figures(coarse), figures(fine));
+    let (coarse, fine) = (format_number(coarse), format_number(fine));
     format!("order {order} over {count} levels, {} = {coarse} ... {fine}", axis.symbol())
 }
 
 /// `0.25 at h = 0.5`
 fn place(level: &Level, axis: Axis) -> String {
-    format!("{} at {} = {}", figures(level.error), axis.symbol(), figures(level.h))
+    format!("{} at {} = {}", format_number(level.error), axis.symbol(), format_number(level.h))
 }
 
 fn oscillation(levels: &[Level]) -> String {
     let usable = levels.iter().filter(|level| level.usable);
-    let errors: Vec<String> = usable.map(|level| figures(level.error)).collect();
+    let errors: Vec<String> = usable.map(|level| format_number(level.error)).collect();
     format!("the error goes up and down without a trend: {}", errors.join(", "))
 }
 
-/// What the errors do from the first level of the floor on.
+/// Errors from the first level of the floor on.
 fn floor(levels: &[Level], axis: Axis) -> String {
     let errors = || levels.iter().filter(|level| level.usable).map(|level| level.error);
     let low = errors().fold(f64::INFINITY, f64::min);
     let high = errors().fold(0.0, f64::max);
     let h = levels.first().map_or(f64::NAN, |level| level.h);
     let name = axis.symbol();
-    let (h, low, high) = (figures(h), figures(low), figures(high));
+    let (h, low, high) = (format_number(h), format_number(low), format_number(high));
     if low == high {
         format!("the error stays at {low} from {name} = {h} on")
     } else {
@@ -98,7 +98,7 @@ fn floor(levels: &[Level], axis: Axis) -> String {
 }
 
 fn against(verdict: Verdict, (low, high): (f64, f64)) -> String {
-    let (low, high) = (figures(low), figures(high));
+    let (low, high) = (format_number(low), format_number(high));
     match verdict {
         Verdict::Converging => format!("within the expected [{low}, {high}]"),
         Verdict::TooGood => format!("above the expected [{low}, {high}]"),

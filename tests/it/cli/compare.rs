@@ -32,13 +32,13 @@ fn a_run_against_itself_says_that_nothing_moved() {
 }
 
 #[test]
-fn twice_the_particles_are_dearer() {
+fn twice_the_particles_are_more_expensive() {
     let folder = two_runs();
     let found = folder.call(&["compare", "old.json", "new.json"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
     for words in [
-        "worse: 1 dearer, 1 gone, 2 targets dearer to reach\n",
-        "\ndearer\n",
+        "worse: 1 more expensive, 1 gone, 2 targets more expensive to reach\n",
+        "\nmore expensive\n",
         "  short-bar::mpm-linear-flip-musl  converging ",
         // Other levels are no reason to say nothing: both series meet.
         "levels: 4 -> 4, 0 in common\n",

@@ -1,4 +1,4 @@
-//! What holds for every figure.
+//! Properties of every figure.
 
 use mpm_verify::report::figure::*;
 use proptest::prelude::*;
@@ -43,23 +43,23 @@ fn texts_are_escaped() {
 
 const KEYS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
-    (Mark::ParticleField, "outside the window"),
+    (Mark::OutsideWindow, "outside the window"),
     (Mark::Crossing, "particles changed cell"),
     (Mark::Failed, "failed or not finite"),
 ];
 
 #[rstest]
 #[case(&[Mark::Window])]
-#[case(&[Mark::ParticleField, Mark::Crossing])]
+#[case(&[Mark::OutsideWindow, Mark::Crossing])]
 #[case(&[Mark::Failed])]
-#[case(&[Mark::Window, Mark::ParticleField, Mark::Crossing, Mark::Failed])]
+#[case(&[Mark::Window, Mark::OutsideWindow, Mark::Crossing, Mark::Failed])]
 fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
-    let points = marks.iter().zip(1_u8..).map(|(&mark, i)| Point {
+    let points = marks.iter().zip(1_u8..).map(|(&mark, i)| PlotPoint {
         h: 0.5 / f64::from(i),
         error: 0.1 / f64::from(i),
         mark,
     });
-    let one = Series { name: "one".to_owned(), points: points.collect() };
+    let one = PlotSeries { name: "one".to_owned(), points: points.collect() };
     let svg = samples::convergence(vec![one], &[2.0]).to_svg();
     for (mark, key) in KEYS {
         assert_eq!(svg.contains(key), marks.contains(&mark), "{key}");
@@ -74,8 +74,8 @@ fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
 #[case(&[(0.1, f64::NAN), (0.2, f64::INFINITY)])]
 #[case(&[(5e-324, f64::MAX), (f64::MAX, 5e-324)])]
 fn degenerate_series(#[case] points: &[(f64, f64)]) {
-    let points = points.iter().map(|&(h, error)| Point { h, error, mark: Mark::Window });
-    let one = Series { name: "one".to_owned(), points: points.collect() };
+    let points = points.iter().map(|&(h, error)| PlotPoint { h, error, mark: Mark::Window });
+    let one = PlotSeries { name: "one".to_owned(), points: points.collect() };
     let svg = samples::convergence(vec![one], &[2.0]).to_svg();
     assert_eq!(well_formed(&svg), Ok(()));
     assert!(without_bad_numbers(&svg));
@@ -90,9 +90,9 @@ fn what_has_no_place_is_noted() {
 
 #[test]
 fn a_failure_at_the_same_size_stands_below_the_other() {
-    let failed = |name: &str| Series {
+    let failed = |name: &str| PlotSeries {
         name: name.to_owned(),
-        points: vec![Point { h: 0.1, error: f64::NAN, mark: Mark::Failed }],
+        points: vec![PlotPoint { h: 0.1, error: f64::NAN, mark: Mark::Failed }],
     };
     let svg = samples::convergence(vec![failed("one"), failed("two")], &[]).to_svg();
     // The first failure and the key in the legend.
@@ -102,7 +102,7 @@ fn a_failure_at_the_same_size_stands_below_the_other() {
 #[test]
 fn missing_values_interrupt_a_curve() {
     let mut figure = samples::square_wave();
-    let lines = |figure: &History| figure.to_svg().matches("<polyline").count();
+    let lines = |figure: &HistoryPlot| figure.to_svg().matches("<polyline").count();
     let before = lines(&figure);
     figure.curves[1].points[500].1 = f64::NAN;
     assert_eq!(lines(&figure), before + 1);
@@ -132,9 +132,9 @@ proptest! {
         orders in prop::collection::vec(any_value(), 0..3),
         text in any::<String>(),
     ) {
-        let series = points.into_iter().map(|points| Series {
+        let series = points.into_iter().map(|points| PlotSeries {
             name: text.clone(),
-            points: points.into_iter().map(|(h, error, mark)| Point { h, error, mark }).collect(),
+            points: points.into_iter().map(|(h, error, mark)| PlotPoint { h, error, mark }).collect(),
         });
         let svg = samples::convergence(series.collect(), &orders).to_svg();
         prop_assert_eq!(well_formed(&svg), Ok(()));

@@ -80,7 +80,7 @@ fn distance(area: &[Pt], segment: (Pt, Pt)) -> f64 {
     corners.chain(ends).fold(f64::INFINITY, f64::min)
 }
 
-/// What remains of the required distance after the errors of the raster.
+/// Required distance, less the errors of the raster.
 const APART: f64 = 7.0;
 
 #[rstest]

@@ -1,22 +1,24 @@
 //! Figures which the tests share.
 
-use mpm_verify::report::figure::{Convergence, Curve, History, Mark, Point, Series};
+use mpm_verify::report::figure::{
+    ConvergencePlot, Curve, HistoryPlot, Mark, PlotPoint, PlotSeries,
+};
 
 /// Halved cell sizes from 1/4 m.
 fn sizes(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(|i| 0.25 / f64::from(1 << i))
 }
 
-fn series(name: &str, count: usize, error: impl Fn(usize, f64) -> (f64, Mark)) -> Series {
+fn series(name: &str, count: usize, error: impl Fn(usize, f64) -> (f64, Mark)) -> PlotSeries {
     let point = |(i, h)| {
         let (error, mark) = error(i, h);
-        Point { h, error, mark }
+        PlotPoint { h, error, mark }
     };
-    Series { name: name.to_owned(), points: sizes(count).enumerate().map(point).collect() }
+    PlotSeries { name: name.to_owned(), points: sizes(count).enumerate().map(point).collect() }
 }
 
-pub(super) fn convergence(series: Vec<Series>, orders: &[f64]) -> Convergence {
-    Convergence {
+pub(super) fn convergence(series: Vec<PlotSeries>, orders: &[f64]) -> ConvergencePlot {
+    ConvergencePlot {
         title: "Vibrating bar, one element per cell".to_owned(),
         x_label: "cell size h (m)".to_owned(),
         y_label: "relative error in displacement (-)".to_owned(),
@@ -26,9 +28,9 @@ pub(super) fn convergence(series: Vec<Series>, orders: &[f64]) -> Convergence {
 }
 
 /// A clean order with a plateau, one which turns where particles cross, one which fails.
-pub(super) fn three_series() -> Convergence {
+pub(super) fn three_series() -> ConvergencePlot {
     let plateau = series("displacement", 7, |i, h| {
-        let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::ParticleField };
+        let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::OutsideWindow };
         (0.3 * h * h + 4e-5, mark)
     });
     let crossing = series("velocity", 7, |i, h| match i {
@@ -37,31 +39,31 @@ pub(super) fn three_series() -> Convergence {
     });
     let failing = series("stress", 7, |i, h| match i {
         6 => (f64::NAN, Mark::Window),
-        0 => (6.0 * h, Mark::ParticleField),
+        0 => (6.0 * h, Mark::OutsideWindow),
         _ => (9.0 * libm::pow(h, 5.0 / 3.0), Mark::Window),
     });
     convergence(vec![plateau, crossing, failing], &[2.0, 5.0 / 3.0])
 }
 
-pub(super) fn eight_long_names() -> Convergence {
+pub(super) fn eight_long_names() -> ConvergencePlot {
     let all = (0..8).map(|k| {
         let name = format!("basis {k}: cubic B-spline, APIC, dt = {k}/8 CFL");
         series(&name, 5, |i, h| {
             let factor = libm::pow(2.3, f64::from(k));
-            let mark = if i == 0 { Mark::ParticleField } else { Mark::Window };
+            let mark = if i == 0 { Mark::OutsideWindow } else { Mark::Window };
             (1e-2 * factor * libm::pow(h, 1.0 + 0.15 * f64::from(k)), mark)
         })
     });
     convergence(all.collect(), &[1.0, 2.0])
 }
 
-pub(super) fn less_than_a_decade() -> Convergence {
+pub(super) fn less_than_a_decade() -> ConvergencePlot {
     let one = series("total energy", 3, |_, h| (0.05 + 0.4 * h, Mark::Window));
-    let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::ParticleField));
+    let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::OutsideWindow));
     convergence(vec![one, two], &[1.0])
 }
 
-pub(super) fn ten_decades() -> Convergence {
+pub(super) fn ten_decades() -> ConvergencePlot {
     let one = series("spectral", 6, |_, h| (libm::pow(h, 5.0), Mark::Window));
     let two = series("linear", 6, |_, h| (30.0 * h, Mark::Window));
     convergence(vec![one, two], &[1.0, 5.0])
@@ -75,8 +77,8 @@ fn curve(name: &str, count: i32, exact: bool, f: impl Fn(f64) -> f64) -> Curve {
     Curve { name: name.to_owned(), points: (0..=count).map(at).collect(), exact, markers: false }
 }
 
-pub(super) fn history(y_label: &str, curves: Vec<Curve>) -> History {
-    History {
+pub(super) fn history(y_label: &str, curves: Vec<Curve>) -> HistoryPlot {
+    HistoryPlot {
         title: "Free end of the bar".to_owned(),
         x_label: "time t (s)".to_owned(),
         y_label: y_label.to_owned(),
@@ -84,7 +86,7 @@ pub(super) fn history(y_label: &str, curves: Vec<Curve>) -> History {
     }
 }
 
-pub(super) fn damped_sine(amplitude: f64) -> History {
+pub(super) fn damped_sine(amplitude: f64) -> HistoryPlot {
     let wave = |damping: f64, pace: f64| {
         move |t: f64| amplitude * libm::exp(-damping * t) * libm::sin(pace * t)
     };
@@ -98,7 +100,7 @@ pub(super) fn damped_sine(amplitude: f64) -> History {
     )
 }
 
-pub(super) fn square_wave() -> History {
+pub(super) fn square_wave() -> HistoryPlot {
     let square = |t: f64| if libm::sin(8.0 * t) >= 0.0 { 1.0 } else { -1.0 };
     let ringing = move |t: f64, lag: f64| {
         let since = libm::fmod(8.0 * t - lag + std::f64::consts::PI, std::f64::consts::PI);
@@ -114,13 +116,13 @@ pub(super) fn square_wave() -> History {
     )
 }
 
-pub(super) fn staircase() -> History {
+pub(super) fn staircase() -> HistoryPlot {
     let step = |t: f64| 0.1 * libm::floor(t * 4.0);
     let mut steps = curve("linear shape functions", 40, false, step);
     steps.markers = true;
     let mut smooth = curve("quadratic B-spline", 20, false, |t| 0.4 * t);
     smooth.markers = true;
-    History {
+    HistoryPlot {
         title: "Internal force on a node".to_owned(),
         x_label: "particle position (m)".to_owned(),
         ..history("internal force (N)", vec![steps, smooth])

@@ -4,7 +4,7 @@ use super::{
     WorkPrecision, any_value, marks, samples,
     xml::{well_formed, without_bad_numbers},
 };
-use mpm_verify::report::figure::{Mark, Point, Series};
+use mpm_verify::report::figure::{Mark, PlotPoint, PlotSeries};
 use proptest::prelude::*;
 
 fn diagram() -> WorkPrecision {
@@ -47,13 +47,13 @@ fn without_others_and_front_there_are_no_keys_of_them() {
 
 #[test]
 fn a_failure_of_a_method_without_a_name_is_explained_too() {
-    let sound = Series {
+    let sound = PlotSeries {
         name: "sound".to_owned(),
-        points: vec![Point { h: 1.0, error: 0.1, mark: Mark::Window }],
+        points: vec![PlotPoint { h: 1.0, error: 0.1, mark: Mark::Window }],
     };
-    let failed = Series {
+    let failed = PlotSeries {
         name: "failed".to_owned(),
-        points: vec![Point { h: 2.0, error: f64::NAN, mark: Mark::Failed }],
+        points: vec![PlotPoint { h: 2.0, error: f64::NAN, mark: Mark::Failed }],
     };
     let figure = WorkPrecision { series: vec![sound], others: vec![failed], ..diagram() };
     assert!(figure.to_svg().contains("failed or not finite"));
@@ -67,9 +67,9 @@ proptest! {
         points in prop::collection::vec((any_value(), any_value(), marks()), 0..9),
         front in prop::collection::vec((any_value(), any_value()), 0..4),
     ) {
-        let points: Vec<Point> =
-            points.into_iter().map(|(h, error, mark)| Point { h, error, mark }).collect();
-        let one = Series { name: "one".to_owned(), points };
+        let points: Vec<PlotPoint> =
+            points.into_iter().map(|(h, error, mark)| PlotPoint { h, error, mark }).collect();
+        let one = PlotSeries { name: "one".to_owned(), points };
         let (series, others) = (vec![one.clone(), one.clone()], vec![one]);
         let svg = WorkPrecision { series, others, front, ..diagram() }.to_svg();
         prop_assert_eq!(well_formed(&svg), Ok(()));

@@ -1,4 +1,4 @@
-//! What holds for every series.
+//! Properties of every series.
 
 use proptest::prelude::*;
 

@@ -2,10 +2,10 @@
 
 use super::{
     label::Label,
-    scale::{Kind, Scale},
+    scale::{Scale, ScaleKind},
     space::Rect,
     style::{FONT, GRID, HEIGHT, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH},
-    svg::{Element, Pt, number},
+    svg::{Pt, SvgElement, number},
     text, ticks,
     ticks::Tick,
 };
@@ -26,21 +26,21 @@ pub(crate) struct Plot<'a> {
     heading: Vec<String>,
     /// The box which holds the data.
     pub(crate) frame: Rect,
-    x: Axis,
-    y: Axis,
+    x: PlotAxis,
+    y: PlotAxis,
 }
 
 #[derive(Debug)]
-struct Axis {
+struct PlotAxis {
     scale: Scale,
     ticks: Vec<Tick>,
     factor: Option<Label>,
 }
 
-impl Axis {
+impl PlotAxis {
     fn new(scale: Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Self {
         let factor = match scale.kind() {
-            Kind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
+            ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
             _ => None,
         };
         Self { scale, ticks: ticks::choose(&scale, length, extent), factor }
@@ -67,14 +67,14 @@ impl<'a> Plot<'a> {
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
         let heading = text::wrap(titles.title, BOLD * TITLE, WIDTH - 2.0 * MARGIN, 3);
         let mut top = 12.0 + TITLE_LEADING * heading.len() as f64;
-        let y = Axis::new(y, HEIGHT - top - FOOT, |_| TEXT + 10.0);
+        let y = PlotAxis::new(y, HEIGHT - top - FOOT, |_| TEXT + 10.0);
         if y.factor.is_some() {
             top += 14.0;
         }
         let widest = y.labels().map(|(_, l)| l.width()).fold(0.0, f64::max);
         let left = MARGIN + 18.0 + widest;
         let room = WIDTH - left - MARGIN;
-        let x = Axis::new(x, room, |l| l.width() + 12.0);
+        let x = PlotAxis::new(x, room, |l| l.width() + 12.0);
         let overhang = x
             .labels()
             .map(|(at, l)| l.width() / 2.0 - (1.0 - at) * room + 6.0)
@@ -107,16 +107,16 @@ impl<'a> Plot<'a> {
     }
 
     /// A text in the middle of a frame which has nothing else to show.
-    pub(crate) fn placeholder(&self, text: &str) -> Element {
+    pub(crate) fn placeholder(&self, text: &str) -> SvgElement {
         let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
-        Element::text(middle, "middle", text).set("fill", NEUTRAL)
+        SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
     }
 
     /// The complete document: `layers` over the grid, `notes` below everything, the canvas grown
     /// to hold the legend where it lies outside.
     pub(crate) fn document(
         &self,
-        layers: &[Element],
+        layers: &[SvgElement],
         legend: Option<Rect>,
         notes: &[String],
     ) -> String {
@@ -127,7 +127,7 @@ impl<'a> Plot<'a> {
         let gap = if notes.is_empty() { 0.0 } else { NOTE_GAP };
         let height = bottom + gap + NOTE_LEADING * notes.len() as f64;
         let view = format!("0 0 {} {}", number(width), number(height));
-        let mut svg = Element::new("svg")
+        let mut svg = SvgElement::new("svg")
             .set("xmlns", "http://www.w3.org/2000/svg")
             .set("viewBox", &view)
             .at("width", width)
@@ -136,8 +136,10 @@ impl<'a> Plot<'a> {
             .set("font-family", FONT)
             .at("font-size", TEXT)
             .set("fill", INK);
-        svg.add(&Element::new("title").content(self.titles.title));
-        svg.add(&Element::new("rect").at("width", width).at("height", height).set("fill", PAPER));
+        svg.add(&SvgElement::new("title").content(self.titles.title));
+        svg.add(
+            &SvgElement::new("rect").at("width", width).at("height", height).set("fill", PAPER),
+        );
         svg.add(&self.grid());
         for layer in layers {
             svg.add(layer);
@@ -146,53 +148,53 @@ impl<'a> Plot<'a> {
         svg.add(&self.texts());
         for (i, note) in notes.iter().enumerate() {
             let at = (MARGIN, height - 10.0 - NOTE_LEADING * (notes.len() - 1 - i) as f64);
-            svg.add(&Element::text(at, "start", note).set("fill", NEUTRAL));
+            svg.add(&SvgElement::text(at, "start", note).set("fill", NEUTRAL));
         }
         svg.render() + "\n"
     }
 
-    fn grid(&self) -> Element {
+    fn grid(&self) -> SvgElement {
         let Rect { x, y, .. } = self.frame;
-        let mut grid = Element::new("g").set("stroke", GRID).at("stroke-width", 0.8);
+        let mut grid = SvgElement::new("g").set("stroke", GRID).at("stroke-width", 0.8);
         for (at, _) in self.x.labels() {
             let x = x + at * self.frame.w;
-            grid.add(&Element::line((x, y), (x, self.frame.bottom())));
+            grid.add(&SvgElement::line((x, y), (x, self.frame.bottom())));
         }
         for (at, _) in self.y.labels() {
             let y = self.frame.bottom() - at * self.frame.h;
-            grid.add(&Element::line((x, y), (self.frame.right(), y)));
+            grid.add(&SvgElement::line((x, y), (self.frame.right(), y)));
         }
         grid
     }
 
-    fn frame_and_ticks(&self) -> Element {
+    fn frame_and_ticks(&self) -> SvgElement {
         let Rect { x, y, w, h } = self.frame;
         let (right, bottom) = (self.frame.right(), self.frame.bottom());
         let mut group =
-            Element::new("g").set("fill", "none").set("stroke", INK).at("stroke-width", 0.8);
-        group.add(&Element::new("rect").at("x", x).at("y", y).at("width", w).at("height", h));
+            SvgElement::new("g").set("fill", "none").set("stroke", INK).at("stroke-width", 0.8);
+        group.add(&SvgElement::new("rect").at("x", x).at("y", y).at("width", w).at("height", h));
         let length = |tick: &Tick| if tick.label.is_some() { MAJOR } else { MINOR };
         for tick in &self.x.ticks {
             let (x, inwards) = (x + tick.at * w, length(tick));
-            group.add(&Element::line((x, bottom), (x, bottom - inwards)));
-            group.add(&Element::line((x, y), (x, y + inwards)));
+            group.add(&SvgElement::line((x, bottom), (x, bottom - inwards)));
+            group.add(&SvgElement::line((x, y), (x, y + inwards)));
         }
         for tick in &self.y.ticks {
             let (y, inwards) = (bottom - tick.at * h, length(tick));
-            group.add(&Element::line((x, y), (x + inwards, y)));
-            group.add(&Element::line((right, y), (right - inwards, y)));
+            group.add(&SvgElement::line((x, y), (x + inwards, y)));
+            group.add(&SvgElement::line((right, y), (right - inwards, y)));
         }
         group
     }
 
-    fn texts(&self) -> Element {
+    fn texts(&self) -> SvgElement {
         let Rect { x, y, w, h } = self.frame;
         let (right, bottom) = (self.frame.right(), self.frame.bottom());
-        let mut group = Element::new("g");
+        let mut group = SvgElement::new("g");
         for (i, line) in self.heading.iter().enumerate() {
             let at = (WIDTH / 2.0, 22.0 + TITLE_LEADING * i as f64);
             group.add(
-                &Element::text(at, "middle", line)
+                &SvgElement::text(at, "middle", line)
                     .at("font-size", TITLE)
                     .set("font-weight", "bold"),
             );
@@ -213,11 +215,11 @@ impl<'a> Plot<'a> {
             group.add(&factor.draw((x, y - 5.0), "start"));
         }
         let x_label = text::shorten(self.titles.x_label, TEXT, room);
-        group.add(&Element::text((x + w / 2.0, foot), "middle", &x_label));
+        group.add(&SvgElement::text((x + w / 2.0, foot), "middle", &x_label));
         let y_label = text::shorten(self.titles.y_label, TEXT, h + FOOT);
         let turn =
             format!("translate({} {}) rotate(-90)", number(MARGIN + 2.0), number(y + h / 2.0));
-        group.add(&Element::text((0.0, 0.0), "middle", &y_label).set("transform", &turn));
+        group.add(&SvgElement::text((0.0, 0.0), "middle", &y_label).set("transform", &turn));
         group
     }
 }

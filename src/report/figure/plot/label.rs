@@ -2,7 +2,7 @@
 
 use super::{
     style::{SUPERSCRIPT, TEXT},
-    svg::{Element, Pt},
+    svg::{Pt, SvgElement},
     text,
 };
 
@@ -30,13 +30,13 @@ impl Label {
     }
 
     /// The label with its baseline anchored at `at`.
-    pub(crate) fn draw(&self, at: Pt, anchor: &str) -> Element {
-        let label = Element::text(at, anchor, &self.base);
+    pub(crate) fn draw(&self, at: Pt, anchor: &str) -> SvgElement {
+        let label = SvgElement::text(at, anchor, &self.base);
         if self.exponent.is_none() {
             return label;
         }
         // A shift by `dy` is understood by viewers which ignore `baseline-shift`.
-        let raised = Element::new("tspan")
+        let raised = SvgElement::new("tspan")
             .at("dy", -5.0)
             .at("font-size", SUPERSCRIPT)
             .content(&self.superscript());

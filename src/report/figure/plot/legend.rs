@@ -3,7 +3,7 @@
 use super::{
     space::{Rect, Space},
     style::{GRID, HEIGHT, PAPER, TEXT, WIDTH},
-    svg::{Element, Pt},
+    svg::{Pt, SvgElement},
     text,
 };
 
@@ -12,14 +12,14 @@ pub(crate) const KEY: f64 = 30.0;
 
 /// One line of the legend.
 #[derive(Clone, Debug)]
-pub(crate) struct Entry {
-    key: Element,
+pub(crate) struct LegendEntry {
+    key: SvgElement,
     text: String,
 }
 
-impl Entry {
+impl LegendEntry {
     /// An entry whose `key` is drawn from (0, 0) to ([`KEY`], 0).
-    pub(crate) fn new(key: Element, text: &str) -> Self {
+    pub(crate) fn new(key: SvgElement, text: &str) -> Self {
         let text = text::shorten(text, TEXT, LONGEST);
         Self { key, text }
     }
@@ -32,12 +32,12 @@ impl Entry {
 /// All entries.
 #[derive(Clone, Debug)]
 pub(crate) struct Legend {
-    entries: Vec<Entry>,
+    entries: Vec<LegendEntry>,
 }
 
 /// A legend with its place on the canvas.
 #[derive(Clone, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedLegend {
     columns: usize,
     /// The box around the legend.
     pub(crate) area: Rect,
@@ -58,18 +58,18 @@ const WIDE: f64 = 180.0;
 
 impl Legend {
     /// A legend of `entries`; nothing if there are none.
-    pub(crate) fn new(entries: Vec<Entry>) -> Option<Self> {
+    pub(crate) fn new(entries: Vec<LegendEntry>) -> Option<Self> {
         (!entries.is_empty()).then_some(Self { entries })
     }
 
     /// Free places inside the frame, the customary ones first, then one outside.
-    pub(crate) fn places(&self, frame: &Rect, space: &Space) -> impl Iterator<Item = Placed> {
+    pub(crate) fn places(&self, frame: &Rect, space: &Space) -> impl Iterator<Item = PlacedLegend> {
         let inside = (1..=2).flat_map(move |columns| {
             let (w, h) = self.size(columns);
             let (dx, dy) = (frame.w - w - 2.0 * INSET, frame.h - h - 2.0 * INSET);
             let place = move |(across, down): Pt| {
                 let (x, y) = (frame.x + INSET + across * dx, frame.y + INSET + down * dy);
-                Placed { columns, area: Rect { x, y, w, h } }
+                PlacedLegend { columns, area: Rect { x, y, w, h } }
             };
             positions().into_iter().filter(move |_| dx >= 0.0 && dy >= 0.0).map(place)
         });
@@ -78,21 +78,21 @@ impl Legend {
             .chain(std::iter::once_with(|| self.outside(frame)))
     }
 
-    fn outside(&self, frame: &Rect) -> Placed {
+    fn outside(&self, frame: &Rect) -> PlacedLegend {
         let (w, h) = self.size(1);
         if w <= WIDE {
             let area = Rect { x: WIDTH, y: frame.y, w, h };
-            return Placed { columns: 1, area };
+            return PlacedLegend { columns: 1, area };
         }
         let columns =
             (1..=4).rev().find(|&columns| self.size(columns).0 <= WIDTH - 2.0 * INSET).unwrap_or(1);
         let (w, h) = self.size(columns);
         let x = (frame.x + (frame.w - w) / 2.0).clamp(INSET, (WIDTH - w - INSET).max(INSET));
         let area = Rect { x, y: HEIGHT, w, h };
-        Placed { columns, area }
+        PlacedLegend { columns, area }
     }
 
-    fn columns(&self, columns: usize) -> impl Iterator<Item = &[Entry]> {
+    fn columns(&self, columns: usize) -> impl Iterator<Item = &[LegendEntry]> {
         self.entries.chunks(self.entries.len().div_ceil(columns))
     }
 
@@ -106,11 +106,11 @@ impl Legend {
     }
 
     /// The legend at its place.
-    pub(crate) fn draw(&self, placed: &Placed) -> Element {
+    pub(crate) fn draw(&self, placed: &PlacedLegend) -> SvgElement {
         let Rect { x, y, w, h } = placed.area;
-        let mut group = Element::new("g");
+        let mut group = SvgElement::new("g");
         group.add(
-            &Element::new("rect")
+            &SvgElement::new("rect")
                 .at("x", x)
                 .at("y", y)
                 .at("width", w)
@@ -123,11 +123,11 @@ impl Legend {
         for column in self.columns(placed.columns) {
             for (i, entry) in column.iter().enumerate() {
                 let middle = y + INNER + ROW * (i as f64 + 0.5);
-                let mut key = Element::group_at((left, middle));
+                let mut key = SvgElement::group_at((left, middle));
                 key.add(&entry.key);
                 group.add(&key);
                 let at = (left + KEY + KEY_GAP, middle + 4.0);
-                group.add(&Element::text(at, "start", &entry.text));
+                group.add(&SvgElement::text(at, "start", &entry.text));
             }
             left += width(column) + COLUMN_GAP;
         }
@@ -135,8 +135,8 @@ impl Legend {
     }
 }
 
-fn width(column: &[Entry]) -> f64 {
-    column.iter().map(Entry::width).fold(0.0, f64::max)
+fn width(column: &[LegendEntry]) -> f64 {
+    column.iter().map(LegendEntry::width).fold(0.0, f64::max)
 }
 
 /// Fractions of the free width and height: corners, then the sides, then the inside.
@@ -158,7 +158,7 @@ mod tests {
     const FRAME: Rect = Rect { x: 60.0, y: 30.0, w: 560.0, h: 350.0 };
 
     fn legend(text: &str, count: usize) -> Legend {
-        Legend::new(vec![Entry::new(Element::new("g"), text); count]).unwrap()
+        Legend::new(vec![LegendEntry::new(SvgElement::new("g"), text); count]).unwrap()
     }
 
     #[test]

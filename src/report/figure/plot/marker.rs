@@ -1,8 +1,8 @@
 //! Markers: one outline per series, one filling per meaning.
 
 use super::{
-    style::{PAPER, Shape},
-    svg::{Element, Pt},
+    style::{MarkerShape, PAPER},
+    svg::{Pt, SvgElement},
 };
 
 /// How a marker is filled.
@@ -23,7 +23,7 @@ pub(crate) const RADIUS: f64 = 4.2;
 const CROSSED_RADIUS: f64 = 5.6;
 
 /// A marker centred at `at`.
-pub(crate) fn draw(shape: Shape, fill: Fill, colour: &str, at: Pt) -> Element {
+pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgElement {
     let radius = match fill {
         Fill::Solid | Fill::Hollow => RADIUS,
         Fill::Crossed => CROSSED_RADIUS,
@@ -37,13 +37,13 @@ pub(crate) fn draw(shape: Shape, fill: Fill, colour: &str, at: Pt) -> Element {
     if fill != Fill::Crossed {
         return body;
     }
-    let mut crossed = Element::new("g");
+    let mut crossed = SvgElement::new("g");
     crossed.add(&body);
     let arm = 0.55 * CROSSED_RADIUS;
     let (x, y) = (at.0, at.1 + lowered(shape) * CROSSED_RADIUS);
     for (dx, dy) in [(arm, arm), (arm, -arm)] {
         crossed.add(
-            &Element::line((x - dx, y - dy), (x + dx, y + dy))
+            &SvgElement::line((x - dx, y - dy), (x + dx, y + dy))
                 .set("stroke", colour)
                 .at("stroke-width", 1.2),
         );
@@ -52,39 +52,39 @@ pub(crate) fn draw(shape: Shape, fill: Fill, colour: &str, at: Pt) -> Element {
 }
 
 /// An arrow from `tail` straight up to `tip`: the value lies beyond the frame.
-pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> Element {
+pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     let mut arrow =
-        Element::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
-    arrow.add(&Element::line(tail, tip));
+        SvgElement::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
+    arrow.add(&SvgElement::line(tail, tip));
     let head = [(tip.0 - 3.2, tip.1 + 4.5), tip, (tip.0 + 3.2, tip.1 + 4.5)];
-    arrow.add(&Element::through("polyline", &head));
+    arrow.add(&SvgElement::through("polyline", &head));
     arrow
 }
 
 /// How far the middle of a triangle's area lies below the marker's centre, in radii.
-fn lowered(shape: Shape) -> f64 {
+fn lowered(shape: MarkerShape) -> f64 {
     match shape {
-        Shape::Up => 0.2,
-        Shape::Down => -0.2,
+        MarkerShape::Up => 0.2,
+        MarkerShape::Down => -0.2,
         _ => 0.0,
     }
 }
 
-fn body(shape: Shape, at: Pt, radius: f64) -> Element {
+fn body(shape: MarkerShape, at: Pt, radius: f64) -> SvgElement {
     // Corners for the unit radius, with about the same area for all shapes.
     let corners: &[Pt] = match shape {
-        Shape::Circle => {
-            return Element::new("circle").at("cx", at.0).at("cy", at.1).at("r", radius);
+        MarkerShape::Circle => {
+            return SvgElement::new("circle").at("cx", at.0).at("cy", at.1).at("r", radius);
         }
-        Shape::Square => &[(-0.92, -0.92), (0.92, -0.92), (0.92, 0.92), (-0.92, 0.92)],
-        Shape::Up => &[(0.0, -1.25), (1.15, 0.85), (-1.15, 0.85)],
-        Shape::Down => &[(0.0, 1.25), (1.15, -0.85), (-1.15, -0.85)],
-        Shape::Right => &[(1.25, 0.0), (-0.85, 1.15), (-0.85, -1.15)],
-        Shape::Diamond => &[(0.0, -1.35), (1.05, 0.0), (0.0, 1.35), (-1.05, 0.0)],
-        Shape::Pentagon => {
+        MarkerShape::Square => &[(-0.92, -0.92), (0.92, -0.92), (0.92, 0.92), (-0.92, 0.92)],
+        MarkerShape::Up => &[(0.0, -1.25), (1.15, 0.85), (-1.15, 0.85)],
+        MarkerShape::Down => &[(0.0, 1.25), (1.15, -0.85), (-1.15, -0.85)],
+        MarkerShape::Right => &[(1.25, 0.0), (-0.85, 1.15), (-0.85, -1.15)],
+        MarkerShape::Diamond => &[(0.0, -1.35), (1.05, 0.0), (0.0, 1.35), (-1.05, 0.0)],
+        MarkerShape::Pentagon => {
             &[(0.0, -1.15), (1.09, -0.36), (0.68, 0.93), (-0.68, 0.93), (-1.09, -0.36)]
         }
-        Shape::Star => &[
+        MarkerShape::Star => &[
             (0.0, -1.45),
             (0.38, -0.53),
             (1.38, -0.45),
@@ -99,7 +99,7 @@ fn body(shape: Shape, at: Pt, radius: f64) -> Element {
     };
     let corners: Vec<Pt> =
         corners.iter().map(|&(x, y)| (at.0 + radius * x, at.1 + radius * y)).collect();
-    Element::through("polygon", &corners).set("stroke-linejoin", "round")
+    SvgElement::through("polygon", &corners).set("stroke-linejoin", "round")
 }
 
 #[cfg(test)]
@@ -112,7 +112,7 @@ mod tests {
     #[case(Fill::Hollow, "fill=\"#ffffff\"", 0)]
     #[case(Fill::Crossed, "fill=\"#ffffff\"", 2)]
     fn filling(#[case] fill: Fill, #[case] inside: &str, #[case] strokes: usize) {
-        let svg = draw(Shape::Square, fill, "#123456", (0.0, 0.0)).render();
+        let svg = draw(MarkerShape::Square, fill, "#123456", (0.0, 0.0)).render();
         assert!(svg.contains(inside), "{svg}");
         assert_eq!(svg.matches("<line").count(), strokes, "{svg}");
     }

@@ -2,7 +2,7 @@
 
 /// The working coordinate of an axis: what is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum ScaleKind {
     /// The value divided by ten to the given power.
     Linear {
         /// The power of ten which all tick labels share; 0 when they are plain decimals.
@@ -15,7 +15,7 @@ pub(crate) enum Kind {
 /// The range of one axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    kind: Kind,
+    kind: ScaleKind,
     lo: f64,
     hi: f64,
 }
@@ -45,7 +45,7 @@ impl Scale {
         let logs = values.filter(|v| v.is_finite() && *v > 0.0).map(libm::log10);
         let (lo, hi) = range(logs).unwrap_or((-1.0, 0.0));
         let widen = ((MIN_DECADES - (hi - lo)) / 2.0).max(0.0);
-        Self::padded(Kind::Log, lo - widen, hi + widen, pad)
+        Self::padded(ScaleKind::Log, lo - widen, hi + widen, pad)
     }
 
     /// A linear axis over the finite `values`.
@@ -67,16 +67,16 @@ impl Scale {
         } else {
             0.0
         };
-        Self::padded(Kind::Linear { power }, lo - widen, hi + widen, pad)
+        Self::padded(ScaleKind::Linear { power }, lo - widen, hi + widen, pad)
     }
 
-    fn padded(kind: Kind, lo: f64, hi: f64, pad: Pad) -> Self {
+    fn padded(kind: ScaleKind, lo: f64, hi: f64, pad: Pad) -> Self {
         let span = (hi - lo) / (1.0 - pad.lo - pad.hi);
         Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
     }
 
     /// Which working coordinate the axis uses.
-    pub(crate) fn kind(&self) -> Kind {
+    pub(crate) fn kind(&self) -> ScaleKind {
         self.kind
     }
 
@@ -93,8 +93,8 @@ impl Scale {
     /// Position of a value: 0 at the low end, 1 at the high end.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
         self.fraction_of_working(match self.kind {
-            Kind::Linear { power } => value / libm::pow(10.0, f64::from(power)),
-            Kind::Log => libm::log10(value),
+            ScaleKind::Linear { power } => value / libm::pow(10.0, f64::from(power)),
+            ScaleKind::Log => libm::log10(value),
         })
     }
 
@@ -127,7 +127,7 @@ mod tests {
     #[case(&[f64::NAN, f64::INFINITY], 0, 0.0, 1.0)]
     fn linear_ranges(#[case] values: &[f64], #[case] power: i32, #[case] lo: f64, #[case] hi: f64) {
         let scale = Scale::linear(values.iter().copied(), NONE);
-        assert_eq!(scale.kind(), Kind::Linear { power });
+        assert_eq!(scale.kind(), ScaleKind::Linear { power });
         assert!((scale.ends().0 - lo).abs() < 1e-12 && (scale.ends().1 - hi).abs() < 1e-12);
     }
 

@@ -22,17 +22,17 @@ pub(crate) const INK: &str = "#222222";
 pub(crate) const GRID: &str = "#e3e3e3";
 /// The exact solution: light, since the subject curves are drawn over it.
 pub(crate) const EXACT: &str = "#bdbdbd";
-/// What belongs to no series: keys of the marks, slope triangles.
+/// Colour of all that belongs to no series: keys of the marks, slope triangles.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";
 
-/// What no other method beats: a band below all lines.
+/// Colour of the Pareto front, a band below all lines.
 pub(crate) const FRONT: &str = "#fbe9a6";
 /// Methods that are there for comparison only.
 pub(crate) const CONTEXT: &str = "#b8b8b8";
 
 /// Outline of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shape {
+pub(crate) enum MarkerShape {
     Circle,
     Square,
     Up,
@@ -49,7 +49,7 @@ pub(crate) struct Look {
     /// Colour of line and marker.
     pub(crate) colour: &'static str,
     /// Outline of the marker.
-    pub(crate) shape: Shape,
+    pub(crate) shape: MarkerShape,
     /// Dash pattern (`stroke-dasharray`).
     pub(crate) dash: &'static str,
 }
@@ -58,15 +58,15 @@ pub(crate) struct Look {
 const COLOURS: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
-const SHAPES: [Shape; 8] = [
-    Shape::Circle,
-    Shape::Square,
-    Shape::Up,
-    Shape::Diamond,
-    Shape::Down,
-    Shape::Pentagon,
-    Shape::Right,
-    Shape::Star,
+const SHAPES: [MarkerShape; 8] = [
+    MarkerShape::Circle,
+    MarkerShape::Square,
+    MarkerShape::Up,
+    MarkerShape::Diamond,
+    MarkerShape::Down,
+    MarkerShape::Pentagon,
+    MarkerShape::Right,
+    MarkerShape::Star,
 ];
 
 const DASHES: [&str; 8] =

@@ -9,13 +9,13 @@ pub(crate) type Pt = (f64, f64);
 
 /// One SVG element.
 #[derive(Clone, Debug)]
-pub(crate) struct Element {
+pub(crate) struct SvgElement {
     name: &'static str,
     attributes: String,
     content: String,
 }
 
-impl Element {
+impl SvgElement {
     /// An element without attributes or content.
     pub(crate) fn new(name: &'static str) -> Self {
         Self { name, attributes: String::new(), content: String::new() }
@@ -136,8 +136,8 @@ mod tests {
 
     #[test]
     fn children_stay_inside_their_parent() {
-        let mut group = Element::group_at((1.0, 2.0));
-        group.add(&Element::line((0.0, 0.0), (1.0, 0.0)));
+        let mut group = SvgElement::group_at((1.0, 2.0));
+        group.add(&SvgElement::line((0.0, 0.0), (1.0, 0.0)));
         assert_eq!(
             group.render(),
             "<g transform=\"translate(1.00 2.00)\">\n\

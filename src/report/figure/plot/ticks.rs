@@ -2,7 +2,7 @@
 
 use super::{
     label::Label,
-    scale::{Kind, Scale},
+    scale::{Scale, ScaleKind},
 };
 
 /// One tick; a tick with a label is a major one.
@@ -37,9 +37,9 @@ pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64)
         major.windows(2).all(|w| w[1].0 - w[0].0 >= f64::midpoint(w[0].1, w[1].1))
     };
     let mut choices = match scale.kind() {
-        Kind::Linear { .. } => (1..=8).rev().map(|n| linear(scale, n)).collect(),
-        Kind::Log if scale.span() < SHORT => short_log(scale),
-        Kind::Log => {
+        ScaleKind::Linear { .. } => (1..=8).rev().map(|n| linear(scale, n)).collect(),
+        ScaleKind::Log if scale.span() < SHORT => short_log(scale),
+        ScaleKind::Log => {
             [1, 2, 3, 4, 5, 10, 20, 50, 100, 200].map(|stride| decades(scale, stride)).to_vec()
         }
     };

@@ -4,7 +4,7 @@ use super::{
     frame::Plot,
     space::{Rect, Space},
     style::{NEUTRAL, TEXT},
-    svg::{Element, Pt},
+    svg::{Pt, SvgElement},
     text,
 };
 
@@ -149,10 +149,10 @@ impl Triangle {
     }
 
     /// The triangle with its run and its slope.
-    pub(crate) fn draw(&self) -> Element {
-        let mut group = Element::new("g").set("fill", NEUTRAL);
+    pub(crate) fn draw(&self) -> SvgElement {
+        let mut group = SvgElement::new("g").set("fill", NEUTRAL);
         group.add(
-            &Element::through("polygon", &self.corners)
+            &SvgElement::through("polygon", &self.corners)
                 .set("fill", "#f3f3f3")
                 .set("stroke", NEUTRAL)
                 .at("stroke-width", 0.9)
@@ -160,7 +160,7 @@ impl Triangle {
         );
         let texts = ["1".to_owned(), name(self.order)];
         for (caption, text) in self.captions.iter().zip(&texts) {
-            group.add(&Element::text(caption.at, caption.anchor, text));
+            group.add(&SvgElement::text(caption.at, caption.anchor, text));
         }
         group
     }

@@ -7,7 +7,7 @@ use crate::{
         model::stability::SetupTemplate,
         yaml::Diagnostic,
     },
-    verify::{RunFigure, StabilityExpectation, Wanted},
+    verify::{FigureBounds, RunFigure, StabilityExpectation},
 };
 
 /// The figures that an entry of `expect` speaks of.
@@ -109,7 +109,11 @@ fn refuse_idle(
     Ok(())
 }
 
-fn wanted(evaluator: &Evaluator<'_>, path: &Path, spec: &FigureSpec) -> Result<Wanted, Diagnostic> {
+fn wanted(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &FigureSpec,
+) -> Result<FigureBounds, Diagnostic> {
     let number = |key: &str, text: &Option<_>| {
         text.as_ref().map(|text| evaluator.number(&path.then(key), text)).transpose()
     };
@@ -126,7 +130,7 @@ fn wanted(evaluator: &Evaluator<'_>, path: &Path, spec: &FigureSpec) -> Result<W
         let diagnostic = evaluator.diagnostic(path, "nothing is said of this figure");
         return Err(diagnostic.with_label("expected `is` and `within`, `above` or `below`"));
     }
-    Ok(Wanted { is, above, below })
+    Ok(FigureBounds { is, above, below })
 }
 
 /// Expectation of an entry, in one line.

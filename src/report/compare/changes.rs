@@ -1,8 +1,8 @@
-//! What a comparison finds.
+//! Changes between two runs.
 
 use super::equal_error::EqualError;
 
-/// What happened to a case, the most important first.
+/// Kind of a change, the most important first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rank {
     /// It met its expectations and no longer does.
@@ -18,7 +18,7 @@ pub enum Rank {
     /// A limit of stability is lower.
     LessStable,
     /// The same error takes more transfers; where that cannot be told, the same level does.
-    Dearer,
+    MoreExpensive,
     /// It is more accurate, more stable or cheaper.
     Better,
     /// It is judged or refined otherwise, so that there is nothing to compare.
@@ -38,7 +38,7 @@ impl Rank {
         Self::BetterVerdict,
         Self::LessAccurate,
         Self::LessStable,
-        Self::Dearer,
+        Self::MoreExpensive,
         Self::Better,
         Self::Otherwise,
         Self::New,
@@ -54,7 +54,7 @@ impl Rank {
             Self::BetterVerdict => "better verdict",
             Self::LessAccurate => "less accurate",
             Self::LessStable => "less stable",
-            Self::Dearer => "dearer",
+            Self::MoreExpensive => "more expensive",
             Self::Better => "better",
             Self::Otherwise => "judged or refined otherwise",
             Self::New => "new",
@@ -70,17 +70,17 @@ impl Rank {
                 | Self::WorseVerdict
                 | Self::LessAccurate
                 | Self::LessStable
-                | Self::Dearer
+                | Self::MoreExpensive
         )
     }
 }
 
 /// Two runs side by side.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Comparison {
-    /// What moved, the most important first.
+pub struct ReportComparison {
+    /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
-    /// Target errors whose least work moved, the dearer first.
+    /// Target errors whose least work moved, the more expensive first.
     pub(super) cheapest: Vec<CheapestMove>,
     /// Cases of both runs that are the same.
     pub(super) unchanged: usize,
@@ -103,7 +103,7 @@ pub(super) struct Moved {
     pub(super) work: Option<f64>,
     /// Transfers for the same error.
     pub(super) equal: Option<EqualError>,
-    /// What no column says.
+    /// Remarks besides the columns.
     pub(super) notes: Vec<String>,
     /// Within a rank, the larger comes first.
     pub(super) weight: f64,
@@ -121,7 +121,7 @@ pub(super) struct ErrorMove {
     pub(super) level: String,
 }
 
-/// What the cheapest method takes for a target error.
+/// Least work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
     /// The suite, and the problem in it where it has several.
@@ -133,7 +133,8 @@ pub(super) struct CheapestMove {
 }
 
 impl CheapestMove {
-    /// New work over old; endless where the target is not reached any more, zero where it is reached now.
+    /// New work over old; endless where the target is not reached any more, zero where it is
+    /// reached now.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,
@@ -155,7 +156,7 @@ impl ErrorMove {
     }
 }
 
-impl Comparison {
+impl ReportComparison {
     /// Cases with this rank.
     pub fn count(&self, rank: Rank) -> usize {
         self.of(rank).count()
@@ -168,34 +169,35 @@ impl Comparison {
 
     /// Whether anything got worse.
     pub fn is_worse(&self) -> bool {
-        let dearer = self.cheapest.iter().any(|target| !(target.ratio() < 1.0));
-        dearer || self.moved.iter().any(|moved| moved.rank.is_worse())
+        let is_worse = self.cheapest.iter().any(|target| !(target.ratio() < 1.0));
+        is_worse || self.moved.iter().any(|moved| moved.rank.is_worse())
     }
 
-    /// What moved with this rank.
+    /// Changes of this rank.
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
     }
 
-    /// What happened in one line: `2 less accurate, 1 new, 816 unchanged`.
+    /// Summary in one line: `2 less accurate, 1 new, 816 unchanged`.
     pub(super) fn headline(&self) -> String {
         let counts = Rank::ALL.into_iter().map(|rank| (self.count(rank), rank.words()));
         let counts = counts.chain([(self.unchanged, "unchanged")]).filter(|(count, _)| *count > 0);
         let mut parts: Vec<String> =
             counts.map(|(count, words)| format!("{count} {words}")).collect();
-        let targets = |dearer: bool, words: &str| {
-            let of = |target: &&CheapestMove| (target.ratio() < 1.0) != dearer;
+        let targets = |costs_more: bool, words: &str| {
+            let of = |target: &&CheapestMove| (target.ratio() < 1.0) != costs_more;
             let count = self.cheapest.iter().filter(of).count();
             let noun = if count == 1 { "target" } else { "targets" };
             (count > 0).then(|| format!("{count} {noun} {words}"))
         };
-        parts.extend(targets(true, "dearer to reach"));
+        parts.extend(targets(true, "more expensive to reach"));
         parts.extend(targets(false, "cheaper to reach"));
         if parts.is_empty() { "no cases".to_owned() } else { parts.join(", ") }
     }
 }
 
-/// Whether a ratio differs from one by more than the tolerance, whichever side is the larger. NaN does.
+/// Whether a ratio differs from one by more than the tolerance, whichever side is the larger. NaN
+/// does.
 pub(super) fn ratio_moved(ratio: f64, tolerance: f64) -> bool {
     !(ratio <= 1.0 + tolerance && 1.0 / ratio <= 1.0 + tolerance)
 }

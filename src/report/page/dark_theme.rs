@@ -1,11 +1,12 @@
 //! Dark colours for readers who prefer them: a style sheet that knows the light ones.
 //!
-//! Presentation attributes yield to any style sheet, so that the figure stays what it is in print and
-//! in programs that read no style sheets.
+//! Presentation attributes yield to any style sheet, so that the figure stays what it is in print
+//! and in programs that read no style sheets.
 
 use crate::report::figure::plot::style::{CONTEXT, FRONT, GRID, INK, NEUTRAL, PAPER};
 
-/// Light colours and what takes their place. Series keep their hue; what is dark among them is lightened.
+/// Light colours and what takes their place. Series keep their hue; what is dark among them is
+/// lightened.
 const PAIRS: [(&str, &str); 11] = [
     (PAPER, "#15181c"),
     (INK, "#e8e8e8"),
@@ -37,7 +38,7 @@ pub(crate) fn with_dark_colours(svg: &str) -> String {
 mod tests {
     use super::*;
     use crate::report::figure::plot::style::look;
-    use crate::report::page::contrast::contrast;
+    use crate::report::page::colour_contrast::contrast;
 
     fn dark(light: &'static str) -> &'static str {
         PAIRS.iter().find(|(known, _)| *known == light).map_or(light, |(_, dark)| dark)
