@@ -38,8 +38,8 @@ impl CheckpointStore for NoCheckpoints {
     fn keep(&mut self, _: &[u8]) {}
 }
 
-/// A subject, its monitor, and the steps taken: from the checkpoint of an interrupted run, or at the
-/// start.
+/// A subject, its monitor, and the steps taken: from the checkpoint of an interrupted run, or at
+/// the start.
 ///
 /// # Errors
 /// Those of `make`, which is asked for another subject if the first one has been given a state that
