@@ -1,8 +1,8 @@
 //! Thermal expansion in the equation of motion.
 //!
-//! With the stretch `theta = 1 + alpha (T - T0)` that temperature makes on every axis,
-//! `P = theta^(D-1) P_e(F/theta)`: the derivative of the energy `theta^D W(F/theta)` of the
-//! expanded body. In a theory of small strains it is `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
+//! With the stretch `theta = 1 + alpha (T - T0)` that temperature makes on every axis, `P =
+//! theta^(D-1) P_e(F/theta)`: the derivative of the energy `theta^D W(F/theta)` of the expanded
+//! body. In a theory of small strains it is `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
 
 use super::{
     formula::{Number, Slope},

@@ -46,11 +46,7 @@ pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_bodies};
-pub use effect::{
-    ArtificialViscosity, BodyForce, Damping, Effect, ForceField, Gravity, Heat, HeatSource,
-    LocalDamping, Placement, PrescribedVelocity, Pressure, PressureField, ScalarField, SetForce,
-    Thermal, ThermalBoundary, ThermalExpansion, Traction, TractionField,
-};
+pub use effect::*;
 pub use frame::FrameName;
 pub use grid::Grid;
 pub use heat_solver::HeatSolver;

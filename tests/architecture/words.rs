@@ -108,8 +108,13 @@ pub(crate) const OLD_FILES: &[(&str, &str)] = &[
 ];
 
 /// Names of types that two files may define, each with its reason.
-pub(crate) const TWICE: &[(&str, &str)] =
-    &[("Value", "serde's visitors must call their result so"), ("Output", "so must operators")];
+pub(crate) const TWICE: &[(&str, &str)] = &[
+    ("Value", "serde's visitors must call their result so"),
+    ("Output", "so must operators"),
+    ("Patch", "each basis says which patch it gives: an associated type of that trait"),
+    ("Batch", "each patch says how it comes in batches: an associated type of that trait"),
+    ("F64x4", "each processor level says which register it has: an associated type of that trait"),
+];
 
 /// A file as it is written, with its comments.
 pub(crate) type Text = (String, String);

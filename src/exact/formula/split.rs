@@ -1,10 +1,10 @@
 //! A program taken apart by what its steps depend on: the place, the time, or both.
 //!
 //! Sums are written out and registers named anew, so that each step is a node that is computed once
-//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node dependence the place or the
-//! time if one of its arguments does. Each part of the split keeps its nodes in their old order, so
-//! that every number is computed by the operations that would compute it without the split: it has
-//! the same bits.
+//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on the place or
+//! the time if one of its arguments does. Each part of the split keeps its nodes in their old
+//! order, so that every number is computed by the operations that would compute it without the
+//! split: it has the same bits.
 
 use std::collections::BTreeMap;
 

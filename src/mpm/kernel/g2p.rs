@@ -10,7 +10,7 @@ use crate::mpm::{
     grid::Grid,
     packed_grid::FieldView,
     particles::Particles,
-    simd::{BATCH, F64x4, LANES, Pass, Simd, components},
+    simd::{BATCH, F64x4, LANES, Simd, SimdPass, components},
 };
 use std::{marker::PhantomData, ops::Range};
 
@@ -175,7 +175,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
     }
 }
 
-impl<const D: usize, B: Basis> Pass for Gather<'_, D, B> {
+impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
     // Sums for two axes at once, with their factors.
     const NEEDS_32_REGISTERS: bool = true;
 

@@ -17,7 +17,7 @@ use crate::mpm::{
     grid::Grid,
     packed_grid::{Columns, FieldViewMut, PackedField},
     particles::{Block, Particles},
-    simd::{Pass, Plain, lower_levels, run_at},
+    simd::{Plain, SimdPass, lower_levels, run_at},
 };
 use approx::assert_relative_eq;
 use fearless_simd::Level;

@@ -11,7 +11,7 @@ use crate::mpm::{
     grid::Grid,
     packed_grid::FieldViewMut,
     particles::Particles,
-    simd::{BATCH, LANES, Pass, Simd},
+    simd::{BATCH, LANES, Simd, SimdPass},
 };
 use std::{marker::PhantomData, ops::Range};
 
@@ -205,7 +205,7 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
     }
 }
 
-impl<const D: usize, B: Basis> Pass for Scatter<'_, D, B> {
+impl<const D: usize, B: Basis> SimdPass for Scatter<'_, D, B> {
     const NEEDS_32_REGISTERS: bool = false;
 
     #[inline(always)]

@@ -28,7 +28,7 @@ use fearless_simd::Level;
 
 /// Loop over registers. All functions it calls must be `#[inline(always)]`: others are compiled
 /// for the baseline processor.
-pub(in crate::mpm) trait Pass: Sized {
+pub(in crate::mpm) trait SimdPass: Sized {
     /// Whether the loop runs faster with the 32 registers of AVX-512 than with 16.
     const NEEDS_32_REGISTERS: bool;
 
@@ -37,12 +37,12 @@ pub(in crate::mpm) trait Pass: Sized {
 }
 
 /// Runs `pass` at the best level of this processor.
-pub(in crate::mpm) fn run(pass: impl Pass) {
+pub(in crate::mpm) fn run(pass: impl SimdPass) {
     run_at(Level::new(), pass);
 }
 
 /// Runs `pass` at `level`.
-pub(in crate::mpm) fn run_at<P: Pass>(level: Level, pass: P) {
+pub(in crate::mpm) fn run_at<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
         use fearless_simd::Simd as _;

@@ -31,8 +31,8 @@ pub(crate) fn subject(
     }
 }
 
-/// What a step of `method` takes on one level: the second step, the first having made all room.
-/// None of a method that does not say, and of one that does not get so far.
+/// Profile of a step of `method` on one level: of the second step, since the first allocates.
+/// None for FEM, and where the solver fails before.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
     fn of_second_step<const D: usize>(
         plan: &ConvergencePlan,
@@ -76,8 +76,8 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
     })
 }
 
-/// The longest step (s) that is predicted to be safe for `method` on one level, from so many rounds of an
-/// iteration: the least over the bodies. One that shares nodes with others is no less stable.
+/// Predicted stable time step (s) of `method` on one level, from `rounds` of a power iteration:
+/// the least over the bodies. A body that shares nodes with others is no less stable.
 ///
 /// # Errors
 /// One line that says why it cannot be told.
@@ -165,7 +165,7 @@ fn mpm<const D: usize>(
     })
 }
 
-/// What the solver of each body is made of.
+/// Set-ups of the solvers, one for each body.
 fn setups<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,

@@ -1,9 +1,9 @@
 //! The longest safe time step of each level, and the step by rule that is a share of it.
 //!
-//! The prediction is that of [`crate::mpm::Solver::safe_step`], from the solver's own stages and the
-//! state at the start, and no more than `h/(c + |v|)`: a wave, and a particle, crosses no more than
-//! a cell. It is made before a run and holds for all of it, so that a level has one step and orders
-//! mean something. Where linear particles move, later steps may have shorter limits
+//! The prediction is that of [`crate::mpm::Solver::stable_time_step`], from the solver's own stages
+//! and the state at the start, and no more than `h/(c + |v|)`: a wave, and a particle, crosses no
+//! more than a cell. It is made before a run and holds for all of it, so that a level has one step
+//! and orders mean something. Where linear particles move, later steps may have shorter limits
 //! (`tiny-nodal-mass`): the share is for these.
 
 use crate::{

@@ -11,7 +11,7 @@ use crate::{
             load::LoadSpec,
             path::Path,
             truth::{
-                conduction::{self, Rest},
+                conduction::{self, ConductionInputs},
                 exact,
             },
         },
@@ -85,8 +85,8 @@ pub(crate) fn conduction(
     };
     let path = Path::top(path);
     let tolerance = exact::tolerance(evaluator, &path, tolerance)?;
-    let rest = Rest { motion: None, manufactured, until, tolerance };
-    let problem = conduction::problem(evaluator, &path, temperature, scene, rest)?;
+    let inputs = ConductionInputs { motion: None, manufactured, until, tolerance };
+    let problem = conduction::problem(evaluator, &path, temperature, scene, inputs)?;
     let Some(found) = &problem else {
         let at = Path::top("scene").then("material");
         let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");

@@ -21,7 +21,7 @@ pub(crate) fn problem(
     path: &Path,
     temperature: Option<&NumberText>,
     scene: &Scene,
-    rest: Rest,
+    rest: ConductionInputs,
 ) -> Result<Option<Conduction>, Diagnostic> {
     let path = path.then("temperature");
     let (heat, text) = match (scene.heat(), temperature) {
@@ -41,7 +41,7 @@ pub(crate) fn problem(
     };
     let dimension = scene.dimension();
     let formula = evaluator.formula(&path, text, &coordinates_and_time(dimension))?;
-    let Rest { motion, manufactured, until, tolerance } = rest;
+    let ConductionInputs { motion, manufactured, until, tolerance } = rest;
     if manufactured && heat.source.is_some() {
         let message = "the source follows from the temperature, and the scene states one besides";
         let help = "remove the `source`, or state the temperature under `exact` to have it checked";
@@ -104,8 +104,8 @@ pub(crate) fn methods(
     Ok(())
 }
 
-/// What a heat problem takes from the suite besides its scene.
-pub(crate) struct Rest {
+/// Inputs of a heat problem besides the scene.
+pub(crate) struct ConductionInputs {
     /// How the body deforms.
     pub(crate) motion: Option<Motion>,
     /// Whether the source follows from the temperature.

@@ -1,7 +1,7 @@
 //! The exact solution of a suite, checked before it is used.
 
 use super::{
-    conduction::{self, Rest},
+    conduction::{self, ConductionInputs},
     equilibrium, interface, law,
 };
 use crate::{
@@ -91,8 +91,8 @@ fn solution(
     let equation = equation(evaluator, &path.then("equation"), name, (scene, at_rest))?;
     let motion = motion(evaluator, path, texts, scene.dimension())?;
     let motion_in_heat = equation.is_finite().then(|| motion.clone());
-    let rest = Rest { motion: motion_in_heat, manufactured: false, until, tolerance };
-    let heat = conduction::problem(evaluator, path, spec.temperature.as_ref(), scene, rest)?;
+    let inputs = ConductionInputs { motion: motion_in_heat, manufactured: false, until, tolerance };
+    let heat = conduction::problem(evaluator, path, spec.temperature.as_ref(), scene, inputs)?;
     Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
 }
 
@@ -156,9 +156,13 @@ fn manufactured(
         return Err(evaluator.diagnostic_at_key(&path, message));
     };
     let motion = motion(evaluator, &path, texts, scene.dimension())?;
-    let rest =
-        Rest { motion: Some(motion.clone()), manufactured: true, until, tolerance: TOLERANCE };
-    let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, rest)?;
+    let inputs = ConductionInputs {
+        motion: Some(motion.clone()),
+        manufactured: true,
+        until,
+        tolerance: TOLERANCE,
+    };
+    let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
     let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
     check(evaluator, &path, &problem)?;
     Ok(Some(problem))
