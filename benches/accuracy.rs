@@ -6,10 +6,8 @@
 //! Nothing is timed before the level has run and its error has been found to be what it must be.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use mpm_verify::{
-    study::cost::{Goal, goals},
-    suite::{Suite, embedded},
-};
+use mpm_verify::study::cost::{Goal, goals};
+use mpm_verify::suite::{Suite, embedded};
 use std::time::Duration;
 
 /// Suites, each with targets that some of its methods reach within a tenth of a second.

@@ -12,16 +12,15 @@ mod one_thread;
 mod random;
 mod yardstick;
 
-use mpm_verify::{
-    mpm::{
-        Affine, BasisName, G2pRequest, Grid, Kernel, Matrix, P2gRequest, ParticleField, Particles,
-        Vector, kernel,
-    },
-    verify::Timing,
+use mpm_verify::mpm::{
+    Affine, BasisName, G2pRequest, Grid, Kernel, Matrix, P2gRequest, ParticleField, Particles,
+    Vector, kernel,
 };
+use mpm_verify::verify::Timing;
 use one_thread::one_thread;
 use random::Random;
-use std::{hint::black_box, time::Instant};
+use std::hint::black_box;
+use std::time::Instant;
 use yardstick::{cubic_3d, linear_1d, quadratic_2d, quadratic_3d};
 
 const H: f64 = 0.5;

@@ -16,14 +16,13 @@ mod random;
 mod scene;
 
 use clock::shortest;
-use mpm_verify::{
-    mpm::{BasisName, Grid, Particles, TransferName, Vector},
-    report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries},
-};
+use mpm_verify::mpm::{BasisName, Grid, Particles, TransferName, Vector};
+use mpm_verify::report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries};
 use one_thread::one_thread;
 use random::Random;
 use scene::{Method, Order, total};
-use std::{hint::black_box, time::Instant};
+use std::hint::black_box;
+use std::time::Instant;
 
 /// Nanoseconds per particle of P2G and of G2P.
 fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [f64; 2] {

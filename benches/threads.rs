@@ -12,14 +12,13 @@ mod random;
 #[allow(dead_code, reason = "particles in any order are benched elsewhere")]
 mod scene;
 
-use mpm_verify::{
-    mpm::{BasisName, TransferName, Vector},
-    verify::Timing,
-};
+use mpm_verify::mpm::{BasisName, TransferName, Vector};
+use mpm_verify::verify::Timing;
 use random::Random;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::{Method, Order};
-use std::{hint::black_box, time::Instant};
+use std::hint::black_box;
+use std::time::Instant;
 
 /// Turns that are taken.
 const TURNS: usize = 25;

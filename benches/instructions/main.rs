@@ -10,13 +10,11 @@ mod by_hand;
 mod kernels;
 
 use by_hand::ByHand;
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, FrameName, LinearElastic, MassName, Particles, SchemeName, Setup, Solver,
-        TransferName, Vector, kernel, mass_matrix, transfer,
-    },
-    subject::{Start, Subject},
+use mpm_verify::mpm::{
+    BasisName, Block, FrameName, LinearElastic, MassName, Particles, SchemeName, Setup, Solver,
+    TransferName, Vector, kernel, mass_matrix, transfer,
 };
+use mpm_verify::subject::{Start, Subject};
 use std::process::ExitCode;
 
 const CELLS: usize = 250;

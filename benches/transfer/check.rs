@@ -1,13 +1,11 @@
 //! Checks before anything is timed.
 
 use crate::scene::{H, Method, PER_AXIS};
-use mpm_verify::{
-    mpm::{
-        FrameName, Grid, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup, Solver,
-        Vector, mass_matrix,
-    },
-    subject::{Start, Subject},
+use mpm_verify::mpm::{
+    FrameName, Grid, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup, Solver, Vector,
+    mass_matrix,
 };
+use mpm_verify::subject::{Start, Subject};
 
 /// Whether `x` is zero, next to `scale`; not so if either is not a number.
 fn vanishes(x: f64, scale: f64) -> bool {

@@ -15,14 +15,13 @@ mod scene;
 
 use check::{check_g2p, check_p2g, checked_solver};
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mpm_verify::{
-    mpm::{BasisName, TransferName, Vector},
-    subject::Subject,
-};
+use mpm_verify::mpm::{BasisName, TransferName, Vector};
+use mpm_verify::subject::Subject;
 use random::Random;
 use rayon::ThreadPoolBuilder;
 use scene::{Method, Order, total};
-use std::{hint::black_box, time::Duration};
+use std::hint::black_box;
+use std::time::Duration;
 
 /// So short (s) that no particle changes its cell, however often a loop is repeated.
 const DT: f64 = 1e-12;

@@ -1,18 +1,14 @@
 //! `mpm-verify compare`.
 
-use super::{
-    args::{CompareArgs, Page},
-    output,
-    status::{BAD_INPUT, FAILED, PASSED},
-};
-use mpm_verify::{
-    report::{
-        compare,
-        compare::{ReportDocument, Unreadable},
-    },
-    suite::yaml::Diagnostic,
-};
-use std::{fs, ops::Range, path::Path};
+use super::args::{CompareArgs, Page};
+use super::output;
+use super::status::{BAD_INPUT, FAILED, PASSED};
+use mpm_verify::report::compare;
+use mpm_verify::report::compare::{ReportDocument, Unreadable};
+use mpm_verify::suite::yaml::Diagnostic;
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
 
 /// Prints what moved between two runs. Both files are read first: who has two bad ones learns of
 /// both.

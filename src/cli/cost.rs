@@ -1,18 +1,15 @@
 //! `mpm-verify cost`: what accuracy costs, measured on this machine.
 
-use super::{
-    args::{CostArgs, Vary},
-    output, select,
-    status::{BAD_INPUT, FAILED, PASSED},
-};
+use super::args::{CostArgs, Vary};
+use super::status::{BAD_INPUT, FAILED, PASSED};
+use super::{output, select};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mpm_verify::{
-    report,
-    study::cost::{Over, bid, price, variants},
-    suite::{ConvergencePlan, Extent, Suite},
-    verify::{BestCandidate, TimedSuite},
-};
-use std::{fs, path::Path};
+use mpm_verify::report;
+use mpm_verify::study::cost::{Over, bid, price, variants};
+use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
+use mpm_verify::verify::{BestCandidate, TimedSuite};
+use std::fs;
+use std::path::Path;
 
 /// Prices suites one after the other; nothing else of the harness runs while one is timed.
 pub(super) fn cost(args: &CostArgs) -> u8 {

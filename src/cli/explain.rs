@@ -1,11 +1,12 @@
 //! `mpm-verify explain`: the problem, what a step of each case takes, and what is expected.
 
-use super::{args::ExplainArgs, output, show, status::BAD_INPUT};
-use mpm_verify::{
-    report,
-    study::{self, describe::profiles::Dispensable},
-    suite::Suite,
-};
+use super::args::ExplainArgs;
+use super::status::BAD_INPUT;
+use super::{output, show};
+use mpm_verify::report;
+use mpm_verify::study;
+use mpm_verify::study::describe::profiles::Dispensable;
+use mpm_verify::suite::Suite;
 
 /// Prints the page of each suite.
 pub(super) fn explain(args: &ExplainArgs) -> u8 {

@@ -1,7 +1,11 @@
 //! `run --html`: the page of a run.
 
-use mpm_verify::{report::page, suite::yaml::Source, verify::SuiteOutcome};
-use std::{fmt::Display, fs, path::Path};
+use mpm_verify::report::page;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::SuiteOutcome;
+use std::fmt::Display;
+use std::fs;
+use std::path::Path;
 
 /// Makes the folder of the page, before hours are spent on what cannot be written.
 pub(super) fn prepare(file: &Path) -> Result<(), String> {

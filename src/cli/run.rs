@@ -1,18 +1,17 @@
 //! `mpm-verify run`.
 
-use super::{
-    args::{Format, RunArgs},
-    output, page, select,
-    status::{BAD_INPUT, FAILED, PASSED},
-};
+use super::args::{Format, RunArgs};
+use super::status::{BAD_INPUT, FAILED, PASSED};
+use super::{output, page, select};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mpm_verify::{
-    report,
-    study::{ResultCache, Runner},
-    suite::{Extent, Suite, yaml::Source},
-    verify::SuiteOutcome,
-};
-use std::{fs, io, path::Path, time::Duration};
+use mpm_verify::report;
+use mpm_verify::study::{ResultCache, Runner};
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::{Extent, Suite};
+use mpm_verify::verify::SuiteOutcome;
+use std::path::Path;
+use std::time::Duration;
+use std::{fs, io};
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
 /// if something later cannot be used.

@@ -1,9 +1,7 @@
 //! Suites that the user names.
 
-use mpm_verify::suite::{
-    Suite, embedded,
-    yaml::{Diagnostic, Source},
-};
+use mpm_verify::suite::yaml::{Diagnostic, Source};
+use mpm_verify::suite::{Suite, embedded};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 

@@ -1,9 +1,7 @@
 //! `mpm-verify list` and `check`.
 
-use super::{
-    output, select,
-    status::{BAD_INPUT, PASSED},
-};
+use super::status::{BAD_INPUT, PASSED};
+use super::{output, select};
 use mpm_verify::suite::Suite;
 use std::path::PathBuf;
 

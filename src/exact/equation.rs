@@ -1,10 +1,8 @@
 //! Stresses and forces of an [`Equation`], whatever its law.
 
-use super::{
-    formula::Slope,
-    law::Equation,
-    tensor::{Tensor, cofactor, sum, tensor, unit},
-};
+use super::formula::Slope;
+use super::law::Equation;
+use super::tensor::{Tensor, cofactor, sum, tensor, unit};
 
 impl Equation {
     /// Whether strains are taken as they are; a theory of small strains has no deformed

@@ -4,12 +4,10 @@
 //! theta^(D-1) P_e(F/theta)`: the derivative of the energy `theta^D W(F/theta)` of the expanded
 //! body. In a theory of small strains it is `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
 
-use super::{
-    formula::{Number, Slope},
-    heat::TemperatureDerivatives,
-    law::Equation,
-    tensor::{Tensor, sum, tensor, unit},
-};
+use super::formula::{Number, Slope};
+use super::heat::TemperatureDerivatives;
+use super::law::Equation;
+use super::tensor::{Tensor, sum, tensor, unit};
 
 /// Expansion by temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]

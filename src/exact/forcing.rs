@@ -1,9 +1,7 @@
 //! The manufactured body force of a run: at the same places, step after step.
 
-use super::{
-    motion::{Derivatives, Places},
-    problem::Problem,
-};
+use super::motion::{Derivatives, Places};
+use super::problem::Problem;
 
 /// The manufactured body force at places that have been given once.
 pub struct Forcing {

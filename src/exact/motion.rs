@@ -1,9 +1,7 @@
 //! A motion given by formulas: displacement, velocity and every derivative that a check needs.
 
-use super::{
-    formula::{Formula, Hoisted, Jet, NumberBatch},
-    truth::Truth,
-};
+use super::formula::{Formula, Hoisted, Jet, NumberBatch};
+use super::truth::Truth;
 use crate::dimension::with_dimension;
 
 /// A displacement field u(X, t) with one formula for each component, each a function of the

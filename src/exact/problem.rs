@@ -1,17 +1,15 @@
 //! The continuum problem that an exact solution is held to.
 
-use super::{
-    expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola},
-    formula::Formula,
-    heat::Conduction,
-    law::Equation,
-    motion::{Derivatives, Motion, write},
-    random::Random,
-    round::Round,
-    tensor::Tensor,
-    term::Term,
-    truth::Truth,
-};
+use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
+use super::formula::Formula;
+use super::heat::Conduction;
+use super::law::Equation;
+use super::motion::{Derivatives, Motion, write};
+use super::random::Random;
+use super::round::Round;
+use super::tensor::Tensor;
+use super::term::Term;
+use super::truth::Truth;
 use std::sync::Arc;
 
 /// A boundary condition on one face of the body.

@@ -1,6 +1,8 @@
 //! Terms of loads in the equation of motion.
 
-use super::{expansion::Expansion, formula::Formula, region::Region};
+use super::expansion::Expansion;
+use super::formula::Formula;
+use super::region::Region;
 use std::fmt::Debug;
 
 /// The part of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in what the

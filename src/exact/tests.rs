@@ -1,11 +1,9 @@
 //! A wave in a body that is held all around, in one, two and three dimensions: its force is
 //! manufactured.
 
-use super::{
-    Condition, Face, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term,
-    formula::{Expr, Formula, Scope},
-    random::Random,
-};
+use super::formula::{Expr, Formula, Scope};
+use super::random::Random;
+use super::{Condition, Face, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term};
 use rstest::rstest;
 use std::sync::Arc;
 

@@ -1,10 +1,8 @@
 //! The bar in motion.
 
-use super::{
-    mass::BarMassMatrix,
-    mesh::{Mesh, dot},
-    setup::{BarSetup, ScalarFunction, SetupError},
-};
+use super::mass::BarMassMatrix;
+use super::mesh::{Mesh, dot};
+use super::setup::{BarSetup, ScalarFunction, SetupError};
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
 /// A bar, discretised by finite elements, at some instant.

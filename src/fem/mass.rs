@@ -4,7 +4,8 @@ use nalgebra::DMatrixViewMut;
 use nalgebra_sparse::factorization::CscCholesky;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-use super::{Mass, mesh::Mesh};
+use super::Mass;
+use super::mesh::Mesh;
 use crate::subject::Failure;
 
 /// A mass matrix that is ready to be solved with, as often as there are steps.

@@ -1,6 +1,7 @@
 //! Where the state of a bar is looked at.
 
-use super::{Bar, Sampling, mass::add_nodal_lengths};
+use super::mass::add_nodal_lengths;
+use super::{Bar, Sampling};
 use crate::subject::Samples;
 
 /// Places in an element, 0 to 1: the middles of its quarters, where four particles would start.

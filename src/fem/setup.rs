@@ -3,10 +3,8 @@
 use thiserror::Error;
 
 use super::Element;
-use crate::{
-    named::named,
-    subject::{Failure, Start},
-};
+use crate::named::named;
+use crate::subject::{Failure, Start};
 
 /// A function of the reference position X, or of the deformation gradient F.
 pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;

@@ -1,11 +1,9 @@
 //! Combinations of the parts of a method.
 
-use super::{
-    basis::{BasisName, Domain, with_basis},
-    frame::FrameName,
-    mass::MassName,
-    transfer::{TransferChoice, TransferKind},
-};
+use super::basis::{BasisName, Domain, with_basis};
+use super::frame::FrameName;
+use super::mass::MassName;
+use super::transfer::{TransferChoice, TransferKind};
 use crate::subject::Start;
 
 /// Refuses a combination that means nothing.

@@ -1,9 +1,11 @@
 //! Heat conduction in a body at rest, without stages and columns of mechanics.
 
-use super::{
-    analysis::cell_tracker::CellTracker, basis::Domain, effect::Effect, grid::Grid,
-    kernel::contract::Kernel, particles::Particles,
-};
+use super::analysis::cell_tracker::CellTracker;
+use super::basis::Domain;
+use super::effect::Effect;
+use super::grid::Grid;
+use super::kernel::contract::Kernel;
+use super::particles::Particles;
 use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject};
 
 /// A body at rest: nodal masses are mapped once, and a step integrates the state of the effects.

@@ -10,7 +10,8 @@
 //! MUSL: P2G(mass, force)  G2P(particle velocity)  P2G(momentum)  G2P(stress, position)
 //! ```
 
-use super::{setup::Setup, stage::Stage};
+use super::setup::Setup;
+use super::stage::Stage;
 use crate::subject::Start;
 use std::sync::Arc;
 
@@ -137,7 +138,8 @@ fn coupling_after(stages: &[Stage]) -> Option<CouplingPoint> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Stage::*, *};
+    use super::Stage::*;
+    use super::*;
     use crate::mpm::scheme::SchemeName;
 
     fn visits(scheme: SchemeName, reads_velocity: bool) -> Vec<Pass> {

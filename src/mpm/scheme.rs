@@ -3,11 +3,9 @@
 //! All three are Euler-Cromer (semi-implicit Euler); they differ in which velocity updates the
 //! stress, and when (Bardenhagen 2002, J. Comput. Phys. 180).
 
-use super::stage::{
-    Stage,
-    Stage::{
-        Acceleration, Force, GridVelocity, Mass, Momentum, ParticleVelocity, Position, Stress,
-    },
+use super::stage::Stage;
+use super::stage::Stage::{
+    Acceleration, Force, GridVelocity, Mass, Momentum, ParticleVelocity, Position, Stress,
 };
 use crate::named::named;
 

@@ -1,18 +1,17 @@
 //! Parts of a solver.
 
-use super::{
-    boundary::Boundary,
-    effect::Effect,
-    frame::FrameName,
-    grid::Grid,
-    kernel::{contract::Kernel, request::G2pRequest},
-    mass::MassMatrix,
-    material::Material,
-    particles::Particles,
-    scheme::SchemeName,
-    stage::Stage,
-    transfer::Transfer,
-};
+use super::boundary::Boundary;
+use super::effect::Effect;
+use super::frame::FrameName;
+use super::grid::Grid;
+use super::kernel::contract::Kernel;
+use super::kernel::request::G2pRequest;
+use super::mass::MassMatrix;
+use super::material::Material;
+use super::particles::Particles;
+use super::scheme::SchemeName;
+use super::stage::Stage;
+use super::transfer::Transfer;
 use crate::subject::{Column, Profile, Start};
 
 /// Parts of a solver of one body.

@@ -1,19 +1,17 @@
 //! The solver: the passes of a step, one by one. [`schedule`](super::schedule) has their order.
 
-use super::{
-    algebra::Vector,
-    analysis::cell_tracker::CellTracker,
-    basis::Domain,
-    boundary::Advance,
-    frame::FrameName,
-    grid::Grid,
-    particles::Particles,
-    schedule::{Coupled, Pass, StepSchedule},
-    setup::Setup,
-    stage::Stage,
-    state::initial,
-    transfer::{Transfer, g2p},
-};
+use super::algebra::Vector;
+use super::analysis::cell_tracker::CellTracker;
+use super::basis::Domain;
+use super::boundary::Advance;
+use super::frame::FrameName;
+use super::grid::Grid;
+use super::particles::Particles;
+use super::schedule::{Coupled, Pass, StepSchedule};
+use super::setup::Setup;
+use super::stage::Stage;
+use super::state::initial;
+use super::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile};
 
 /// The original MPM at one level of refinement.

@@ -1,11 +1,9 @@
 //! A step: the passes of the schedule in their order, and the start of a run.
 
-use super::{
-    schedule::{Pass, StepSchedule},
-    setup::Setup,
-    solver::Solver,
-    transfer::kick,
-};
+use super::schedule::{Pass, StepSchedule};
+use super::setup::Setup;
+use super::solver::Solver;
+use super::transfer::kick;
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Start, Subject, Totals};
 
 impl<const D: usize> Solver<D> {

@@ -1,9 +1,11 @@
 //! Strains and stresses, the same for every basis and transfer.
 
-use super::{
-    algebra::Matrix, effect::strain, frame::FrameName, particles::Particles, setup::Setup,
-    solver::Solver,
-};
+use super::algebra::Matrix;
+use super::effect::strain;
+use super::frame::FrameName;
+use super::particles::Particles;
+use super::setup::Setup;
+use super::solver::Solver;
 use crate::subject::{Failure, Site};
 
 impl<const D: usize> Solver<D> {

@@ -1,21 +1,16 @@
 //! Kinds of study: the interface of each, and the list of all.
 
-use super::{
-    cache::results::ResultCache,
-    describe::{
-        profiles::Dispensable,
-        statement::{Rows, head},
-    },
-};
-use crate::{
-    subject::Profile,
-    suite::model::{
-        ConvergencePlan, ForcePlan, Suite, refine_plan::Extent, stability::StabilityPlan,
-        study_plan::StudyPlan,
-    },
-    verify::{CaseOutcome, CheckpointStore, NoCheckpoints},
-};
-use serde::{Serialize, de::DeserializeOwned};
+use super::cache::results::ResultCache;
+use super::describe::profiles::Dispensable;
+use super::describe::statement::{Rows, head};
+use crate::subject::Profile;
+use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::stability::StabilityPlan;
+use crate::suite::model::study_plan::StudyPlan;
+use crate::suite::model::{ConvergencePlan, ForcePlan, Suite};
+use crate::verify::{CaseOutcome, CheckpointStore, NoCheckpoints};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::any::Any;
 
 /// Callback after each unit of work that is done: a level, a row or a case.

@@ -1,13 +1,10 @@
 //! Running a suite, of whatever kind of study.
 
-use super::{
-    cache::results::ResultCache,
-    kind::{CaseRunner, Progress, RunContext, statement, study},
-};
-use crate::{
-    suite::model::{Suite, refine_plan::Extent},
-    verify::{CaseOutcome, SuiteOutcome},
-};
+use super::cache::results::ResultCache;
+use super::kind::{CaseRunner, Progress, RunContext, statement, study};
+use crate::suite::model::Suite;
+use crate::suite::model::refine_plan::Extent;
+use crate::verify::{CaseOutcome, SuiteOutcome};
 use rayon::prelude::*;
 
 /// Runs cases of one suite.

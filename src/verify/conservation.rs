@@ -5,10 +5,8 @@
 //! momenta (which may themselves be zero). A law without an energy leaves that sum NaN.
 
 use super::error::norm::larger;
-use crate::{
-    named::named,
-    subject::{Checkpoint, Memory, Totals},
-};
+use crate::named::named;
+use crate::subject::{Checkpoint, Memory, Totals};
 use serde::{Deserialize, Serialize};
 
 named! {

@@ -1,16 +1,21 @@
 //! The results of a suite: all that reports are made of.
 
-use super::{
-    conservation::Conserved,
-    error::{
-        error_scale::ErrorScale, observer::History, quantity::Quantity, run_result::RunResult,
-    },
-    order::{axis::Axis, format_number::format_number, richardson::Richardson},
-    stability::StabilityStudy,
-    verdict::{floor::Floor, judge::Judgement, name::Verdict},
-};
+use super::conservation::Conserved;
+use super::error::error_scale::ErrorScale;
+use super::error::observer::History;
+use super::error::quantity::Quantity;
+use super::error::run_result::RunResult;
+use super::order::axis::Axis;
+use super::order::format_number::format_number;
+use super::order::richardson::Richardson;
+use super::stability::StabilityStudy;
+use super::verdict::floor::Floor;
+use super::verdict::judge::Judgement;
+use super::verdict::name::Verdict;
 use crate::subject::Profile;
-use std::{any::Any, fmt::Debug, sync::Arc};
+use std::any::Any;
+use std::fmt::Debug;
+use std::sync::Arc;
 
 /// One suite, run.
 #[derive(Debug, Clone)]

@@ -3,10 +3,8 @@
 //! `tests/it/documents.rs` does what needs the program: it parses its command lines, and loads the
 //! suites.
 
-use crate::{
-    markdown::{Block, Document, Span},
-    rules::Breach,
-};
+use crate::markdown::{Block, Document, Span};
+use crate::rules::Breach;
 use std::collections::BTreeSet;
 
 /// Paths that are not in the repository and that documents may name, each with its reason.

@@ -5,11 +5,9 @@
 //! context and the removed lines of a hunk stand in the file exactly once.
 
 use crate::markdown::{Block, Document};
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    fs,
-    path::Path,
-};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
 
 /// A page, and most files of `src/` that an addition to its family may touch.
 pub(crate) const PAGES: &[(&str, usize)] =

@@ -9,10 +9,8 @@
 //! - `use super::child;` only gives the module a name: `child::thing` is the import.
 //! - A method call names no file, and what a macro writes is not seen.
 
-use crate::{
-    import::{Import, imports},
-    source::{Module, Source},
-};
+use crate::import::{Import, imports};
+use crate::source::{Module, Source};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// A file imports something of another.

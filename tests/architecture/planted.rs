@@ -1,13 +1,10 @@
 //! The scanners of words and of documents, held to small texts with planted mistakes.
 
-use crate::{
-    documents::{Repository, stale},
-    exercises,
-    markdown::Document,
-    rules::Breach,
-    source::of_files,
-    words,
-};
+use crate::documents::{Repository, stale};
+use crate::markdown::Document;
+use crate::rules::Breach;
+use crate::source::of_files;
+use crate::{exercises, words};
 use rstest::rstest;
 
 fn owned(files: &[(&str, &str)]) -> Vec<(String, String)> {

@@ -1,6 +1,8 @@
 //! The rules of the house, each with its reason; a breach says which file and which line.
 
-use crate::{graph::Edge, source::Source, token::Token};
+use crate::graph::Edge;
+use crate::source::Source;
+use crate::token::Token;
 
 /// Most lines of a file, without its tests.
 pub(crate) const MOST_LINES: usize = 260;

@@ -1,7 +1,10 @@
 //! The files under `src/` and what of them is code that ships.
 
 use crate::token::{Token, tokens};
-use std::{collections::BTreeSet, fs, ops::Range, path::Path};
+use std::collections::BTreeSet;
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
 
 /// Names from the crate's root down; the root (`lib.rs`) has none.
 pub(crate) type Module = Vec<String>;

@@ -1,12 +1,10 @@
 //! The scanner, held to small crates with planted breaches.
 
-use crate::{
-    graph::{Edge, cycles, edges},
-    rules,
-    rules::WALLS,
-    source::{Source, of_files},
-    token::tokens,
-};
+use crate::graph::{Edge, cycles, edges};
+use crate::rules;
+use crate::rules::WALLS;
+use crate::source::{Source, of_files};
+use crate::token::tokens;
 use rstest::rstest;
 
 fn sources(files: &[(&str, &str)]) -> Vec<Source> {

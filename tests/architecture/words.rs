@@ -1,6 +1,8 @@
 //! The words of the source: old ones stay away, and no name of a type means two things.
 
-use crate::{rules::Breach, source::Source, token::Token};
+use crate::rules::Breach;
+use crate::source::Source;
+use crate::token::Token;
 use std::collections::BTreeMap;
 
 /// Most files of one folder.

@@ -5,12 +5,12 @@
 //! belong to the cell's nodes, shared with the neighbouring cells, the second to its centre. They
 //! are nowhere negative and the same at walls; gradients jump at nodes, as for the linear basis.
 
-use super::{
-    contract::{Basis, Domain},
-    product::Product,
-    weights_1d::Weights1d,
-};
-use crate::mpm::{algebra::array, grid::Grid, particles::Particles};
+use super::contract::{Basis, Domain};
+use super::product::Product;
+use super::weights_1d::Weights1d;
+use crate::mpm::algebra::array;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
 
 /// Quadratic Bernstein polynomials, continuous from cell to cell.
 #[derive(Debug, Clone, Copy)]

@@ -1,14 +1,12 @@
 //! A small body, the methods and laws that it may meet, and what a step owes whatever the state of
 //! the particles: numbers only, or the particle to blame. Shared by the fuzz target and the tests.
 
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, Damping, Fixed, FrameName, Gravity, MassName, MaterialPlan, Particles,
-        Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, combine, kernel,
-        mass_matrix, transfer,
-    },
-    subject::{Failure, Samples, Site, Start, Subject},
+use mpm_verify::mpm::{
+    BasisName, Block, Damping, Fixed, FrameName, Gravity, MassName, MaterialPlan, Particles,
+    Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, combine, kernel, mass_matrix,
+    transfer,
 };
+use mpm_verify::subject::{Failure, Samples, Site, Start, Subject};
 
 /// Parts of a method that go together.
 pub(crate) type Method = (BasisName, TransferName, MassName, FrameName);

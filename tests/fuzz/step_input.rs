@@ -2,10 +2,8 @@
 //! they are zero, which stands for what is usual.
 
 use super::scene::{MATERIALS, Scene, body, every_method};
-use mpm_verify::{
-    mpm::{Matrix, SchemeName, Vector},
-    subject::Start,
-};
+use mpm_verify::mpm::{Matrix, SchemeName, Vector};
+use mpm_verify::subject::Start;
 
 /// Numbers at which arithmetic turns.
 const TURNS: [f64; 20] = [

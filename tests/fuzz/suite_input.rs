@@ -1,12 +1,8 @@
 //! Bytes as the text of a suite.
 
-use mpm_verify::{
-    study::Runner,
-    suite::{
-        Suite,
-        yaml::{Diagnostic, Source},
-    },
-};
+use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::{Diagnostic, Source};
 
 /// Loads what the bytes say; panics where loading does, where a complaint does not name the file,
 /// or where what was accepted cannot be stated.

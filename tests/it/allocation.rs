@@ -2,24 +2,19 @@
 
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use allocation_counter::measure;
-use mpm_verify::{
-    exact::{
-        Forcing, Motion, NeoHookeanLaw, Problem,
-        formula::{Expr, Formula, Scope},
-        heat::{Conduction, HeatForcing, Temperature},
-    },
-    fem,
-    fem::{Bar, Element, Mass, Sampling},
-    mpm::{
-        ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Fixed, Friction,
-        Gravity, Grid, Heat, HeatSolver, LocalDamping, MaterialPlan, Matrix, Particles, Placement,
-        Prescribed, PrescribedVelocity, Pressure, Roller, ScalarField, SchemeName, SetForce, Setup,
-        Side, Solver, Thermal, ThermalBoundary, ThermalExpansion, Traction, TransferName, Vector,
-        VelocityField,
-    },
-    subject::{Holder, Samples, Start, Subject},
-    suite::EffectName,
+use mpm_verify::exact::formula::{Expr, Formula, Scope};
+use mpm_verify::exact::heat::{Conduction, HeatForcing, Temperature};
+use mpm_verify::exact::{Forcing, Motion, NeoHookeanLaw, Problem};
+use mpm_verify::fem;
+use mpm_verify::fem::{Bar, Element, Mass, Sampling};
+use mpm_verify::mpm::{
+    ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Fixed, Friction, Gravity,
+    Grid, Heat, HeatSolver, LocalDamping, MaterialPlan, Matrix, Particles, Placement, Prescribed,
+    PrescribedVelocity, Pressure, Roller, ScalarField, SchemeName, SetForce, Setup, Side, Solver,
+    Thermal, ThermalBoundary, ThermalExpansion, Traction, TransferName, Vector, VelocityField,
 };
+use mpm_verify::subject::{Holder, Samples, Start, Subject};
+use mpm_verify::suite::EffectName;
 use rstest::rstest;
 
 /// Steps `subject` once, then counts what further steps and samples take from the heap.

@@ -2,10 +2,8 @@
 //! series of Wobbes & Tielen (2015), and against figures worked out by hand.
 
 use approx::assert_abs_diff_eq;
-use mpm_verify::{
-    exact::Truth,
-    suite::{ConvergencePlan, Suite, embedded},
-};
+use mpm_verify::exact::Truth;
+use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
 use rstest::rstest;
 use std::f64::consts::PI;
 

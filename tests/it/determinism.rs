@@ -1,19 +1,18 @@
 //! The same set-up gives the same bits, whoever computes it, what else runs meanwhile, and if it is
 //! interrupted on the way.
 
-use crate::common::{
-    DT, H, columns::columns, free_body, in_dimension, interrupted::goes_on, methods, pairs,
+use crate::common::columns::columns;
+use crate::common::interrupted::goes_on;
+use crate::common::{DT, H, free_body, in_dimension, methods, pairs};
+use mpm_verify::mpm::{
+    BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver, TransferChoice,
+    TransferName, Vector, WithParameter, combine, mass_matrix,
 };
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver,
-        TransferChoice, TransferName, Vector, WithParameter, combine, mass_matrix,
-    },
-    subject::{Start, Subject},
-};
+use mpm_verify::subject::{Start, Subject};
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;
-use std::{sync::Barrier, thread};
+use std::sync::Barrier;
+use std::thread;
 
 const STEPS: usize = 20;
 

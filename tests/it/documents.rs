@@ -6,8 +6,11 @@
 mod markdown;
 
 use markdown::Document;
-use mpm_verify::suite::{Suite, yaml::Source};
-use std::{fs, path::Path, process::Command};
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 /// Every document of the repository.
 fn documents() -> Vec<Document> {

@@ -1,20 +1,18 @@
 //! Only the effects that a scene lists are simulated: what is not listed is not computed and not
 //! stored, and what is listed adds what the README says, verified by the suites that it names.
 
-use crate::common::{
-    DT, H, columns::columns, free_body, in_dimension, interrupted::goes_on, methods,
+use crate::common::columns::columns;
+use crate::common::interrupted::goes_on;
+use crate::common::{DT, H, free_body, in_dimension, methods};
+use mpm_verify::mpm::{
+    ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Effect, Fixed,
+    Friction, Gravity, Grid, Heat, HeatSolver, HeatSource, LocalDamping, NeoHookean, Particles,
+    Placement, Prescribed, PrescribedVelocity, Pressure, Roller, SchemeName, SetForce, Setup, Side,
+    Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
 };
-use mpm_verify::{
-    mpm::{
-        ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Effect,
-        Fixed, Friction, Gravity, Grid, Heat, HeatSolver, HeatSource, LocalDamping, NeoHookean,
-        Particles, Placement, Prescribed, PrescribedVelocity, Pressure, Roller, SchemeName,
-        SetForce, Setup, Side, Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
-    },
-    study,
-    subject::{Column, Holder, Profile, Subject},
-    suite::{BoundaryCondition, ConvergencePlan, EffectName, Suite, embedded},
-};
+use mpm_verify::study;
+use mpm_verify::subject::{Column, Holder, Profile, Subject};
+use mpm_verify::suite::{BoundaryCondition, ConvergencePlan, EffectName, Suite, embedded};
 use rstest::rstest;
 use std::sync::Arc;
 

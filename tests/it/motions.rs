@@ -2,14 +2,11 @@
 //! forces against published figures, a wave that no force drives, and a start that is deformed.
 
 use approx::assert_relative_eq;
-use mpm_verify::{
-    exact::{
-        Motion, NeoHookeanLaw, Problem,
-        formula::{Expr, Formula, Scope},
-    },
-    study::Runner,
-    suite::{Suite, yaml::Source},
-};
+use mpm_verify::exact::formula::{Expr, Formula, Scope};
+use mpm_verify::exact::{Motion, NeoHookeanLaw, Problem};
+use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
 use rstest::rstest;
 
 const NAMES: [&str; 3] = ["X", "Y", "Z"];

@@ -1,12 +1,11 @@
 //! The fourteen ways in which verification tools were seen to go wrong, in public code. This crate
 //! is shown immune to each: a test feeds it the bad case.
 
-use mpm_verify::{
-    report::drift,
-    study::Runner,
-    suite::{Suite, embedded, yaml::Source},
-    verify::{Level, Norms, OrderHypothesis, Verdict, judge},
-};
+use mpm_verify::report::drift;
+use mpm_verify::study::Runner;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::{Suite, embedded};
+use mpm_verify::verify::{Level, Norms, OrderHypothesis, Verdict, judge};
 use rstest::rstest;
 
 const H: [f64; 5] = [0.16, 0.08, 0.04, 0.02, 0.01];

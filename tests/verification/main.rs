@@ -11,20 +11,17 @@ mod slowest;
 
 use insta::{Comparator, Settings, Snapshot, assert_snapshot};
 use libtest_mimic::{Arguments, Failed, Trial};
-use mpm_verify::{
-    report,
-    study::Runner,
-    suite::{Suite, yaml::Source},
-    verify::CaseOutcome,
-};
+use mpm_verify::report;
+use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::CaseOutcome;
 use rayon::prelude::*;
-use std::{
-    panic::{AssertUnwindSafe, catch_unwind},
-    path::{Path, PathBuf},
-    process::ExitCode,
-    sync::{Arc, OnceLock},
-    time::Instant,
-};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
 
 fn main() -> ExitCode {
     // A snapshot that differs ends in a panic, whose backtrace tells nobody anything.

@@ -1,11 +1,9 @@
 //! Where the time of the gate goes: printed, and part of no verdict.
 
-use std::{
-    cmp::Reverse,
-    collections::BTreeMap,
-    sync::{Mutex, PoisonError},
-    time::Duration,
-};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 static CASES: Mutex<Vec<(Duration, String)>> = Mutex::new(Vec::new());
 

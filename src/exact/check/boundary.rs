@@ -1,16 +1,12 @@
 //! Boundary conditions, checked at points of every face, and of every part whose motion is given.
 
-use super::{
-    friction,
-    pointwise::{AXES, Event, POINTS, largest, scale},
-};
-use crate::exact::{
-    formula::Formula,
-    motion::{Derivatives, variables},
-    problem::{Condition, Face, Problem},
-    random::Random,
-    violation::Violation,
-};
+use super::friction;
+use super::pointwise::{AXES, Event, POINTS, largest, scale};
+use crate::exact::formula::Formula;
+use crate::exact::motion::{Derivatives, variables};
+use crate::exact::problem::{Condition, Face, Problem};
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Magnitudes that residuals of boundary conditions are compared with.
 struct Magnitudes {

@@ -1,7 +1,10 @@
 //! Two differentiations of one motion: automatic, and by central differences.
 
 use super::pointwise::{AXES, Event, POINTS, largest, scale};
-use crate::exact::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
+use crate::exact::motion::Derivatives;
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Relative agreement asked of automatic differentiation and finite differences. Differences of
 /// second order with the steps below reach about 1e-6.

@@ -4,11 +4,9 @@
 //! Forces are those on the reference area, of which both sides of Coulomb's law have the same.
 
 use super::pointwise::{AXES, Event};
-use crate::exact::{
-    motion::Derivatives,
-    problem::{Face, Problem},
-    violation::Violation,
-};
+use crate::exact::motion::Derivatives;
+use crate::exact::problem::{Face, Problem};
+use crate::exact::violation::Violation;
 
 /// Holds the motion `now` of a point of `face` against a wall with a coefficient of friction.
 /// Residuals are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
@@ -89,11 +87,9 @@ pub(crate) fn coulomb(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{
-        Condition, Motion, SmallStrainLaw,
-        formula::{Expr, Formula, Scope},
-        tests::Weight,
-    };
+    use crate::exact::formula::{Expr, Formula, Scope};
+    use crate::exact::tests::Weight;
+    use crate::exact::{Condition, Motion, SmallStrainLaw};
     use rstest::rstest;
     use std::sync::Arc;
 

@@ -7,11 +7,12 @@
 //! One formula may speak of several bodies and jump where they meet: each is looked at from its own
 //! inside, a billionth of its length from the face.
 
-use super::{
-    friction::{InterfaceTraction, coulomb},
-    pointwise::{AXES, Event, POINTS, largest, scale},
-};
-use crate::exact::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
+use super::friction::{InterfaceTraction, coulomb};
+use super::pointwise::{AXES, Event, POINTS, largest, scale};
+use crate::exact::motion::Derivatives;
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// How far inside a face is looked at, in lengths of the body.
 const INSIDE: f64 = 1e-9;
@@ -138,10 +139,8 @@ impl BodyPair<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{
-        Condition, Face, Motion, SmallStrainLaw,
-        formula::{Expr, Formula, Scope},
-    };
+    use crate::exact::formula::{Expr, Formula, Scope};
+    use crate::exact::{Condition, Face, Motion, SmallStrainLaw};
     use rstest::rstest;
 
     /// Bars from 0 to 1 and from 1 to 2, with rho = c = 1.

@@ -2,7 +2,9 @@
 //! checked here.
 
 use super::pointwise::{Event, POINTS};
-use crate::exact::{problem::Problem, random::Random, violation::Violation};
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// In uniaxial strain: where the body flows, the stretch never turns back.
 pub(crate) fn monotone(problem: &Problem) -> Result<(), Violation> {

@@ -9,7 +9,8 @@ pub(crate) mod pointwise;
 pub(crate) mod rims;
 pub(crate) mod weak;
 
-use super::{problem::Problem, violation::Violation};
+use super::problem::Problem;
+use super::violation::Violation;
 
 impl Problem {
     /// Holds the motion against the equation (point by point and in weak form), the boundary and

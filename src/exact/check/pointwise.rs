@@ -1,8 +1,10 @@
 //! Conditions checked point by point.
 
-use crate::exact::{
-    formula::Formula, motion::Derivatives, problem::Problem, random::Random, violation::Violation,
-};
+use crate::exact::formula::Formula;
+use crate::exact::motion::Derivatives;
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Points per condition: a formula that is wrong on one part in twenty of the body is found with
 /// a probability above 0.96.

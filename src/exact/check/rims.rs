@@ -1,7 +1,9 @@
 //! The rims of a round body: free of traction, P n = 0 with n along the radius.
 
 use super::pointwise::{AXES, Event, POINTS, strain};
-use crate::exact::{problem::Problem, random::Random, violation::Violation};
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Holds the traction on every rim against zero.
 pub(crate) fn free(problem: &Problem) -> Result<(), Violation> {

@@ -5,7 +5,10 @@
 //! that vanishes on the rim of a patch,
 //! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`.
 
-use crate::exact::{motion::Derivatives, problem::Problem, random::Random, violation::Violation};
+use crate::exact::motion::Derivatives;
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Patches per problem.
 pub(crate) const PATCHES: usize = 12;

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::{binary::Binary, unary::Unary};
+use super::binary::Binary;
+use super::unary::Unary;
 
 /// A parsed formula, not yet bound: its names have no meaning yet.
 #[derive(Debug, Clone)]

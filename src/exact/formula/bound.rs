@@ -2,14 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::{
-    ast::Expr,
-    bind::ProgramBuilder,
-    error::FormulaError,
-    number::Number,
-    program::{Instruction, Operand, read, run},
-    scope::Scope,
-};
+use super::ast::Expr;
+use super::bind::ProgramBuilder;
+use super::error::FormulaError;
+use super::number::Number;
+use super::program::{Instruction, Operand, read, run};
+use super::scope::Scope;
 
 /// Registers kept on the stack, in one of two sizes lest a short formula pay for clearing many.
 /// A formula that needs more of them allocates.

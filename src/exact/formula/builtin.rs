@@ -1,6 +1,7 @@
 //! The names that every formula knows.
 
-use super::{binary::Binary, unary::Unary};
+use super::binary::Binary;
+use super::unary::Unary;
 
 /// The only named constant of the language.
 pub(super) const PI: &str = "pi";

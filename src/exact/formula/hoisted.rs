@@ -1,11 +1,9 @@
 //! Formulas of place and time at many places and many times.
 
-use super::{
-    bound::Formula,
-    number::Number,
-    program::{read, run},
-    split::Split,
-};
+use super::bound::Formula;
+use super::number::Number;
+use super::program::{read, run};
+use super::split::Split;
 
 /// Formulas of the same variables, the last of which is the time, evaluated at the same places
 /// again and again.

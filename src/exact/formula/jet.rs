@@ -2,10 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{
-    number::{Number, whole},
-    unary::Unary,
-};
+use super::number::{Number, whole};
+use super::unary::Unary;
 
 /// A value with its first and second derivatives with respect to `N` variables, for instance the
 /// coordinates of a point and the time.

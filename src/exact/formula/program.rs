@@ -3,7 +3,9 @@
 //! There is no recursion here: sums jump back, and user functions have been put in place. The
 //! depth of a formula therefore costs no stack.
 
-use super::{binary::Binary, number::Number, unary::Unary};
+use super::binary::Binary;
+use super::number::Number;
+use super::unary::Unary;
 
 /// Where an instruction finds an argument.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,12 @@
 //! The names that a suite declares.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::collections::BTreeMap;
+use std::ops::Range;
 
-use super::{ast::Expr, builtin::is_reserved, error::FormulaError, lexer::is_name};
+use super::ast::Expr;
+use super::builtin::is_reserved;
+use super::error::FormulaError;
+use super::lexer::is_name;
 
 /// The constants and the functions that formulas may use.
 #[derive(Debug, Clone, Default)]

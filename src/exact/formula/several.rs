@@ -2,7 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{number::Number, unary::Unary};
+use super::number::Number;
+use super::unary::Unary;
 
 /// So many numbers: enough that reading an instruction costs little beside what it does with them.
 const MANY: usize = 8;

@@ -2,10 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{
-    number::{Number, whole},
-    unary::Unary,
-};
+use super::number::{Number, whole};
+use super::unary::Unary;
 
 /// A value with its first derivatives along `N` directions: what a [`Jet`](super::Jet) is without
 /// its second derivatives, at a third of the cost.

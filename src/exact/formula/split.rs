@@ -8,11 +8,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{
-    binary::Binary,
-    bound::Formula,
-    program::{Action, Instruction, Operand},
-};
+use super::binary::Binary;
+use super::bound::Formula;
+use super::program::{Action, Instruction, Operand};
 
 /// Dependence of a node on place and time, as bits: two nodes together depend on the union.
 type Dependence = usize;

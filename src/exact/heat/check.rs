@@ -1,18 +1,13 @@
 //! Every condition that a heat problem puts on its temperature.
 
-use super::{
-    equation,
-    field::TemperatureDerivatives,
-    problem::{Conduction, HeatFace, ThermalCondition},
-    weak,
-};
-use crate::exact::{
-    check::pointwise::{Event, POINTS, largest},
-    formula::Formula,
-    motion::{Derivatives, variables},
-    random::Random,
-    violation::Violation,
-};
+use super::field::TemperatureDerivatives;
+use super::problem::{Conduction, HeatFace, ThermalCondition};
+use super::{equation, weak};
+use crate::exact::check::pointwise::{Event, POINTS, largest};
+use crate::exact::formula::Formula;
+use crate::exact::motion::{Derivatives, variables};
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Relative agreement asked of automatic differentiation and finite differences.
 const DIFFERENCE_TOLERANCE: f64 = 1e-4;

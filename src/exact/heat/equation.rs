@@ -5,11 +5,9 @@
 //! 7.1), and the balance is `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
 
 use super::field::TemperatureDerivatives;
-use crate::exact::{
-    formula::{Number, Slope},
-    motion::Derivatives,
-    tensor::{Tensor, cofactor, det, sum, tensor, unit},
-};
+use crate::exact::formula::{Number, Slope};
+use crate::exact::motion::Derivatives;
+use crate::exact::tensor::{Tensor, cofactor, det, sum, tensor, unit};
 
 /// `J C^-1 Grad T` of a gradient of displacement and one of temperature.
 fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) -> [T; D] {

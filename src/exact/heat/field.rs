@@ -1,12 +1,8 @@
 //! A temperature T(X, t) given by a formula, with its derivatives.
 
-use crate::{
-    dimension::with_dimension,
-    exact::{
-        formula::{Formula, Hoisted, Jet},
-        motion::variables,
-    },
-};
+use crate::dimension::with_dimension;
+use crate::exact::formula::{Formula, Hoisted, Jet};
+use crate::exact::motion::variables;
 
 /// A temperature field (K), a formula of the reference coordinates and t, in this order.
 #[derive(Debug, Clone)]

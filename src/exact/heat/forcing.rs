@@ -1,6 +1,7 @@
 //! The manufactured source of a run: at the same places, step after step.
 
-use super::{field::TemperaturePlaces, problem::Conduction};
+use super::field::TemperaturePlaces;
+use super::problem::Conduction;
 use crate::exact::motion::{Derivatives, Places};
 
 /// The manufactured source of heat at places that have been given once.

@@ -1,15 +1,11 @@
 //! The heat problem that a temperature is held to.
 
-use super::{
-    equation::{divergence, slope},
-    field::{Temperature, TemperatureDerivatives},
-};
-use crate::exact::{
-    formula::Formula,
-    motion::{Derivatives, Motion, variables},
-    random::Random,
-    truth::Truth,
-};
+use super::equation::{divergence, slope};
+use super::field::{Temperature, TemperatureDerivatives};
+use crate::exact::formula::Formula;
+use crate::exact::motion::{Derivatives, Motion, variables};
+use crate::exact::random::Random;
+use crate::exact::truth::Truth;
 
 /// Thermal condition on a face of the body; formulas are of the coordinates and t.
 #[derive(Debug, Clone)]

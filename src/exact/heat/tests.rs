@@ -1,11 +1,9 @@
 //! Temperatures that solve the heat equation, and wrong ones that must be refused.
 
 use super::{Conduction, HeatFace, HeatForcing, Temperature, ThermalCondition};
-use crate::exact::{
-    Motion, Violation,
-    formula::{Expr, Formula, Scope},
-    random::Random,
-};
+use crate::exact::formula::{Expr, Formula, Scope};
+use crate::exact::random::Random;
+use crate::exact::{Motion, Violation};
 use rstest::rstest;
 
 const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];

@@ -5,11 +5,9 @@
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
 
 use super::problem::Conduction;
-use crate::exact::{
-    check::weak::{PATCHES, SpaceTimePatch, Sums, TOLERANCE, bump},
-    random::Random,
-    violation::Violation,
-};
+use crate::exact::check::weak::{PATCHES, SpaceTimePatch, Sums, TOLERANCE, bump};
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
 
 /// Checks the balance of heat.
 pub(super) fn balance(problem: &Conduction) -> Result<(), Violation> {

@@ -1,6 +1,7 @@
 //! Interface of the truth's constitutive laws.
 
-use crate::exact::{formula::Number, tensor::Tensor};
+use crate::exact::formula::Number;
+use crate::exact::tensor::Tensor;
 
 /// A law between the displacement gradient and the first Piola-Kirchhoff stress, written over any
 /// [`Number`]: over slopes, the divergence of P follows by automatic differentiation.

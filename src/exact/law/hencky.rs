@@ -2,10 +2,8 @@
 //! (Hencky 1928; along the axes `P_ii = (lambda ln J + 2 mu ln F_ii)/F_ii`).
 
 use super::contract::{ConstitutiveLaw, Lame};
-use crate::exact::{
-    formula::Number,
-    tensor::{Tensor, cofactor, det, log_strain, product, tensor, unit},
-};
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, log_strain, product, tensor, unit};
 
 /// Hencky elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +39,8 @@ impl ConstitutiveLaw for HenckyLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::law::{Equation, energy::assert_is_derivative};
+    use crate::exact::law::Equation;
+    use crate::exact::law::energy::assert_is_derivative;
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -8,10 +8,8 @@
 //! direction; that it never reverses is checked (`loading`).
 
 use super::contract::{ConstitutiveLaw, Lame};
-use crate::exact::{
-    formula::Number,
-    tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit},
-};
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit};
 
 /// J2 plasticity with Hencky elasticity in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,7 +11,8 @@ mod registry;
 mod small_strain;
 mod tait;
 
-use super::{formula::Number, tensor::Tensor};
+use super::formula::Number;
+use super::tensor::Tensor;
 use contract::ConstitutiveLaw;
 use registry::laws;
 

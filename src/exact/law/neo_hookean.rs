@@ -2,10 +2,8 @@
 //! Guilkey 2008; Kamojjala et al. 2015).
 
 use super::contract::{ConstitutiveLaw, Lame};
-use crate::exact::{
-    formula::Number,
-    tensor::{Tensor, cofactor, det, tensor, unit},
-};
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, tensor, unit};
 
 /// Compressible neo-Hookean elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +38,8 @@ impl ConstitutiveLaw for NeoHookeanLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::law::{Equation, energy::assert_is_derivative};
+    use crate::exact::law::Equation;
+    use crate::exact::law::energy::assert_is_derivative;
     use approx::assert_relative_eq;
 
     /// Simple shear by gamma, and a uniform stretch: closed forms of the Cauchy stress.

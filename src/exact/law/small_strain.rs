@@ -1,10 +1,8 @@
 //! Small-strain elasticity, `P = lambda tr(eps) I + 2 mu eps`, `eps = sym(grad u)`.
 
 use super::contract::{ConstitutiveLaw, Lame};
-use crate::exact::{
-    formula::Number,
-    tensor::{Tensor, sum, tensor},
-};
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, sum, tensor};
 
 /// Small-strain elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,10 +2,8 @@
 //! `p = K/7 (J^-7 - 1)` (Cole 1948).
 
 use super::contract::ConstitutiveLaw;
-use crate::exact::{
-    formula::Number,
-    tensor::{Tensor, cofactor, det, tensor, unit},
-};
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, tensor, unit};
 
 /// Tait's equation of state.
 #[derive(Debug, Clone, Copy, PartialEq)]

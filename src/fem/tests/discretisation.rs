@@ -4,11 +4,9 @@ use approx::assert_relative_eq;
 use proptest::prelude::*;
 use rstest::rstest;
 
-use crate::fem::{
-    Element,
-    mass::{consistent, lumped},
-    mesh::Mesh,
-};
+use crate::fem::Element;
+use crate::fem::mass::{consistent, lumped};
+use crate::fem::mesh::Mesh;
 
 fn element() -> impl Strategy<Value = Element> {
     prop_oneof![Just(Element::Linear), Just(Element::Quadratic)]

@@ -4,10 +4,8 @@ use approx::assert_relative_eq;
 use rstest::rstest;
 
 use super::{bar_at_rest, run};
-use crate::{
-    fem::{Bar, BarSetup, Element, Mass, Sampling, pointwise},
-    subject::{Samples, Subject},
-};
+use crate::fem::{Bar, BarSetup, Element, Mass, Sampling, pointwise};
+use crate::subject::{Samples, Subject};
 
 const STRETCH: f64 = 1.3;
 

@@ -3,10 +3,9 @@
 use rstest::rstest;
 
 use super::bar_at_rest;
-use crate::{
-    fem::{Bar, BarSetup, Mass, SetupError, pointwise, setup::MOST_CELLS},
-    subject::{Failure, Site, Subject},
-};
+use crate::fem::setup::MOST_CELLS;
+use crate::fem::{Bar, BarSetup, Mass, SetupError, pointwise};
+use crate::subject::{Failure, Site, Subject};
 
 fn start() -> BarSetup {
     bar_at_rest(1.0, 1e5, 1e3)

@@ -5,14 +5,10 @@ use std::f64::consts::PI;
 use rstest::rstest;
 
 use super::{orders, rms, run, vibrating_bar};
-use crate::fem::{
-    Element,
-    Element::{Linear, Quadratic},
-    Mass,
-    Mass::{Consistent, Lumped},
-    Sampling,
-    Sampling::{Inside, Nodes},
-};
+use crate::fem::Element::{Linear, Quadratic};
+use crate::fem::Mass::{Consistent, Lumped};
+use crate::fem::Sampling::{Inside, Nodes};
+use crate::fem::{Element, Mass, Sampling};
 
 /// `u = v0/w sin(pi X / (2L)) sin(w t)`.
 fn exact(x: f64, t: f64) -> f64 {

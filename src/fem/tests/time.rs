@@ -3,16 +3,10 @@
 use rstest::rstest;
 
 use super::{bar_at_rest, orders, run, vibrating_bar};
-use crate::{
-    fem::{
-        Bar, BarSetup, Element,
-        Element::{Linear, Quadratic},
-        Mass,
-        Mass::{Consistent, Lumped},
-        pointwise,
-    },
-    subject::{Checkpoint, Samples, Start, Subject},
-};
+use crate::fem::Element::{Linear, Quadratic};
+use crate::fem::Mass::{Consistent, Lumped};
+use crate::fem::{Bar, BarSetup, Element, Mass, pointwise};
+use crate::subject::{Checkpoint, Samples, Start, Subject};
 
 /// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
 fn column(start: Start) -> BarSetup {

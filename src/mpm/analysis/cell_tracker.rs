@@ -1,13 +1,9 @@
 //! Cell of each particle, and counters of cell crossings and departures.
 
-use crate::{
-    mpm::{
-        algebra::Vector,
-        grid::{Grid, floor},
-        particles::Particles,
-    },
-    subject::{Checkpoint, Column, Failure, Memory, Site},
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::{Grid, floor};
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
 
 /// The cells of all particles, with counters.
 #[derive(Debug)]

@@ -8,13 +8,12 @@
 //! in for its inverse, so that a round applies the map to the grid and back, the operator of PIC
 //! and XPIC, once.
 
-use crate::mpm::{
-    algebra::Vector,
-    grid::Grid,
-    kernel::{contract::Kernel, request::ParticleField},
-    particles::Particles,
-    solver::Solver,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::ParticleField;
+use crate::mpm::particles::Particles;
+use crate::mpm::solver::Solver;
 
 /// Energy of the residual, as a share of the whole, that counts as rounding.
 const ROUNDING: f64 = 1e-26;
@@ -97,7 +96,8 @@ fn square<const D: usize>(particles: &Particles<D>, v: &[Vector<D>]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Block};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

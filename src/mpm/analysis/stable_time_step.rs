@@ -13,18 +13,14 @@
 //! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
 //! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
 
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector},
-        schedule::passes_of,
-        scheme::SchemeName,
-        setup::Setup,
-        solver::Solver,
-        stage::Stage,
-        transfer::{TransferKind, kick},
-    },
-    subject::Failure,
-};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::schedule::passes_of;
+use crate::mpm::scheme::SchemeName;
+use crate::mpm::setup::Setup;
+use crate::mpm::solver::Solver;
+use crate::mpm::stage::Stage;
+use crate::mpm::transfer::{TransferKind, kick};
+use crate::subject::Failure;
 
 /// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside
 /// rounding, 1e-16, and small beside one; and it is a velocity, so that a quadratic viscosity means

@@ -1,12 +1,8 @@
 //! Sums over the body that a motion without external forces conserves.
 
-use crate::{
-    mpm::{
-        algebra::{Matrix, dyad},
-        particles::Particles,
-    },
-    subject::Totals,
-};
+use crate::mpm::algebra::{Matrix, dyad};
+use crate::mpm::particles::Particles;
+use crate::subject::Totals;
 
 impl<const D: usize> Particles<D> {
     /// Mass, momenta and kinetic energy now; the strain energy is left to the material. `own` is
@@ -48,7 +44,8 @@ fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{algebra::Vector, particles::Block};
+    use crate::mpm::algebra::Vector;
+    use crate::mpm::particles::Block;
     use approx::assert_relative_eq;
 
     fn two_particles<const D: usize>() -> Particles<D> {

@@ -6,20 +6,16 @@
 //! functions are evaluated by the recursion of Cox and de Boor (Piegl & Tiller, The NURBS Book,
 //! algorithm A2.2).
 
-use super::{
-    cell_locator::{CellLocator, CellPositions},
-    contract::{Basis, Domain},
-    product::Product,
-    product_batch::ProductBatch,
-    weights_1d::Weights1d,
-    weights_1d_batch::{Weights1dBatch, WeightsSimd},
-};
-use crate::mpm::{
-    algebra::array,
-    grid::Grid,
-    particles::Particles,
-    simd::{F64x4, LANES, Plain, Simd},
-};
+use super::cell_locator::{CellLocator, CellPositions};
+use super::contract::{Basis, Domain};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::weights_1d::Weights1d;
+use super::weights_1d_batch::{Weights1dBatch, WeightsSimd};
+use crate::mpm::algebra::array;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{F64x4, LANES, Plain, Simd};
 
 /// Quadratic B-splines.
 #[derive(Debug, Clone, Copy)]

@@ -1,14 +1,10 @@
 //! Contract of a basis with the loops.
 
-use super::{
-    cell_locator::CellLocator,
-    patch::{NodeWeight, Patch},
-};
-use crate::mpm::{
-    grid::Grid,
-    particles::Particles,
-    simd::{LANES, Simd},
-};
+use super::cell_locator::CellLocator;
+use super::patch::{NodeWeight, Patch};
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{LANES, Simd};
 
 /// Particle domain over which a basis averages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

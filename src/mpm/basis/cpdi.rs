@@ -21,19 +21,15 @@
 //! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
 //! to the wall would not keep it.
 
-use super::{
-    contract::{Basis, Domain},
-    patch::{NodeWeight, Patch, WeightMoments},
-    product::Product,
-    product_batch::ProductBatch,
-    weights_1d::Weights1d,
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector, array, cofactor, det},
-    grid::{Grid, floor},
-    packed_grid::Layout,
-    particles::Particles,
-};
+use super::contract::{Basis, Domain};
+use super::patch::{NodeWeight, Patch, WeightMoments};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::weights_1d::Weights1d;
+use crate::mpm::algebra::{Matrix, Vector, array, cofactor, det};
+use crate::mpm::grid::{Grid, floor};
+use crate::mpm::packed_grid::Layout;
+use crate::mpm::particles::Particles;
 
 /// CPDI with parallelogram domains.
 #[derive(Debug, Clone, Copy)]
@@ -166,7 +162,8 @@ impl Basis for Cpdi {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{basis::Linear, particles::Block};
+    use crate::mpm::basis::Linear;
+    use crate::mpm::particles::Block;
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 

@@ -4,12 +4,11 @@
 //! Four particles at a time while their domains have at most three nodes; otherwise one particle at
 //! a time, in groups of three nodes.
 
-use super::{weights_1d::Weights1d, weights_1d_batch::WeightsSimd};
-use crate::mpm::{
-    algebra::array,
-    grid::Grid,
-    simd::{F64x4, LANES, Plain, Simd},
-};
+use super::weights_1d::Weights1d;
+use super::weights_1d_batch::WeightsSimd;
+use crate::mpm::algebra::array;
+use crate::mpm::grid::Grid;
+use crate::mpm::simd::{F64x4, LANES, Plain, Simd};
 
 /// Functions of a group: all functions along an axis while the domain is not longer than a cell.
 pub(in crate::mpm) const AT_ONCE: usize = 3;

@@ -6,20 +6,16 @@
 //! the contiguous-particle form (Wallstedt & Guilkey 2008) the half-length on an axis follows the
 //! diagonal of F, so that domains neither part nor overlap. At walls the domain is cut off.
 
-use super::{
-    cell_locator::{CellLocator, CellPositions},
-    contract::{Basis, Domain},
-    domain_1d::{AT_ONCE, Domain1d, Domain1dSimd},
-    product::Product,
-    product_batch::ProductBatch,
-    weights_1d::Weights1d,
-};
-use crate::mpm::{
-    algebra::{Matrix, array},
-    grid::Grid,
-    particles::Particles,
-    simd::{F64x4, LANES, Simd},
-};
+use super::cell_locator::{CellLocator, CellPositions};
+use super::contract::{Basis, Domain};
+use super::domain_1d::{AT_ONCE, Domain1d, Domain1dSimd};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::weights_1d::Weights1d;
+use crate::mpm::algebra::{Matrix, array};
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{F64x4, LANES, Simd};
 
 /// GIMP with domains of constant size.
 #[derive(Debug, Clone, Copy)]
@@ -173,7 +169,8 @@ gimp!(ContiguousGimp, Follows);
 
 #[cfg(test)]
 mod tests {
-    use crate::mpm::{BasisName, Block, Particles, Vector, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Block, Particles, Vector};
     use rstest::rstest;
 
     /// Found by the fuzzer: a length that no body has reached far beyond the grid.

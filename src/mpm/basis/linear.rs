@@ -4,20 +4,16 @@
 //! The gradient jumps at nodes: a particle that changes its cell changes the force there and then
 //! (grid crossing).
 
-use super::{
-    cell_locator::{CellLocator, CellPositions},
-    contract::{Basis, Domain},
-    product::Product,
-    product_batch::ProductBatch,
-    weights_1d::Weights1d,
-    weights_1d_batch::WeightsSimd,
-};
-use crate::mpm::{
-    algebra::array,
-    grid::Grid,
-    particles::Particles,
-    simd::{LANES, Plain, Simd},
-};
+use super::cell_locator::{CellLocator, CellPositions};
+use super::contract::{Basis, Domain};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::weights_1d::Weights1d;
+use super::weights_1d_batch::WeightsSimd;
+use crate::mpm::algebra::array;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{LANES, Plain, Simd};
 
 /// The hats along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]

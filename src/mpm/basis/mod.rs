@@ -25,7 +25,9 @@ pub use product_batch::ProductBatch;
 pub use weights_1d::Weights1d;
 pub use weights_1d_batch::Weights1dBatch;
 
-use super::{algebra::Vector, family::family, grid::Grid};
+use super::algebra::Vector;
+use super::family::family;
+use super::grid::Grid;
 
 family! {
     /// Names of the basis functions that suites may choose.

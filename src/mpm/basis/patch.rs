@@ -1,12 +1,11 @@
 //! Patches: the nodes of a particle and the functions there.
 
-use crate::mpm::{
-    algebra::{Matrix, Vector, array},
-    grid::Grid,
-    packed_grid::{FieldView, FieldViewMut, Layout},
-    simd::{F64x4, Simd},
-};
-use std::{fmt::Debug, ops::Range};
+use crate::mpm::algebra::{Matrix, Vector, array};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::{FieldView, FieldViewMut, Layout};
+use crate::mpm::simd::{F64x4, Simd};
+use std::fmt::Debug;
+use std::ops::Range;
 
 /// Functions of one node at a particle.
 #[derive(Debug, Clone, Copy)]

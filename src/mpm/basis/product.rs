@@ -1,15 +1,11 @@
 //! Products of one-dimensional functions: the patch of most bases.
 
-use super::{
-    patch::{NodeWeight, Patch, WeightMoments},
-    product_batch::ProductBatch,
-    weights_1d::{Weights1d, product},
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector, array},
-    grid::Grid,
-    packed_grid::Layout,
-};
+use super::patch::{NodeWeight, Patch, WeightMoments};
+use super::product_batch::ProductBatch;
+use super::weights_1d::{Weights1d, product};
+use crate::mpm::algebra::{Matrix, Vector, array};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::Layout;
 
 /// All products of K functions along each axis, K at most 4.
 #[derive(Debug, Clone, Copy)]

@@ -1,15 +1,11 @@
 //! Batch of tensor-product patches, and the loop of P2G over their nodes.
 
-use super::{
-    node_accumulator::NodeAccumulator,
-    patch::{NodeTerm, PatchBatch},
-    weights_1d_batch::{Weights1dBatch, of},
-};
-use crate::mpm::{
-    algebra::{Vector, array},
-    packed_grid::{FieldView, FieldViewMut},
-    simd::{BATCH, F64Batch, F64x4, LANES, Simd, registers_of},
-};
+use super::node_accumulator::NodeAccumulator;
+use super::patch::{NodeTerm, PatchBatch};
+use super::weights_1d_batch::{Weights1dBatch, of};
+use crate::mpm::algebra::{Vector, array};
+use crate::mpm::packed_grid::{FieldView, FieldViewMut};
+use crate::mpm::simd::{BATCH, F64Batch, F64x4, LANES, Simd, registers_of};
 use std::ops::Range;
 
 /// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its

@@ -1,12 +1,11 @@
 //! Sums of G2P over the nodes of a patch, factorised by axes: a node costs a product and a sum for
 //! each function, not for each axis.
 
-use super::{product_batch::ProductBatch, weights_1d_batch::of};
-use crate::mpm::{
-    algebra::array,
-    packed_grid::{FieldView, PackedNode},
-    simd::Simd,
-};
+use super::product_batch::ProductBatch;
+use super::weights_1d_batch::of;
+use crate::mpm::algebra::array;
+use crate::mpm::packed_grid::{FieldView, PackedNode};
+use crate::mpm::simd::Simd;
 use std::ops::AddAssign;
 
 /// `sum_k row_k factors_k`.

@@ -1,11 +1,10 @@
 //! Weights of a batch of particles along one axis.
 
-use super::{cell_locator::WeightNeeds, weights_1d::Weights1d};
-use crate::mpm::{
-    algebra::array,
-    kernel::moments::SMALLEST,
-    simd::{F64Batch, F64x4, Simd},
-};
+use super::cell_locator::WeightNeeds;
+use super::weights_1d::Weights1d;
+use crate::mpm::algebra::array;
+use crate::mpm::kernel::moments::SMALLEST;
+use crate::mpm::simd::{F64Batch, F64x4, Simd};
 
 /// K neighbouring functions of four particles, in registers.
 #[derive(Debug, Clone, Copy)]

@@ -1,9 +1,7 @@
 //! Contract of a boundary condition with the rest of the solver.
 
-use crate::{
-    mpm::algebra::Vector,
-    subject::{Checkpoint, Column},
-};
+use crate::mpm::algebra::Vector;
+use crate::subject::{Checkpoint, Column};
 
 /// An advance of the grid's velocities: `v += dt a`.
 ///

@@ -1,13 +1,10 @@
 //! A wall to which the body sticks: v = 0.
 
-use super::{
-    contract::{Advance, Boundary},
-    face::{Side, nodes},
-};
-use crate::{
-    mpm::{algebra::Vector, grid::Grid},
-    subject::Column,
-};
+use super::contract::{Advance, Boundary};
+use super::face::{Side, nodes};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::subject::Column;
 
 /// A face of the grid whose nodes do not move.
 #[derive(Debug, Clone)]

@@ -11,15 +11,12 @@
 //!
 //! Nodes keep their contact state between two advances: velocities mapped in between follow it.
 
-use super::{
-    contact_state::ContactState,
-    contract::{Advance, Boundary},
-    face::{Side, nodes},
-};
-use crate::{
-    mpm::{algebra::Vector, grid::Grid},
-    subject::{Checkpoint, Column},
-};
+use super::contact_state::ContactState;
+use super::contract::{Advance, Boundary};
+use super::face::{Side, nodes};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::subject::{Checkpoint, Column};
 
 /// A face of the grid with friction.
 #[derive(Debug, Clone)]
@@ -112,7 +109,8 @@ impl<const D: usize> Boundary<D> for Friction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, kernel::kernel};
+    use crate::mpm::BasisName;
+    use crate::mpm::kernel::kernel;
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -4,14 +4,12 @@
 //! the grid is where the wall is, so a wall may slide along itself as far as it likes, but move
 //! along its normal only by a small part of a cell.
 
-use super::{
-    contract::{Advance, Boundary},
-    face::{Side, nodes},
-};
-use crate::{
-    mpm::{algebra::Vector, basis::BasisName, grid::Grid},
-    subject::Column,
-};
+use super::contract::{Advance, Boundary};
+use super::face::{Side, nodes};
+use crate::mpm::algebra::Vector;
+use crate::mpm::basis::BasisName;
+use crate::mpm::grid::Grid;
+use crate::subject::Column;
 
 /// A velocity (m/s) as a function of place and time.
 pub type VelocityField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;

@@ -1,13 +1,10 @@
 //! A frictionless wall, or a plane of symmetry: v . n = 0, and no force along the wall.
 
-use super::{
-    contract::{Advance, Boundary},
-    face::{Side, nodes},
-};
-use crate::{
-    mpm::{algebra::Vector, grid::Grid},
-    subject::Column,
-};
+use super::contract::{Advance, Boundary};
+use super::face::{Side, nodes};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::subject::Column;
 
 /// A face of the grid along which the body slides.
 #[derive(Debug, Clone)]

@@ -10,10 +10,8 @@
 //! makes new stresses, which a law in rate form adds to the old ones, it is taken out again.
 
 use super::contract::Effect;
-use crate::{
-    mpm::particles::Particles,
-    subject::{Checkpoint, Column},
-};
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column};
 
 /// An artificial viscosity.
 #[derive(Debug, Clone, PartialEq)]

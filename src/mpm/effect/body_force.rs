@@ -3,10 +3,11 @@
 //! `f_ext_i = sum_p m_p b(X_p, t) N_i(x_p)`.
 
 use super::contract::Effect;
-use crate::{
-    mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// Writes the force per unit mass (m/s2) of every particle at a time (s), from their reference
 /// positions. The particles of a run, their order and their reference positions never change.

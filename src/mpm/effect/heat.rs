@@ -20,11 +20,13 @@
 //! Neglected: heat from plastic work, viscosity and compression; a conductivity that is not
 //! constant.
 
-use super::{contract::Effect, thermal_face::ThermalBoundary};
-use crate::{
-    mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
-    subject::{Checkpoint, Column, Failure, Site},
-};
+use super::contract::Effect;
+use super::thermal_face::ThermalBoundary;
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Writes the heat per unit mass and time (W/kg) of every particle at a time (s), from their
 /// reference positions.
@@ -174,7 +176,8 @@ impl<const D: usize> Effect<D> for Heat<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, Side, Thermal, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Block, Side, Thermal};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -44,7 +44,8 @@ impl<const D: usize> Effect<D> for LocalDamping {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Vector, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Vector};
 
     #[test]
     fn each_component_is_opposed_by_a_share_of_its_own_force() {

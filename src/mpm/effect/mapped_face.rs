@@ -52,9 +52,8 @@ impl MappedFace {
 
 #[cfg(test)]
 mod tests {
-    use crate::mpm::{
-        BasisName, Effect, Placement, Quadrilateral, Side, Traction, Vector, kernel::kernel,
-    };
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Effect, Placement, Quadrilateral, Side, Traction, Vector};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -5,14 +5,10 @@
 //! step, in USF and USL in the next.
 
 use super::contract::Effect;
-use crate::{
-    mpm::{
-        algebra::Vector,
-        boundary::{VelocityField, continued},
-        particles::Particles,
-    },
-    subject::{Checkpoint, Column},
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::{VelocityField, continued};
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column};
 
 /// Prescribed velocity v(X, t) (m/s) of a set of particles.
 pub struct PrescribedVelocity<const D: usize> {

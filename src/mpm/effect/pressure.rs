@@ -5,20 +5,14 @@
 //! force than before. Where the force is put at the surface ([`Placement`]), F is continued to
 //! there.
 
-use super::{
-    contract::Effect,
-    surface::{Placement, Surface},
-};
-use crate::{
-    mpm::{
-        algebra::{Vector, cofactor},
-        boundary::Side,
-        grid::Grid,
-        kernel::contract::Kernel,
-        particles::Particles,
-    },
-    subject::Column,
-};
+use super::contract::Effect;
+use super::surface::{Placement, Surface};
+use crate::mpm::algebra::{Vector, cofactor};
+use crate::mpm::boundary::Side;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// A pressure (Pa) as a function of the place in the reference configuration and of time.
 pub type PressureField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;

@@ -4,10 +4,11 @@
 //! that is uniform in the reference configuration, and follows the particles.
 
 use super::contract::Effect;
-use crate::{
-    mpm::{algebra::Vector, grid::Grid, kernel::contract::Kernel, particles::Particles},
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// A total force f(t) (N, per m^(3-D) of thickness) on a set.
 pub struct SetForce<const D: usize> {

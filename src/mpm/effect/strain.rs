@@ -1,7 +1,8 @@
 //! Constitutive update with the hooks of the effects.
 
 use super::contract::Effect;
-use crate::mpm::{material::Material, particles::Particles};
+use crate::mpm::material::Material;
+use crate::mpm::particles::Particles;
 
 /// New stresses after `dt` (s).
 pub(in crate::mpm) fn strain<const D: usize>(

@@ -14,16 +14,12 @@
 //!   gives any mass.
 
 use super::mapped_face::MappedFace;
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector, dyad},
-        boundary::Side,
-        grid::Grid,
-        kernel::contract::Kernel,
-        particles::Particles,
-    },
-    named::named,
-};
+use crate::mpm::algebra::{Matrix, Vector, dyad};
+use crate::mpm::boundary::Side;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::named::named;
 
 named! {
     /// Point of action of a surface force.

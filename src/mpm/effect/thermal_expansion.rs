@@ -11,10 +11,10 @@
 //! scene leaves out have no part in it. Neglected: heat absorbed by the expansion.
 
 use super::contract::Effect;
-use crate::{
-    mpm::{algebra::Matrix, material::Material, particles::Particles},
-    subject::{Checkpoint, Column},
-};
+use crate::mpm::algebra::Matrix;
+use crate::mpm::material::Material;
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column};
 
 /// Expansion by temperature; an effect that keeps temperatures comes before it.
 pub struct ThermalExpansion<const D: usize> {

@@ -9,17 +9,13 @@
 //! Areas are those of the reference body, as with tractions. The face stays where the grid ends.
 
 use super::surface::{Placement, Surface};
-use crate::{
-    mpm::{
-        algebra::Vector,
-        basis::BasisName,
-        boundary::{Side, nodes},
-        grid::Grid,
-        kernel::contract::Kernel,
-        particles::Particles,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::basis::BasisName;
+use crate::mpm::boundary::{Side, nodes};
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// A number as a function of place and time (s).
 pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;

@@ -5,16 +5,14 @@
 //! the particles (Wobbes & Tielen 2015, Steffen's bar), and with them faces that turn and bend. It
 //! acts half a particle spacing inside the surface unless it is put there ([`Placement`]).
 
-use super::{
-    contract::Effect,
-    surface::{Placement, Surface},
-};
-use crate::{
-    mpm::{
-        algebra::Vector, boundary::Side, grid::Grid, kernel::contract::Kernel, particles::Particles,
-    },
-    subject::Column,
-};
+use super::contract::Effect;
+use super::surface::{Placement, Surface};
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::Side;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// A traction (Pa, per reference area) as a function of the place in the reference configuration
 /// and of time.
@@ -77,7 +75,8 @@ impl<const D: usize> Effect<D> for Traction<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, Matrix, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Block, Matrix};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -1,14 +1,14 @@
 //! Batches of particles with their patches of nodes.
 
-use super::{inertia::inertia, moments::InertiaTensor};
-use crate::mpm::{
-    basis::{Basis, CellLocator, Patch, WeightNeeds},
-    grid::Grid,
-    packed_grid::Layout,
-    particles::Particles,
-    simd::{BATCH, LANES, Simd},
-};
-use std::{marker::PhantomData, ops::Range};
+use super::inertia::inertia;
+use super::moments::InertiaTensor;
+use crate::mpm::basis::{Basis, CellLocator, Patch, WeightNeeds};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::Layout;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, LANES, Simd};
+use std::marker::PhantomData;
+use std::ops::Range;
 
 /// Batch of patches of basis `B`.
 pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Batch;

@@ -8,15 +8,13 @@
 //! The cuts depend on the particles only, not on the number of threads, and so do the bits. A small
 //! scene, or one whose particles are in no spatial order, is one block.
 
-use crate::mpm::{
-    algebra::Matrix,
-    basis::{Basis, Domain},
-    grid::Grid,
-    packed_grid::{MARGIN, layers},
-    particles::Particles,
-    simd::BATCH,
-    threads::RowChunks,
-};
+use crate::mpm::algebra::Matrix;
+use crate::mpm::basis::{Basis, Domain};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::{MARGIN, layers};
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::BATCH;
+use crate::mpm::threads::RowChunks;
 use std::ops::Range;
 
 /// Fewest particles of a scene that is cut into blocks: smaller ones stay in the cache as they are.

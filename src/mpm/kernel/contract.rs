@@ -2,17 +2,13 @@
 //!
 //! [`Kernel`] is object-safe: one virtual call per pass, none per particle.
 
-use super::{
-    moments::Moments,
-    request::{Divergence, G2pRequest, P2gRequest, ParticleField},
-    scalar_contract::Scalars,
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    basis::Domain,
-    grid::Grid,
-    particles::Particles,
-};
+use super::moments::Moments;
+use super::request::{Divergence, G2pRequest, P2gRequest, ParticleField};
+use super::scalar_contract::Scalars;
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::basis::Domain;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {

@@ -1,20 +1,15 @@
 //! Kernel that counts its passes. The parts of one pass are counted one by one.
 
-use super::{
-    contract::Kernel,
-    moments::Moments,
-    request::{G2pRequest, P2gRequest, ParticleField},
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    basis::Domain,
-    grid::Grid,
-    particles::Particles,
-};
-use std::sync::{
-    Arc,
-    atomic::{AtomicU64, Ordering::Relaxed},
-};
+use super::contract::Kernel;
+use super::moments::Moments;
+use super::request::{G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::basis::Domain;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
+use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// Particles visited by each kind of pass.
 #[derive(Debug, Default)]

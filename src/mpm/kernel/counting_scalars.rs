@@ -1,7 +1,10 @@
 //! Counted passes of scalars.
 
-use super::{counting::Counted, scalar_contract::Scalars};
-use crate::mpm::{algebra::Vector, grid::Grid, particles::Particles};
+use super::counting::Counted;
+use super::scalar_contract::Scalars;
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
 
 impl<const D: usize> Scalars<D> for Counted<D> {
     fn p2g_scalar(

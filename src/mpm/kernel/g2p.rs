@@ -1,18 +1,15 @@
 //! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
 
-use super::{
-    batch::{ALL, Batch, ParticleBatches},
-    request::G2pRequest,
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    basis::{Basis, PatchBatch, WeightNeeds},
-    grid::Grid,
-    packed_grid::FieldView,
-    particles::Particles,
-    simd::{BATCH, F64x4, LANES, Simd, SimdPass, components},
-};
-use std::{marker::PhantomData, ops::Range};
+use super::batch::{ALL, Batch, ParticleBatches};
+use super::request::G2pRequest;
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::FieldView;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, F64x4, LANES, Simd, SimdPass, components};
+use std::marker::PhantomData;
+use std::ops::Range;
 
 /// Pass of G2P over two packed fields, velocities and accelerations, or over one that holds both
 /// ([`are_beside`]).

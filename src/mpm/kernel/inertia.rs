@@ -1,12 +1,10 @@
 //! Moments of the weights of one particle.
 
 use super::moments::InertiaTensor;
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    basis::{Basis, Patch, WeightMoments},
-    grid::Grid,
-    particles::Particles,
-};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::basis::{Basis, Patch, WeightMoments};
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
 
 /// Mean and second moments of the weights of particle `p`, from all its patches.
 #[inline(always)]

@@ -2,23 +2,18 @@
 //! passes of one part each, all processor levels have the same bits, and the sums are those of the
 //! textbook loops ([`reference`]).
 
-use super::{
-    Loops,
-    contract::Kernel,
-    g2p::Gather,
-    p2g::Scatter,
-    reference,
-    request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
-    workspace::pack,
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    basis::{Basis, BasisName, with_basis},
-    grid::Grid,
-    packed_grid::{Columns, FieldViewMut, PackedField},
-    particles::{Block, Particles},
-    simd::{Plain, SimdPass, lower_levels, run_at},
-};
+use super::contract::Kernel;
+use super::g2p::Gather;
+use super::p2g::Scatter;
+use super::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use super::workspace::pack;
+use super::{Loops, reference};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::basis::{Basis, BasisName, with_basis};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedField};
+use crate::mpm::particles::{Block, Particles};
+use crate::mpm::simd::{Plain, SimdPass, lower_levels, run_at};
 use approx::assert_relative_eq;
 use fearless_simd::Level;
 use rstest::rstest;

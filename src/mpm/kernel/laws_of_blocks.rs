@@ -1,18 +1,14 @@
 //! Laws of blocks of particles: passes have the same bits on any number of threads, and the sums of
 //! one block up to rounding.
 
-use super::{
-    Loops,
-    colouring::CHUNKS,
-    contract::Kernel,
-    request::{Affine, G2pRequest, P2gRequest, ParticleField},
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    basis::{Basis, BasisName, Domain, with_basis},
-    grid::Grid,
-    particles::{Block, Particles},
-};
+use super::Loops;
+use super::colouring::CHUNKS;
+use super::contract::Kernel;
+use super::request::{Affine, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::basis::{Basis, BasisName, Domain, with_basis};
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::{Block, Particles};
 use approx::assert_relative_eq;
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;

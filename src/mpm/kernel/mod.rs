@@ -41,23 +41,20 @@ mod reference;
 mod scalar_loops;
 mod workspace;
 
-use self::{inertia::inertia, workspace::Workspace};
-use super::{
-    algebra::{Matrix, Vector},
-    basis::{Basis, BasisName, Domain, with_basis},
-    grid::Grid,
-    packed_grid::Columns,
-    particles::Particles,
-};
+use self::inertia::inertia;
+use self::workspace::Workspace;
+use super::algebra::{Matrix, Vector};
+use super::basis::{Basis, BasisName, Domain, with_basis};
+use super::grid::Grid;
+use super::packed_grid::Columns;
+use super::particles::Particles;
 use crate::dimension::with_dimension;
 use contract::Kernel;
 use moments::{InertiaTensor, Moments};
 use request::{G2pRequest, P2gRequest, ParticleField};
-use std::{
-    any::Any,
-    marker::PhantomData,
-    sync::{Mutex, MutexGuard, PoisonError},
-};
+use std::any::Any;
+use std::marker::PhantomData;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Kernel of the basis with this name.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {

@@ -1,12 +1,8 @@
 //! Moments of the weights of a particle, needed by affine transfers.
 
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector, dyad},
-        basis::WeightMoments,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::{Matrix, Vector, dyad};
+use crate::mpm::basis::WeightMoments;
+use crate::subject::Column;
 
 /// Smallest second moment, as a share of h^2. Below it is rounding: along that axis all weight is
 /// on one node, as for a particle on a node of the linear basis.

@@ -1,19 +1,16 @@
 //! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
 
-use super::{
-    batch::{Batch, ParticleBatches},
-    moments::InertiaTensor,
-    request::{Affine, Divergence, P2gRequest},
-};
-use crate::mpm::{
-    algebra::{Matrix, Vector, array},
-    basis::{Basis, NodeTerm, PatchBatch, WeightNeeds},
-    grid::Grid,
-    packed_grid::FieldViewMut,
-    particles::Particles,
-    simd::{BATCH, LANES, Simd, SimdPass},
-};
-use std::{marker::PhantomData, ops::Range};
+use super::batch::{Batch, ParticleBatches};
+use super::moments::InertiaTensor;
+use super::request::{Affine, Divergence, P2gRequest};
+use crate::mpm::algebra::{Matrix, Vector, array};
+use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::FieldViewMut;
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, LANES, Simd, SimdPass};
+use std::marker::PhantomData;
+use std::ops::Range;
 
 /// Pass of P2G to two packed fields: momentum with mass in the last lane, and force; or to one
 /// field that holds all ([`has_one_field`]).

@@ -1,10 +1,8 @@
 //! Particles of G2P split among threads.
 
 use super::request::G2pRequest;
-use crate::mpm::{
-    simd::BATCH,
-    threads::{join, split},
-};
+use crate::mpm::simd::BATCH;
+use crate::mpm::threads::{join, split};
 use std::ops::Range;
 
 /// Most particles for one thread.

@@ -5,11 +5,9 @@
 //! block adds are unpacked at once, while they are in the cache.
 
 use super::colouring::ParticleBlock;
-use crate::mpm::{
-    grid::Grid,
-    packed_grid::{Columns, FieldViewMut, layers},
-    threads::join,
-};
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::{Columns, FieldViewMut, layers};
+use crate::mpm::threads::join;
 use std::ops::Range;
 
 /// Target of P2G: two packed fields, and the columns to which they are unpacked.

@@ -14,12 +14,10 @@
 //! laws hold the fast loops to these sums. Compiled for tests only: a user has no reason to run the
 //! slow loops, and a reader finds here what the fast ones compute.
 
-use crate::mpm::{
-    algebra::{Matrix, Vector, dyad},
-    basis::Basis,
-    grid::Grid,
-    particles::Particles,
-};
+use crate::mpm::algebra::{Matrix, Vector, dyad};
+use crate::mpm::basis::Basis;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
 
 /// Sums of P2G, one entry for each node.
 pub(super) struct NodeSums<const D: usize> {

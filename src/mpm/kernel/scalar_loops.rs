@@ -1,7 +1,11 @@
 //! Loops of P2G and G2P for scalars.
 
-use super::{Loops, scalar_contract::Scalars};
-use crate::mpm::{algebra::Vector, basis::Basis, grid::Grid, particles::Particles};
+use super::Loops;
+use super::scalar_contract::Scalars;
+use crate::mpm::algebra::Vector;
+use crate::mpm::basis::Basis;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
 
 impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
     fn p2g_scalar(

@@ -1,21 +1,17 @@
 //! P2G and G2P on threads, and the memory that they keep.
 
-use super::{
-    colouring::{Blocks, ParticleBlock},
-    g2p::{Gather, are_beside},
-    p2g::{Scatter, has_one_field},
-    par_split::par_split,
-    parallel::{Target, two_colour_schedule},
-    request::{G2pRequest, P2gRequest},
-};
-use crate::mpm::{
-    algebra::Vector,
-    basis::Basis,
-    grid::Grid,
-    packed_grid::{Columns, FieldViewMut, PackedField},
-    particles::Particles,
-    simd,
-};
+use super::colouring::{Blocks, ParticleBlock};
+use super::g2p::{Gather, are_beside};
+use super::p2g::{Scatter, has_one_field};
+use super::par_split::par_split;
+use super::parallel::{Target, two_colour_schedule};
+use super::request::{G2pRequest, P2gRequest};
+use crate::mpm::algebra::Vector;
+use crate::mpm::basis::Basis;
+use crate::mpm::grid::Grid;
+use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedField};
+use crate::mpm::particles::Particles;
+use crate::mpm::simd;
 use std::marker::PhantomData;
 
 /// Memory of a pass besides particles and grid.

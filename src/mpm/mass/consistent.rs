@@ -7,14 +7,14 @@
 //! patterns of the matrix and of its factor are found anew only if particles have come to other
 //! nodes.
 
-use super::{assembly::Assembly, contract::MassMatrix};
-use crate::{
-    mpm::{
-        algebra::Vector, boundary::Boundary, grid::Grid, kernel::contract::Kernel,
-        particles::Particles,
-    },
-    subject::Failure,
-};
+use super::assembly::Assembly;
+use super::contract::MassMatrix;
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::Boundary;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Failure;
 use nalgebra::DVector;
 use nalgebra_sparse::factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky};
 

@@ -1,12 +1,11 @@
 //! Contract of a mass matrix with the rest of the solver.
 
-use crate::{
-    mpm::{
-        algebra::Vector, boundary::Boundary, grid::Grid, kernel::contract::Kernel,
-        particles::Particles,
-    },
-    subject::Failure,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::Boundary;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Failure;
 
 /// Turns nodal momenta into velocities, and forces into accelerations.
 pub trait MassMatrix<const D: usize>: Send + Sync {

@@ -3,13 +3,12 @@
 //! Second order at best, whatever the degree of the basis.
 
 use super::contract::MassMatrix;
-use crate::{
-    mpm::{
-        algebra::Vector, boundary::Boundary, grid::Grid, kernel::contract::Kernel,
-        particles::Particles,
-    },
-    subject::Failure,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::Boundary;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Failure;
 
 /// The mass matrix of the original MPM.
 #[derive(Debug, Clone, Copy)]

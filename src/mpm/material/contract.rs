@@ -2,10 +2,8 @@
 
 #[cfg(test)]
 use crate::mpm::algebra::Matrix;
-use crate::{
-    mpm::particles::Particles,
-    subject::{Checkpoint, Column},
-};
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column};
 
 /// Properties of a law that decide what may be stated of its bodies.
 pub trait MaterialProperties {

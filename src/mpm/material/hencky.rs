@@ -5,15 +5,11 @@
 //! `W = lambda/2 tr(eps)^2 + mu eps : eps`. Fewer than three dimensions mean plane or uniaxial
 //! strain.
 
-use super::{
-    contract::{Material, MaterialProperties},
-    linear_elastic::LinearElastic,
-    spectral::{assembled, half_log, spectral},
-};
-use crate::mpm::{
-    algebra::{Matrix, det},
-    particles::Particles,
-};
+use super::contract::{Material, MaterialProperties};
+use super::linear_elastic::LinearElastic;
+use super::spectral::{assembled, half_log, spectral};
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
 
 /// Hencky elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,18 +8,12 @@
 //!
 //! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
 
-use super::{
-    contract::{Material, MaterialProperties},
-    linear_elastic::LinearElastic,
-    spectral::{assembled, half_log, spectral},
-};
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector, det},
-        particles::Particles,
-    },
-    subject::{Checkpoint, Column, Memory},
-};
+use super::contract::{Material, MaterialProperties};
+use super::linear_elastic::LinearElastic;
+use super::spectral::{assembled, half_log, spectral};
+use crate::mpm::algebra::{Matrix, Vector, det};
+use crate::mpm::particles::Particles;
+use crate::subject::{Checkpoint, Column, Memory};
 
 /// Isotropic elasto-plasticity with linear hardening.
 #[derive(Debug, Clone, PartialEq)]
@@ -178,13 +172,9 @@ impl super::contract::ClosedForms for J2 {
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        super::{
-            MaterialPlan,
-            specimen::{SLOW, Specimen, diagonal},
-        },
-        LinearElastic,
-    };
+    use super::super::MaterialPlan;
+    use super::super::specimen::{SLOW, Specimen, diagonal};
+    use super::LinearElastic;
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -1,10 +1,8 @@
 //! The laws that every registered material is held to, in 1-D, 2-D and 3-D. Where materials differ,
 //! each says so in its properties and closed forms.
 
-use super::{
-    MaterialPlan, POISSON, YIELD,
-    specimen::{FAST, SLOW, Specimen, every, scattered, stress},
-};
+use super::specimen::{FAST, SLOW, Specimen, every, scattered, stress};
+use super::{MaterialPlan, POISSON, YIELD};
 use crate::mpm::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 

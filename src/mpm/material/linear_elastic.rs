@@ -10,10 +10,8 @@
 //! for small rotations only, in more than one dimension.
 
 use super::contract::{Material, MaterialProperties};
-use crate::mpm::{
-    algebra::{Matrix, det},
-    particles::Particles,
-};
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
 
 /// Isotropic linear elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,7 +117,8 @@ impl super::contract::ClosedForms for LinearElastic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{algebra::Vector, particles::Block};
+    use crate::mpm::algebra::Vector;
+    use crate::mpm::particles::Block;
     use approx::assert_relative_eq;
 
     fn one_particle<const D: usize>() -> Particles<D> {

@@ -4,14 +4,10 @@
 //! 2015). Nothing is integrated in time but F. Fewer than three dimensions mean plane or uniaxial
 //! strain.
 
-use super::{
-    contract::{Material, MaterialProperties},
-    linear_elastic::LinearElastic,
-};
-use crate::mpm::{
-    algebra::{Matrix, det},
-    particles::Particles,
-};
+use super::contract::{Material, MaterialProperties};
+use super::linear_elastic::LinearElastic;
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
 
 /// Compressible neo-Hookean elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,10 +93,8 @@ impl super::contract::ClosedForms for NeoHookean {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{
-        MaterialPlan,
-        specimen::{SLOW, Specimen, scattered},
-    };
+    use super::super::MaterialPlan;
+    use super::super::specimen::{SLOW, Specimen, scattered};
     use super::*;
     use approx::assert_relative_eq;
 

@@ -10,10 +10,8 @@
 //! grows without limit in a flow, and is not kept.
 
 use super::contract::{Material, MaterialProperties};
-use crate::mpm::{
-    algebra::{Matrix, det},
-    particles::Particles,
-};
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
 
 /// A viscous fluid, weakly compressible.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,10 +88,8 @@ impl super::contract::ClosedForms for Newtonian {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{
-        MaterialPlan,
-        specimen::{FAST, Specimen},
-    };
+    use super::super::MaterialPlan;
+    use super::super::specimen::{FAST, Specimen};
     use super::*;
     use approx::assert_abs_diff_eq;
 

@@ -1,13 +1,9 @@
 //! One particle of each registered material, for the tests of the family.
 
 use super::{Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector},
-        particles::{Block, Particles},
-    },
-    subject::Checkpoint,
-};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::particles::{Block, Particles};
+use crate::subject::Checkpoint;
 
 /// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
 /// Powers of two, so that velocity gradients times the step are exact.

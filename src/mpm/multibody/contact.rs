@@ -17,14 +17,16 @@
 //! them. Velocities that strain the bodies before or after are corrected likewise, for the strain
 //! alone.
 
-use super::{coupling::Coupling, interface::InterfaceNodes};
-use crate::{
-    mpm::{
-        algebra::Vector, boundary::contact_state::ContactState, grid::Grid,
-        schedule::CouplingPoint, scheme::SchemeName, setup::Setup, solver::Solver,
-    },
-    subject::{Checkpoint, Column},
-};
+use super::coupling::Coupling;
+use super::interface::InterfaceNodes;
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::contact_state::ContactState;
+use crate::mpm::grid::Grid;
+use crate::mpm::schedule::CouplingPoint;
+use crate::mpm::scheme::SchemeName;
+use crate::mpm::setup::Setup;
+use crate::mpm::solver::Solver;
+use crate::subject::{Checkpoint, Column};
 
 /// Contact between all bodies of a scene.
 pub(in crate::mpm) struct Contact<const D: usize> {

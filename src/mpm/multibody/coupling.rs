@@ -1,9 +1,8 @@
 //! Contract of a coupling of bodies with their steps.
 
-use crate::{
-    mpm::{schedule::CouplingPoint, solver::Solver},
-    subject::{Checkpoint, Column},
-};
+use crate::mpm::schedule::CouplingPoint;
+use crate::mpm::solver::Solver;
+use crate::subject::{Checkpoint, Column};
 
 /// Coupling of two or more bodies at the nodes of their interface.
 pub(in crate::mpm) trait Coupling<const D: usize>: Send {

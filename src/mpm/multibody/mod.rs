@@ -19,11 +19,9 @@ mod profile;
 mod shared_velocity;
 mod state;
 
-use super::{
-    schedule::{Coupled, Pass, StepSchedule},
-    setup::Setup,
-    solver::Solver,
-};
+use super::schedule::{Coupled, Pass, StepSchedule};
+use super::setup::Setup;
+use super::solver::Solver;
 use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals};
 use contact::Contact;
 use coupling::Coupling;

@@ -3,11 +3,13 @@
 //!
 //! Momentum is that of all bodies together, and no body can slide along another or leave it.
 
-use super::{coupling::Coupling, interface::InterfaceNodes};
-use crate::{
-    mpm::{algebra::Vector, grid::Grid, schedule::CouplingPoint, solver::Solver},
-    subject::Column,
-};
+use super::coupling::Coupling;
+use super::interface::InterfaceNodes;
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::schedule::CouplingPoint;
+use crate::mpm::solver::Solver;
+use crate::subject::Column;
 
 /// One velocity field for all bodies.
 pub(in crate::mpm) struct SharedVelocity(InterfaceNodes);

@@ -21,7 +21,9 @@ mod view;
 pub(in crate::mpm) use columns::{Columns, layers};
 pub(in crate::mpm) use view::{FieldView, FieldViewMut, Layout, MARGIN, PackedNode};
 
-use super::{algebra::Vector, grid::Grid, threads::RowChunks};
+use super::algebra::Vector;
+use super::grid::Grid;
+use super::threads::RowChunks;
 
 /// Most nodes for one thread.
 const FEW: usize = 1 << 14;

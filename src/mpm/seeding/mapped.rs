@@ -7,10 +7,8 @@
 //! map is. The volumes then add up to that of the body, and middles of outer faces of domains lie
 //! on those of the body.
 
-use crate::mpm::{
-    algebra::{Matrix, Vector, det},
-    particles::{Block, Particles},
-};
+use crate::mpm::algebra::{Matrix, Vector, det};
+use crate::mpm::particles::{Block, Particles};
 
 impl<const D: usize> Particles<D> {
     /// Fills a mapped box of density `density` (kg/m^D) with `counts` particles along its axes.

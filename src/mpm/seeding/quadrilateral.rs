@@ -1,10 +1,8 @@
 //! Panels with four straight sides, filled with particles by the bilinear map of the unit square,
 //! `x = sum_c M_c(s) x_c` with the hats M_c of the corners.
 
-use crate::mpm::{
-    algebra::{Matrix, Vector, det},
-    particles::Particles,
-};
+use crate::mpm::algebra::{Matrix, Vector, det};
+use crate::mpm::particles::Particles;
 
 /// A panel in the plane: its corners (m), counter-clockwise, each side turning to the left of the
 /// one before; the first is where the side begins that runs along X most.

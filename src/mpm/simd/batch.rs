@@ -1,9 +1,7 @@
 //! Columns of one batch of particles in memory.
 
-use super::{
-    f64x4::{F64x4, LANES},
-    level::Simd,
-};
+use super::f64x4::{F64x4, LANES};
+use super::level::Simd;
 use crate::mpm::algebra::{Vector, array};
 use std::ops::Range;
 

@@ -1,9 +1,7 @@
 //! Processor levels, each with its register.
 
-use super::{
-    f64x4::{F64x4, LANES},
-    plain::{Array, Plain},
-};
+use super::f64x4::{F64x4, LANES};
+use super::plain::{Array, Plain};
 
 /// Token of a processor level, proof that its registers exist.
 pub trait Simd: Copy {

@@ -4,10 +4,12 @@
 //! positions are computed anew in each step.
 
 use super::perturbation::affine_state_mut;
-use crate::{
-    mpm::{algebra::Vector, boundary::Advance, particles::Particles, setup::Setup, solver::Solver},
-    subject::{Checkpoint, Memory},
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::Advance;
+use crate::mpm::particles::Particles;
+use crate::mpm::setup::Setup;
+use crate::mpm::solver::Solver;
+use crate::subject::{Checkpoint, Memory};
 use nalgebra::SMatrix;
 
 /// Vectors and matrices, column after column.

@@ -4,13 +4,9 @@
 //! fixed or has no mass: each quantity is checked where it is computed, so that the
 //! failure names the particle it began at.
 
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector},
-        particles::Particles,
-    },
-    subject::{Failure, Site},
-};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::particles::Particles;
+use crate::subject::{Failure, Site};
 
 impl<const D: usize> Particles<D> {
     /// Names the first particle of which any number is not finite: before the first step.

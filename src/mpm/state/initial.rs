@@ -3,10 +3,11 @@
 //! A body may start deformed ([`Particles::deform`]): stress and volume then follow from F by the
 //! material, and domains from F by the basis, as they would have had the body been brought there.
 
-use crate::{
-    mpm::{basis::Domain, kernel::contract::Kernel, material::Material, particles::Particles},
-    subject::{Failure, Site},
-};
+use crate::mpm::basis::Domain;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::material::Material;
+use crate::mpm::particles::Particles;
+use crate::subject::{Failure, Site};
 
 /// Adds the columns that `kernel` and `material` read and completes the state; returns the
 /// smallest J.
@@ -49,7 +50,8 @@ pub(in crate::mpm) fn complete<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, LinearElastic, Matrix, NeoHookean, Vector, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Block, LinearElastic, Matrix, NeoHookean, Vector};
     use approx::assert_relative_eq;
     use rstest::rstest;
 

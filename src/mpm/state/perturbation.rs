@@ -4,17 +4,13 @@
 //! state of the transfer. The grid keeps nothing from step to step. State of a material alone
 //! (plastic flow) is left out, and positions and domains are the configuration.
 
-use crate::{
-    mpm::{
-        algebra::Matrix,
-        kernel::request::{Affine, G2pRequest},
-        particles::Particles,
-        schedule::{Coupled, StepSchedule},
-        solver::Solver,
-        transfer::Transfer,
-    },
-    subject::Perturbable,
-};
+use crate::mpm::algebra::Matrix;
+use crate::mpm::kernel::request::{Affine, G2pRequest};
+use crate::mpm::particles::Particles;
+use crate::mpm::schedule::{Coupled, StepSchedule};
+use crate::mpm::solver::Solver;
+use crate::mpm::transfer::Transfer;
+use crate::subject::Perturbable;
 
 /// The columns of matrices of the particles, in their order in the state.
 fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &Matrix<D>> {

@@ -1,6 +1,7 @@
 //! Samples of the particles for the verification.
 
-use crate::{mpm::particles::Particles, subject::Samples};
+use crate::mpm::particles::Particles;
+use crate::subject::Samples;
 
 impl<const D: usize> Particles<D> {
     /// Appends the state at the reference positions; F only if its column exists.
@@ -29,10 +30,8 @@ impl<const D: usize> Particles<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{
-        algebra::{Matrix, Vector},
-        particles::Block,
-    };
+    use crate::mpm::algebra::{Matrix, Vector};
+    use crate::mpm::particles::Block;
 
     #[test]
     fn tensors_are_written_row_after_row() {

@@ -7,19 +7,13 @@
 //! state C = B D^-1 would lose angular momentum.
 
 use super::contract::{Transfer, TransferKind};
-use crate::{
-    mpm::{
-        algebra::Matrix,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            moments::Moments,
-            request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
-        },
-        particles::Particles,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::Matrix;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::moments::Moments;
+use crate::mpm::kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// Affine particle in cell.
 #[derive(Debug, Clone, Default)]

@@ -1,19 +1,13 @@
 //! Contract of a transfer with the rest of the solver.
 
-use crate::{
-    mpm::{
-        algebra::{Matrix, Vector},
-        boundary::Boundary,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            request::{Divergence, G2pRequest, P2gRequest, ParticleField},
-        },
-        particles::Particles,
-        stage::Stage,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::boundary::Boundary;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::{Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::particles::Particles;
+use crate::mpm::stage::Stage;
+use crate::subject::Column;
 
 /// Kind of a transfer, which decides the methods that it combines with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,19 +6,13 @@
 //! take the grid's velocity. FMPM(1) is PIC.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
-use crate::{
-    mpm::{
-        algebra::Vector,
-        boundary::Boundary,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            request::{G2pRequest, ParticleField},
-        },
-        particles::Particles,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::boundary::Boundary;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::{G2pRequest, ParticleField};
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// Full-mass-matrix MPM of order k.
 #[derive(Debug, Clone)]

@@ -3,22 +3,14 @@
 //! `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - x_p) N_i` and `grad v_p = C_p = B_p D_p^-1` (Hu et
 //! al. 2018, eqs 17-18): grad N_i is not needed.
 
-use super::{
-    apic::Apic,
-    contract::{Transfer, TransferKind},
-};
-use crate::{
-    mpm::{
-        algebra::Matrix,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            request::{Divergence, G2pRequest, P2gRequest},
-        },
-        particles::Particles,
-    },
-    subject::Column,
-};
+use super::apic::Apic;
+use super::contract::{Transfer, TransferKind};
+use crate::mpm::algebra::Matrix;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::{Divergence, G2pRequest, P2gRequest};
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// Moving least squares MPM.
 #[derive(Debug, Clone, Default)]

@@ -1,16 +1,12 @@
 //! Passes of G2P for the request of a transfer.
 
 use super::contract::Transfer;
-use crate::mpm::{
-    algebra::{Matrix, Vector},
-    grid::Grid,
-    kernel::{
-        contract::Kernel,
-        request::{Divergence, G2pRequest},
-    },
-    particles::Particles,
-    stage::Stage,
-};
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::{Divergence, G2pRequest};
+use crate::mpm::particles::Particles;
+use crate::mpm::stage::Stage;
 
 /// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and
 /// positions after the step into `advected` (m). One pass, and another one for gradients where the

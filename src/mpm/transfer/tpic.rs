@@ -5,20 +5,14 @@
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
 use super::contract::{Transfer, TransferKind, p2g};
-use crate::{
-    mpm::{
-        algebra::Matrix,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            moments::Moments,
-            request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField},
-        },
-        particles::Particles,
-        stage::Stage,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::Matrix;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::moments::Moments;
+use crate::mpm::kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::particles::Particles;
+use crate::mpm::stage::Stage;
+use crate::subject::Column;
 
 /// Taylor particle in cell.
 #[derive(Debug, Clone, Default)]

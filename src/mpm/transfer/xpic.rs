@@ -7,18 +7,12 @@
 //! through the accelerations.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
-use crate::{
-    mpm::{
-        algebra::Vector,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            request::{G2pRequest, ParticleField},
-        },
-        particles::Particles,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::{G2pRequest, ParticleField};
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// Extended particle in cell of order m.
 #[derive(Debug, Clone)]

@@ -1,6 +1,7 @@
 //! A column, declared once for all forms of a table.
 
-use super::{Cell, cell::Text};
+use super::Cell;
+use super::cell::Text;
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 

@@ -1,10 +1,8 @@
 //! Columns of the levels of a convergence study.
 
 use super::{Cell, TableColumn, decimals, json_object, scientific};
-use crate::{
-    report::json::number::number,
-    verify::{Axis, Conserved, Convergence, History, Interval, LevelOutcome, Norms},
-};
+use crate::report::json::number::number;
+use crate::verify::{Axis, Conserved, Convergence, History, Interval, LevelOutcome, Norms};
 use serde_json::Value;
 
 /// A level of a study.

@@ -1,11 +1,9 @@
 //! Columns of a stability study.
 
 use super::{Cell, TableColumn, json_object, scientific};
-use crate::{
-    report::json::number::number,
-    verify::{
-        Critical, Prediction, RunFigure, StabilityLimit, StabilityRow, StabilityStudy, Trial,
-    },
+use crate::report::json::number::number;
+use crate::verify::{
+    Critical, Prediction, RunFigure, StabilityLimit, StabilityRow, StabilityStudy, Trial,
 };
 use serde_json::{Value, json};
 

@@ -1,11 +1,9 @@
 //! Columns of the levels of a suite that has been timed.
 
 use super::{Cell, TableColumn, short};
-use crate::{
-    report::json::number::number,
-    subject::{Column as MemoryColumn, Holder, Profile},
-    verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload},
-};
+use crate::report::json::number::number;
+use crate::subject::{Column as MemoryColumn, Holder, Profile};
+use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};
 
 /// A level of a case, with its work and time.

@@ -1,11 +1,9 @@
 //! Errors and work of two series of levels, level by level.
 
-use super::{
-    changes::{ErrorMove, ratio_moved},
-    document::{CaseDocument, JudgeDocument, LevelDocument},
-    equal_error::ErrorAndWork,
-    number::JsonNumber,
-};
+use super::changes::{ErrorMove, ratio_moved};
+use super::document::{CaseDocument, JudgeDocument, LevelDocument};
+use super::equal_error::ErrorAndWork;
+use super::number::JsonNumber;
 use crate::verify::Quantity;
 
 /// Largest relative difference of two spacings that are the same.

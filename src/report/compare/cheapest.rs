@@ -3,11 +3,9 @@
 //! Documents list under `cost` what each method takes for each target of its problem; those without
 //! that key are not compared in this respect.
 
-use super::{
-    changes::{CheapestMove, ratio_moved},
-    document::{RankingDocument, ReportDocument},
-    number::JsonNumber,
-};
+use super::changes::{CheapestMove, ratio_moved};
+use super::document::{RankingDocument, ReportDocument};
+use super::number::JsonNumber;
 
 /// Targets whose least work moved, the more expensive first; a target that no method reaches any
 /// more before all.

@@ -3,10 +3,8 @@
 //! One line says what happened; what got worse is open to the eye, the rest is folded. Every text
 //! comes from a file and is escaped: it can be no markup, mention nobody and end no table.
 
-use super::{
-    changes::{CheapestMove, Moved, Rank, ReportComparison},
-    row::{cases, notes, targets},
-};
+use super::changes::{CheapestMove, Moved, Rank, ReportComparison};
+use super::row::{cases, notes, targets};
 use crate::report::columns::TableColumn;
 
 /// Most rows of a table: a comment may have 65536 characters.

@@ -1,13 +1,9 @@
 //! Cases of two runs, paired, ranked and sorted.
 
-use super::{
-    accuracy,
-    changes::{Moved, Rank, ReportComparison, ratio_moved},
-    cheapest,
-    document::{CaseDocument, ReportDocument, name},
-    equal_error, stability,
-    stability::StabilityMove,
-};
+use super::changes::{Moved, Rank, ReportComparison, ratio_moved};
+use super::document::{CaseDocument, ReportDocument, name};
+use super::stability::StabilityMove;
+use super::{accuracy, cheapest, equal_error, stability};
 use std::collections::BTreeMap;
 
 /// See [`compare`](super::compare()).

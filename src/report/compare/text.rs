@@ -1,9 +1,7 @@
 //! A comparison as aligned text.
 
-use super::{
-    changes::{Rank, ReportComparison},
-    row::{cases, notes, targets},
-};
+use super::changes::{Rank, ReportComparison};
+use super::row::{cases, notes, targets};
 use crate::report::text::table::{Table, printable};
 
 /// A line that says what happened, then a table for each rank.

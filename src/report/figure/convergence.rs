@@ -1,18 +1,14 @@
 //! The convergence plot: error against cell size, both axes logarithmic.
 
-use super::{
-    plot::{
-        frame::{Plot, Titles},
-        legend::{Legend, PlacedLegend},
-        scale::{Pad, Scale},
-        space::{Rect, Space},
-        svg::{Pt, SvgElement},
-        triangle,
-        triangle::Triangle,
-    },
-    series,
-    series::{FailedLevel, PlotSeries, SeriesLine},
-};
+use super::plot::frame::{Plot, Titles};
+use super::plot::legend::{Legend, PlacedLegend};
+use super::plot::scale::{Pad, Scale};
+use super::plot::space::{Rect, Space};
+use super::plot::svg::{Pt, SvgElement};
+use super::plot::triangle;
+use super::plot::triangle::Triangle;
+use super::series;
+use super::series::{FailedLevel, PlotSeries, SeriesLine};
 
 /// A log-log plot of errors against the cell size.
 #[derive(Clone, Debug, PartialEq)]

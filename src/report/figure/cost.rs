@@ -1,6 +1,7 @@
 //! Work-precision diagrams of a ranking.
 
-use super::{Mark, PlotPoint, PlotSeries, WorkPrecision, drawing::Figure};
+use super::drawing::Figure;
+use super::{Mark, PlotPoint, PlotSeries, WorkPrecision};
 use crate::verify::{Ranked, Ranking, Sample, pareto_front};
 use std::ops::Range;
 

@@ -1,16 +1,13 @@
 //! The history plot: curves over linear axes, such as a velocity over time.
 
-use super::plot::{
-    frame::{Plot, Titles},
-    legend::{KEY, Legend, LegendEntry},
-    marker,
-    marker::{Fill, RADIUS},
-    scale::{Pad, Scale},
-    space::Space,
-    style::{EXACT, Look, look},
-    svg::{Pt, SvgElement},
-    thinning,
-};
+use super::plot::frame::{Plot, Titles};
+use super::plot::legend::{KEY, Legend, LegendEntry};
+use super::plot::marker::{Fill, RADIUS};
+use super::plot::scale::{Pad, Scale};
+use super::plot::space::Space;
+use super::plot::style::{EXACT, Look, look};
+use super::plot::svg::{Pt, SvgElement};
+use super::plot::{marker, thinning};
 
 /// Curves over linear axes.
 #[derive(Clone, Debug, PartialEq)]

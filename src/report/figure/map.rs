@@ -4,11 +4,9 @@
 //! light in steps of equal lightness and survive grey print. A gap parts rows whose names begin
 //! otherwise.
 
-use super::plot::{
-    style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE},
-    svg::{SvgElement, number},
-    text,
-};
+use super::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE};
+use super::plot::svg::{SvgElement, number};
+use super::plot::text;
 
 /// A table of numbers over coloured fields.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,16 +1,12 @@
 //! A series of the convergence plot: its line, its failed levels, and what the legend says.
 
-use super::{
-    levels::{Mark, PlotLevel, PlotPoint, levels},
-    plot::{
-        frame::Plot,
-        legend::{KEY, LegendEntry},
-        marker,
-        marker::Fill,
-        style::{CONTEXT, HEIGHT, Look, MarkerShape, NEUTRAL, look},
-        svg::{Pt, SvgElement},
-    },
-};
+use super::levels::{Mark, PlotLevel, PlotPoint, levels};
+use super::plot::frame::Plot;
+use super::plot::legend::{KEY, LegendEntry};
+use super::plot::marker;
+use super::plot::marker::Fill;
+use super::plot::style::{CONTEXT, HEIGHT, Look, MarkerShape, NEUTRAL, look};
+use super::plot::svg::{Pt, SvgElement};
 
 /// The errors of one quantity over all levels.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,9 @@
 //! The figures of convergence and internal-force studies.
 
-use super::{ConvergencePlot, Curve, HistoryPlot, Mark, PlotPoint, PlotSeries, drawing::Figure};
-use crate::{
-    subject::Totals,
-    verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict},
-};
+use super::drawing::Figure;
+use super::{ConvergencePlot, Curve, HistoryPlot, Mark, PlotPoint, PlotSeries};
+use crate::subject::Totals;
+use crate::verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict};
 
 /// Most curves in one plot: a reader cannot tell more apart.
 const MOST_SERIES: usize = 6;

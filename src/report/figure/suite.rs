@@ -1,10 +1,10 @@
 //! The figures of a suite.
 
-use super::{cost, drawing::Figure};
-use crate::{
-    report::{study::KINDS, text::cost::by_transfers},
-    verify::SuiteOutcome,
-};
+use super::cost;
+use super::drawing::Figure;
+use crate::report::study::KINDS;
+use crate::report::text::cost::by_transfers;
+use crate::verify::SuiteOutcome;
 
 /// Every figure of a suite: those of its kind of study, and error against work.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {

@@ -1,10 +1,8 @@
 //! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
 
 use super::{Curve, HistoryPlot, Map, MapField};
-use crate::{
-    report::text::stability::merged,
-    verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome},
-};
+use crate::report::text::stability::merged;
+use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Values from which on they make curves.
 const CURVES: usize = 5;

@@ -1,17 +1,13 @@
 //! The work-precision diagram: error against work, both axes logarithmic.
 
-use super::{
-    plot::{
-        frame::{Plot, Titles},
-        legend::{KEY, Legend, LegendEntry},
-        scale::{Pad, Scale},
-        space::Space,
-        style::{CONTEXT, FRONT},
-        svg::{Pt, SvgElement},
-    },
-    series,
-    series::{FailedLevel, PlotSeries, SeriesLine},
-};
+use super::plot::frame::{Plot, Titles};
+use super::plot::legend::{KEY, Legend, LegendEntry};
+use super::plot::scale::{Pad, Scale};
+use super::plot::space::Space;
+use super::plot::style::{CONTEXT, FRONT};
+use super::plot::svg::{Pt, SvgElement};
+use super::series;
+use super::series::{FailedLevel, PlotSeries, SeriesLine};
 use crate::report::page::dark_theme::with_dark_colours;
 
 /// A log-log plot of errors against the work that they take; `h` of the points is the work.

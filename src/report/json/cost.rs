@@ -1,10 +1,9 @@
 //! Rankings by cost as JSON, see [`crate::report::json()`].
 
 use super::number::number;
-use crate::{
-    report::columns::{cost::json_columns, json_object},
-    verify::Ranking,
-};
+use crate::report::columns::cost::json_columns;
+use crate::report::columns::json_object;
+use crate::verify::Ranking;
 use serde_json::{Value, json};
 
 /// One entry for each problem; `work` is its unit.

@@ -52,14 +52,11 @@
 //! lists those of rows.
 
 use super::cost;
-use crate::{
-    report::{
-        study::{KINDS, kind::members},
-        text::cost::by_transfers,
-    },
-    subject::{Column, Holder, Profile},
-    verify::{CaseOutcome, SuiteOutcome},
-};
+use crate::report::study::KINDS;
+use crate::report::study::kind::members;
+use crate::report::text::cost::by_transfers;
+use crate::subject::{Column, Holder, Profile};
+use crate::verify::{CaseOutcome, SuiteOutcome};
 use serde_json::{Value, json};
 
 /// The document for `outcomes`, indented, with a newline at its end.

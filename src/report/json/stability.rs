@@ -1,9 +1,8 @@
 //! Stability studies in the JSON document.
 
-use crate::{
-    report::columns::{json_object, stability::json_columns},
-    verify::StabilityStudy,
-};
+use crate::report::columns::json_object;
+use crate::report::columns::stability::json_columns;
+use crate::verify::StabilityStudy;
 use serde_json::{Value, json};
 
 /// The rows of a study.

@@ -16,15 +16,12 @@
 //! over at least: those of a particle times particle updates. `cost` is that of reports. `bid` is
 //! what came of a budget; then there is nothing else.
 
-use super::{cost::rankings, number::number};
-use crate::{
-    report::columns::{
-        cost::{model, models},
-        json_object,
-        timed_level::{json_columns, rows, timing},
-    },
-    verify::{BestCandidate, CaseOutcome, Machine, TimedSuite},
-};
+use super::cost::rankings;
+use super::number::number;
+use crate::report::columns::cost::{model, models};
+use crate::report::columns::json_object;
+use crate::report::columns::timed_level::{json_columns, rows, timing};
+use crate::verify::{BestCandidate, CaseOutcome, Machine, TimedSuite};
 use serde_json::{Value, json};
 
 /// The document, indented, with a newline at its end. A suite has either been priced or bid for.

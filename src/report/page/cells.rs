@@ -4,7 +4,8 @@
 //! no figure and goes last, whichever way.
 
 use super::html::Html;
-use crate::{report::columns::scientific, verify::CaseOutcome};
+use crate::report::columns::scientific;
+use crate::verify::CaseOutcome;
 
 /// A region that scrolls by itself where it is wider than the screen; by keyboard too.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {

@@ -1,7 +1,9 @@
 //! The figures of a suite: whatever [`svg`](crate::report::svg()) draws.
 
-use super::{html::Html, inline};
-use crate::{report::svg, verify::SuiteOutcome};
+use super::html::Html;
+use super::inline;
+use crate::report::svg;
+use crate::verify::SuiteOutcome;
 
 /// All figures; nothing where there are none.
 pub(super) fn figures(outcome: &SuiteOutcome) -> Option<Html> {

@@ -1,17 +1,12 @@
 //! Section of a suite: text, verdicts, figures, the whole report, and the file itself.
 
-use super::{
-    cells,
-    cells::scrolled,
-    figure_list,
-    html::Html,
-    links::{case_id, case_link, id},
-    source::SuiteSource,
-};
-use crate::{
-    report::text,
-    verify::{CaseOutcome, SuiteOutcome},
-};
+use super::cells::scrolled;
+use super::html::Html;
+use super::links::{case_id, case_link, id};
+use super::source::SuiteSource;
+use super::{cells, figure_list};
+use crate::report::text;
+use crate::verify::{CaseOutcome, SuiteOutcome};
 
 /// The section of a suite.
 pub(super) fn section(source: &SuiteSource<'_>) -> Html {

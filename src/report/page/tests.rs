@@ -1,8 +1,6 @@
 use super::*;
-use crate::{
-    report::{svg, text},
-    verify::{ForceRow, InternalForce, SuiteOutcome},
-};
+use crate::report::{svg, text};
+use crate::verify::{ForceRow, InternalForce, SuiteOutcome};
 use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";

@@ -1,11 +1,9 @@
 //! The table of all verdicts.
 
-use super::{
-    cells::{figures, result, scrolled},
-    html::Html,
-    links::{case_link, id},
-    source::SuiteSource,
-};
+use super::cells::{figures, result, scrolled};
+use super::html::Html;
+use super::links::{case_link, id};
+use super::source::SuiteSource;
 use crate::verify::CaseOutcome;
 
 /// Heads, and whether what stands below are numbers.

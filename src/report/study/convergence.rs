@@ -1,17 +1,14 @@
 //! Convergence studies in reports.
 
 use super::kind::{StudyReport, members};
-use crate::{
-    report::{
-        columns::{json_object, level},
-        figure::{drawing::Figure, study},
-        json::number::number,
-        text::{levels, prose::row},
-    },
-    verify::{
-        Axis, CaseOutcome, Convergence, Floor, FloorCause, Interval, LevelOutcome, Probe,
-        SuiteOutcome,
-    },
+use crate::report::columns::{json_object, level};
+use crate::report::figure::drawing::Figure;
+use crate::report::figure::study;
+use crate::report::json::number::number;
+use crate::report::text::levels;
+use crate::report::text::prose::row;
+use crate::verify::{
+    Axis, CaseOutcome, Convergence, Floor, FloorCause, Interval, LevelOutcome, Probe, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 

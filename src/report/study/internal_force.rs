@@ -1,14 +1,11 @@
 //! Internal-force studies in reports.
 
 use super::kind::{StudyReport, members};
-use crate::{
-    report::{
-        columns::{force, json_object},
-        figure::{drawing::Figure, study},
-        text::table::Table,
-    },
-    verify::{CaseOutcome, InternalForce, SuiteOutcome},
-};
+use crate::report::columns::{force, json_object};
+use crate::report::figure::drawing::Figure;
+use crate::report::figure::study;
+use crate::report::text::table::Table;
+use crate::verify::{CaseOutcome, InternalForce, SuiteOutcome};
 use serde_json::{Map, Value, json};
 
 /// Shows [`InternalForce`].

@@ -1,9 +1,7 @@
 //! The interface of a kind of study in reports.
 
-use crate::{
-    report::figure::drawing::Figure,
-    verify::{CaseOutcome, SuiteOutcome},
-};
+use crate::report::figure::drawing::Figure;
+use crate::verify::{CaseOutcome, SuiteOutcome};
 use serde_json::{Map, Value};
 
 /// How the results of one kind of study are shown; cases of other kinds add nothing.

@@ -5,10 +5,10 @@ pub(crate) mod internal_force;
 pub(crate) mod kind;
 pub(crate) mod stability;
 
-use self::{
-    convergence::ConvergenceReport, internal_force::InternalForceReport, kind::StudyReport,
-    stability::StabilityReport,
-};
+use self::convergence::ConvergenceReport;
+use self::internal_force::InternalForceReport;
+use self::kind::StudyReport;
+use self::stability::StabilityReport;
 
 /// Every kind of study.
 pub(crate) const KINDS: [&dyn StudyReport; 3] =

@@ -1,14 +1,11 @@
 //! Stability studies in reports.
 
 use super::kind::{StudyReport, members};
-use crate::{
-    report::{
-        figure::{drawing::Figure, sweep},
-        json::stability::study,
-        text::stability,
-    },
-    verify::{CaseOutcome, SuiteOutcome},
-};
+use crate::report::figure::drawing::Figure;
+use crate::report::figure::sweep;
+use crate::report::json::stability::study;
+use crate::report::text::stability;
+use crate::verify::{CaseOutcome, SuiteOutcome};
 use serde_json::{Map, Value, json};
 
 /// Shows [`StabilityStudy`](crate::verify::StabilityStudy).

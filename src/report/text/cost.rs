@@ -3,10 +3,8 @@
 //! In snapshots work is counted in particle-node transfers, which are the same on every machine.
 
 use super::table::Table;
-use crate::{
-    report::columns::{cost as columns, short},
-    verify::{CaseOutcome, LevelOutcome, Ranking, SuiteOutcome, rankings},
-};
+use crate::report::columns::{cost as columns, short};
+use crate::verify::{CaseOutcome, LevelOutcome, Ranking, SuiteOutcome, rankings};
 
 /// The unit of work that is counted.
 pub(crate) const TRANSFERS: &str = "particle-node transfers";

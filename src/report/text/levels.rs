@@ -1,10 +1,8 @@
 //! Tables of levels: errors and their cost.
 
 use super::table::Table;
-use crate::{
-    report::columns::{TableColumn, decimals, level, scientific},
-    verify::{Convergence, Richardson},
-};
+use crate::report::columns::{TableColumn, decimals, level, scientific};
+use crate::verify::{Convergence, Richardson};
 
 /// Errors, work, drifts and Richardson's extrapolation, level by level.
 pub(crate) fn tables(lines: &mut Vec<String>, study: &Convergence) {

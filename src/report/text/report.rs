@@ -3,16 +3,13 @@
 //! Errors have four significant digits, orders two decimals; counters are exact. Nothing in it
 //! depends on the machine.
 
-use super::{
-    cost,
-    profile::profile,
-    prose::{paragraph_lines, row},
-    table::Table,
-};
-use crate::{
-    report::{columns::TableColumn, study::KINDS},
-    verify::{CaseOutcome, Interval, SuiteOutcome},
-};
+use super::cost;
+use super::profile::profile;
+use super::prose::{paragraph_lines, row};
+use super::table::Table;
+use crate::report::columns::TableColumn;
+use crate::report::study::KINDS;
+use crate::verify::{CaseOutcome, Interval, SuiteOutcome};
 
 /// The whole report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {

@@ -1,13 +1,9 @@
 //! Tables of a stability study.
 
 use super::table::Table;
-use crate::{
-    report::{
-        columns::stability::{self, limit_of, limit_text},
-        figure::{Map, MapField},
-    },
-    verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial},
-};
+use crate::report::columns::stability::{self, limit_of, limit_text};
+use crate::report::figure::{Map, MapField};
+use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial};
 
 /// The studies of a suite that seek a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {

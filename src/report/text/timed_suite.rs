@@ -1,13 +1,9 @@
 //! Timed suites as text. Figures that depend on the machine are shown here and in no snapshot.
 
-use super::{
-    cost::{TRANSFERS, cost},
-    table::Table,
-};
-use crate::{
-    report::columns::{TableColumn, cost as columns, short, timed_level},
-    verify::{BestCandidate, Machine, Model, TimedSuite},
-};
+use super::cost::{TRANSFERS, cost};
+use super::table::Table;
+use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
+use crate::verify::{BestCandidate, Machine, Model, TimedSuite};
 
 /// The report of a suite whose levels have been timed. `varied` says that there are cases besides
 /// the suite's own, whose best splits are shown.

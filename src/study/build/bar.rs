@@ -1,22 +1,16 @@
 //! The FEM bar, from a plan: subject, and what references are made of.
 
 use super::initial_state::Initial;
-use crate::{
-    exact::{Condition, Forcing, Problem},
-    fem,
-    fem::{Bar, BarLaw, Sampling},
-    mpm::MaterialPlan,
-    subject::Start,
-    suite::{
-        grammar::EquationName,
-        model::{
-            ConvergencePlan, ReferencePlan, Scene,
-            grid_size::cell_size,
-            load::{LoadTarget, SceneLoad},
-            method::Method,
-        },
-    },
-};
+use crate::exact::{Condition, Forcing, Problem};
+use crate::fem;
+use crate::fem::{Bar, BarLaw, Sampling};
+use crate::mpm::MaterialPlan;
+use crate::subject::Start;
+use crate::suite::grammar::EquationName;
+use crate::suite::model::grid_size::cell_size;
+use crate::suite::model::load::{LoadTarget, SceneLoad};
+use crate::suite::model::method::Method;
+use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
 use std::sync::Arc;
 
 /// The FEM bar of `method`; also what references are made of.
@@ -118,11 +112,9 @@ pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        exact::Equation,
-        mpm::{Block, Matrix, Particles, Vector},
-        suite::compile::truth::law,
-    };
+    use crate::exact::Equation;
+    use crate::mpm::{Block, Matrix, Particles, Vector};
+    use crate::suite::compile::truth::law;
     use approx::assert_relative_eq;
     use rstest::rstest;
 

@@ -1,12 +1,8 @@
 //! Boundary conditions, from the model to the solver.
 
-use crate::{
-    mpm::{BasisName, Boundary, Fixed, Friction, Grid, Prescribed, Roller, Side},
-    suite::{
-        compile::load::fields::of_place_and_time,
-        model::{BoundaryCondition, Scene, SceneFace},
-    },
-};
+use crate::mpm::{BasisName, Boundary, Fixed, Friction, Grid, Prescribed, Roller, Side};
+use crate::suite::compile::load::fields::of_place_and_time;
+use crate::suite::model::{BoundaryCondition, Scene, SceneFace};
 
 /// Which end of its axis a face is.
 fn side(face: &SceneFace) -> Side {

@@ -1,15 +1,13 @@
 //! Names become types: the only place that knows every family.
 
-use super::{
-    bar::bar,
-    setup::{Body, conductor, plain, setup},
-};
-use crate::{
-    dimension::with_dimension,
-    mpm::{BasisName, Bodies, Counted, Kernel, Setup, Solver, Tally, Vector},
-    subject::{Failure, Perturbable, Profile, Subject},
-    suite::model::{ConvergencePlan, method::Method, refine_plan::LevelPlan},
-};
+use super::bar::bar;
+use super::setup::{Body, conductor, plain, setup};
+use crate::dimension::with_dimension;
+use crate::mpm::{BasisName, Bodies, Counted, Kernel, Setup, Solver, Tally, Vector};
+use crate::subject::{Failure, Perturbable, Profile, Subject};
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
 use std::sync::Arc;
 
 /// Builds the subject of `method` for one level.

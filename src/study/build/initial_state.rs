@@ -4,11 +4,10 @@
 //! of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise it is what the
 //! scene states, and where it states nothing the body is at rest and undeformed.
 
-use crate::{
-    exact::{Derivatives, Motion, formula::Formula},
-    mpm::{Matrix, Particles, Vector},
-    suite::model::{ConvergencePlan, Scene},
-};
+use crate::exact::formula::Formula;
+use crate::exact::{Derivatives, Motion};
+use crate::mpm::{Matrix, Particles, Vector};
+use crate::suite::model::{ConvergencePlan, Scene};
 
 /// An initial state.
 pub(crate) struct Initial {

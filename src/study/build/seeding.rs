@@ -1,9 +1,9 @@
 //! Bodies filled with particles, see [`lattice`](crate::suite::model::lattice).
 
-use crate::{
-    mpm::{Particles, Vector},
-    suite::model::{Scene, lattice::block, stability::LatticeEdits},
-};
+use crate::mpm::{Particles, Vector};
+use crate::suite::model::Scene;
+use crate::suite::model::lattice::block;
+use crate::suite::model::stability::LatticeEdits;
 
 /// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
 pub(crate) fn particles<const D: usize>(

@@ -1,24 +1,19 @@
 //! From the model to what the solver of one body is made of, in any number of dimensions.
 
-use super::{
-    conditions::{boundary, periodic},
-    initial_state::Initial,
-    seeding,
+use super::conditions::{boundary, periodic};
+use super::initial_state::Initial;
+use super::seeding;
+use crate::exact::heat::Conduction;
+use crate::exact::{Forcing, Problem};
+use crate::mpm::{
+    BasisName, BodyForce, Effect, Grid, HeatSolver, Kernel, Particles, Setup, Vector, kernel,
 };
-use crate::{
-    exact::{Forcing, Problem, heat::Conduction},
-    mpm::{
-        BasisName, BodyForce, Effect, Grid, HeatSolver, Kernel, Particles, Setup, Vector, kernel,
-    },
-    suite::model::{
-        ConvergencePlan, Scene,
-        grid_size::{cell_size, grid_axis, per_axis},
-        load::{self, BodySite, LoadTarget, SceneLoad},
-        method::Method,
-        refine_plan::LevelPlan,
-        stability::LatticeEdits,
-    },
-};
+use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::model::load::{self, BodySite, LoadTarget, SceneLoad};
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::stability::LatticeEdits;
+use crate::suite::model::{ConvergencePlan, Scene};
 use std::sync::Arc;
 
 /// A body at the start of a run.

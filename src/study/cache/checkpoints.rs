@@ -6,13 +6,12 @@
 //! ended.
 
 use super::log::CacheLog;
-use crate::{suite::model::fingerprint::fingerprint, verify::CheckpointStore};
-use std::{
-    fs,
-    io::ErrorKind,
-    path::{Path, PathBuf},
-    time::{Duration, Instant},
-};
+use crate::suite::model::fingerprint::fingerprint;
+use crate::verify::CheckpointStore;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// Keeps the state of one level.
 pub(crate) struct LevelKeeper<'a> {

@@ -1,9 +1,7 @@
 //! Thread-safe log of the result cache, drained once at the end.
 
-use std::{
-    fmt::Display,
-    sync::{Mutex, MutexGuard, PoisonError},
-};
+use std::fmt::Display;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The first error, and lines that say what was done.
 #[derive(Debug, Default)]

@@ -7,20 +7,16 @@
 //! uninterrupted one prints, byte by byte. A file is written whole or not at all: under another
 //! name first.
 
-use super::{checkpoints::LevelKeeper, log::CacheLog};
-use crate::{
-    suite::{
-        model::fingerprint::fingerprint,
-        yaml::{read_again, written},
-    },
-    verify::CheckpointStore,
-};
-use serde::{Serialize, de::DeserializeOwned};
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-    time::Duration,
-};
+use super::checkpoints::LevelKeeper;
+use super::log::CacheLog;
+use crate::suite::model::fingerprint::fingerprint;
+use crate::suite::yaml::{read_again, written};
+use crate::verify::CheckpointStore;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use std::{fs, io};
 
 /// A folder of finished levels, and of states of running ones.
 #[derive(Debug)]
@@ -103,10 +99,8 @@ fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        subject::{RunCounters, Totals},
-        verify::{ConservationError, History, Interval, Norms, RunResult},
-    };
+    use crate::subject::{RunCounters, Totals};
+    use crate::verify::{ConservationError, History, Interval, Norms, RunResult};
     use proptest::prelude::*;
 
     fn some(x: f64, failure: Option<String>) -> RunResult {

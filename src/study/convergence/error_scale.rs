@@ -1,10 +1,8 @@
 //! Scales of the errors and of the work of a case.
 
-use crate::{
-    exact::Truth,
-    suite::model::{Against, Case, ConvergencePlan},
-    verify::{Axis, ErrorScale},
-};
+use crate::exact::Truth;
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::verify::{Axis, ErrorScale};
 
 /// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D, and in 3-D, where
 /// it has many points. Even numbers, so that the middle is a point.

@@ -1,12 +1,11 @@
 //! The order that theory gives a case along the axis that is refined.
 
-use crate::{
-    exact::Problem,
-    mpm::SchemeName,
-    subject::Start,
-    suite::model::{Case, ConvergencePlan, method::Method},
-    verify::Axis,
-};
+use crate::exact::Problem;
+use crate::mpm::SchemeName;
+use crate::subject::Start;
+use crate::suite::model::method::Method;
+use crate::suite::model::{Case, ConvergencePlan};
+use crate::verify::Axis;
 
 /// Order of the midpoint rule. Particles are the quadrature points of the weak form, but theory
 /// gives no order for them in general: integrands jump where a basis does, and the midpoint rule

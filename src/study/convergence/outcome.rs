@@ -1,19 +1,16 @@
 //! From levels that have run to the outcome of a case.
 
-use super::{formal_order::formal_order, statement};
-use crate::{
-    study::describe::profiles,
-    suite::{
-        compile::truth::conservation_only,
-        grammar::NormName,
-        model::{Against, Case, ConvergencePlan},
-    },
-    verify,
-    verify::{
-        Axis, CaseFindings, CaseOutcome, ConservationError, Convergence, ErrorScale, Expectation,
-        Floor, Interval, Judgement, LevelOutcome, Measured, OrderHypothesis, Richardson, RunResult,
-        Verdict, judge, larger,
-    },
+use super::formal_order::formal_order;
+use super::statement;
+use crate::study::describe::profiles;
+use crate::suite::compile::truth::conservation_only;
+use crate::suite::grammar::NormName;
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::verify;
+use crate::verify::{
+    Axis, CaseFindings, CaseOutcome, ConservationError, Convergence, ErrorScale, Expectation,
+    Floor, Interval, Judgement, LevelOutcome, Measured, OrderHypothesis, Richardson, RunResult,
+    Verdict, judge, larger,
 };
 use std::sync::Arc;
 
@@ -219,10 +216,8 @@ pub(crate) fn refused(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        subject::RunCounters,
-        verify::{Limits, Norms},
-    };
+    use crate::subject::RunCounters;
+    use crate::verify::{Limits, Norms};
 
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let counters = RunCounters {

@@ -1,12 +1,9 @@
 //! The finest level once more, with the spacing of another axis halved: whose error is the floor?
 
-use crate::{
-    suite::{
-        compile::check::size,
-        model::{Against, Case, ConvergencePlan, refine_plan::LevelPlan},
-    },
-    verify::{Axis, Expectation, Floor, Judgement, LevelOutcome, Probe, Verdict},
-};
+use crate::suite::compile::check::size;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::verify::{Axis, Expectation, Floor, Judgement, LevelOutcome, Probe, Verdict};
 use rayon::prelude::*;
 
 /// Effect of halving the axes that are not refined on the error of the finest level that counts.

@@ -1,13 +1,12 @@
 //! A truth that is computed: FEM on a mesh much finer than any level.
 
-use crate::{
-    exact::Truth,
-    fem::Bar,
-    study::build::bar::{bar, reference_method},
-    subject::Subject,
-    suite::model::{ConvergencePlan, grid_size::cell_size},
-    verify::Clock,
-};
+use crate::exact::Truth;
+use crate::fem::Bar;
+use crate::study::build::bar::{bar, reference_method};
+use crate::subject::Subject;
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::grid_size::cell_size;
+use crate::verify::Clock;
 
 /// Displacement and velocity of a fine bar, kept at every instant of the study. Only asked at
 /// instants, so nothing is interpolated in time.

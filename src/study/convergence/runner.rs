@@ -1,34 +1,25 @@
 //! Running a convergence study: every level of every case, judged.
 
-use super::{
-    error_scale::error_scale,
-    outcome::{error_of, judge_levels, judged, refused},
-    probe,
-    reference::Reference,
-    small_step_reference::FineSteps,
-    stable_step::StableSteps,
-    statement,
-};
-use crate::{
-    exact::{Problem, Truth},
-    study::{
-        build::dispatch::subject,
-        describe::{profiles, profiles::Dispensable, statement::Rows},
-        kind::{CaseRunner, Progress, RunContext, Study},
-    },
-    subject::Profile,
-    suite::{
-        compile::truth::conservation_only::Unknown,
-        grammar::CrossingLevels,
-        model::{
-            Against, Case, ConvergencePlan,
-            refine_plan::{Extent, LevelPlan},
-        },
-    },
-    verify,
-    verify::{
-        Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, RunResult,
-    },
+use super::error_scale::error_scale;
+use super::outcome::{error_of, judge_levels, judged, refused};
+use super::reference::Reference;
+use super::small_step_reference::FineSteps;
+use super::stable_step::StableSteps;
+use super::{probe, statement};
+use crate::exact::{Problem, Truth};
+use crate::study::build::dispatch::subject;
+use crate::study::describe::profiles;
+use crate::study::describe::profiles::Dispensable;
+use crate::study::describe::statement::Rows;
+use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::subject::Profile;
+use crate::suite::compile::truth::conservation_only::Unknown;
+use crate::suite::grammar::CrossingLevels;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::verify;
+use crate::verify::{
+    Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, RunResult,
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -196,10 +187,8 @@ fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: RunResult) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        study::cache::checkpoints::Interruption,
-        suite::{Suite, embedded},
-    };
+    use crate::study::cache::checkpoints::Interruption;
+    use crate::suite::{Suite, embedded};
     use rstest::rstest;
 
     const CONTEXT: RunContext<'static> =

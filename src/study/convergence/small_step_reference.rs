@@ -5,13 +5,12 @@
 //! limit is the larger one and would hide it. Whether the limit is right is left to the exact
 //! solution. Methods that filter the velocity in every step (PIC and its kin) have no such limit.
 
-use crate::{
-    exact::Truth,
-    study::build::dispatch::subject,
-    subject::{Samples, Start},
-    suite::model::{Case, ConvergencePlan, method::Method},
-    verify::Clock,
-};
+use crate::exact::Truth;
+use crate::study::build::dispatch::subject;
+use crate::subject::{Samples, Start};
+use crate::suite::model::method::Method;
+use crate::suite::model::{Case, ConvergencePlan};
+use crate::verify::Clock;
 use std::cmp::Ordering;
 
 /// Displacement and velocity of every label of a method at every instant.

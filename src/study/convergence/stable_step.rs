@@ -6,20 +6,14 @@
 //! and orders mean something. Where linear particles move, later steps may have shorter limits
 //! (`tiny-nodal-mass`): the share is for these.
 
-use crate::{
-    study::build::dispatch,
-    suite::model::{
-        Case, ConvergencePlan,
-        method::Method,
-        refine_plan::{Extent, LevelPlan},
-    },
-    verify::Clock,
-};
+use crate::study::build::dispatch;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Case, ConvergencePlan};
+use crate::verify::Clock;
 use rayon::prelude::*;
-use std::{
-    collections::BTreeMap,
-    sync::{Mutex, PoisonError},
-};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// Rounds of the prediction that a rule takes its step from.
 pub(crate) const ROUNDS: u32 = 40;

@@ -1,20 +1,13 @@
 //! A convergence study in rows of name and value.
 
-use crate::{
-    study::describe::{
-        amplitude::amplitude,
-        heat,
-        statement::{Rows, push, scene},
-    },
-    suite::{
-        compile::{truth::conservation_only, wording::shown},
-        model::{
-            Against, Case, ConvergencePlan,
-            refine_plan::{LevelPlan, RefinePlan},
-        },
-    },
-    verify::Axis,
-};
+use crate::study::describe::amplitude::amplitude;
+use crate::study::describe::heat;
+use crate::study::describe::statement::{Rows, push, scene};
+use crate::suite::compile::truth::conservation_only;
+use crate::suite::compile::wording::shown;
+use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::verify::Axis;
 
 /// Rows of the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {

@@ -5,21 +5,13 @@
 //! the suite lists. The best one is then measured on ever finer grids, until one takes a twentieth
 //! of the budget; a cost model is fitted, the grid chosen, and run.
 
-use super::{
-    candidate::{Candidate, candidate},
-    measure::seconds,
-};
-use crate::{
-    study::runner::Runner,
-    suite::{
-        compile::check::size::too_large,
-        model::{
-            ConvergencePlan, Suite,
-            refine_plan::{Extent, LevelPlan},
-        },
-    },
-    verify::{Axis, BestCandidate, CaseOutcome, LevelOutcome, Model, Workload, rankings},
-};
+use super::candidate::{Candidate, candidate};
+use super::measure::seconds;
+use crate::study::runner::Runner;
+use crate::suite::compile::check::size::too_large;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{ConvergencePlan, Suite};
+use crate::verify::{Axis, BestCandidate, CaseOutcome, LevelOutcome, Model, Workload, rankings};
 use std::sync::Arc;
 
 /// The largest run that a model is fitted to takes this share of the budget at least, so that

@@ -1,15 +1,12 @@
 //! A method that may be chosen for a budget: what its levels would take, and give.
 
 use super::measure::{load, seconds};
-use crate::{
-    suite::{
-        compile::check::size::{nodes, too_large},
-        model::{Case, ConvergencePlan, refine_plan::LevelPlan},
-    },
-    verify::{
-        CaseOutcome, Clock, Convergence, End, Exponent, LevelOutcome, MethodCost, Model, Ranked,
-        Verdict, Workload,
-    },
+use crate::suite::compile::check::size::{nodes, too_large};
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{Case, ConvergencePlan};
+use crate::verify::{
+    CaseOutcome, Clock, Convergence, End, Exponent, LevelOutcome, MethodCost, Model, Ranked,
+    Verdict, Workload,
 };
 
 /// How many times finer than all levels that have run an order is trusted.

@@ -1,11 +1,10 @@
 //! The coarsest level of each method that reaches an error: what a benchmark of accuracy times.
 
 use super::measure::seconds;
-use crate::{
-    study::runner::Runner,
-    suite::model::{Case, ConvergencePlan, Suite, refine_plan::LevelPlan},
-    verify::{CaseOutcome, LevelOutcome, Ranked, rankings},
-};
+use crate::study::runner::Runner;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{Case, ConvergencePlan, Suite};
+use crate::verify::{CaseOutcome, LevelOutcome, Ranked, rankings};
 
 /// A level that reaches an error, run by one thread.
 #[derive(Debug)]

@@ -2,7 +2,9 @@
 
 use crate::verify::{Machine, Timing};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::{hint::black_box, sync::LazyLock, time::Instant};
+use std::hint::black_box;
+use std::sync::LazyLock;
+use std::time::Instant;
 
 /// Rounds of the loop: about a millisecond.
 const ROUNDS: u32 = 250_000;

@@ -6,17 +6,12 @@
 //! processes had the core does not count, where the system tells it.
 
 use super::machine::{LoadMonitor, Observed, alone};
-use crate::{
-    study::{build::dispatch::subject, runner::Runner},
-    suite::{
-        compile::check::size::nodes,
-        model::{
-            Case, ConvergencePlan, Suite,
-            refine_plan::{Extent, LevelPlan},
-        },
-    },
-    verify::{CaseOutcome, Clock, LevelOutcome, TimedSuite, Timing, Workload},
-};
+use crate::study::build::dispatch::subject;
+use crate::study::runner::Runner;
+use crate::suite::compile::check::size::nodes;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Case, ConvergencePlan, Suite};
+use crate::verify::{CaseOutcome, Clock, LevelOutcome, TimedSuite, Timing, Workload};
 
 /// Fewest repeats, and the time (s) that they must fill.
 const FEWEST: usize = 5;

@@ -1,12 +1,11 @@
 //! A suite with other settings than its own: particles per cell, time steps, bases.
 
-use crate::{
-    mpm::{BasisName, combine, combine_bodies},
-    named::named,
-    suite::model::{
-        Case, ConvergencePlan, Suite, grid_size::per_axis, method::Method, refine_plan::LevelPlan,
-    },
-};
+use crate::mpm::{BasisName, combine, combine_bodies};
+use crate::named::named;
+use crate::suite::model::grid_size::per_axis;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{Case, ConvergencePlan, Suite};
 use std::sync::Arc;
 
 named! {

@@ -1,6 +1,7 @@
 //! The stated temperature, in rows of name and value.
 
-use crate::{exact::heat::Conduction, suite::model::ConvergencePlan};
+use crate::exact::heat::Conduction;
+use crate::suite::model::ConvergencePlan;
 
 /// The temperature that is stated.
 pub(crate) fn truth(plan: &ConvergencePlan) -> Vec<(String, String)> {

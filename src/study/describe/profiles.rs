@@ -1,13 +1,9 @@
 //! Cost profile of a step of a case, with all effects of its scene and without one of them.
 
-use crate::{
-    study::build::dispatch,
-    subject::Profile,
-    suite::{
-        EffectName,
-        model::{Case, ConvergencePlan, Scene},
-    },
-};
+use crate::study::build::dispatch;
+use crate::subject::Profile;
+use crate::suite::EffectName;
+use crate::suite::model::{Case, ConvergencePlan, Scene};
 
 /// A part that a scene may do without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

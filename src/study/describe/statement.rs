@@ -1,12 +1,9 @@
 //! The statement of a problem in rows of name and value, for reports and `explain`.
 
-use crate::{
-    mpm::{MaterialParameter, MaterialPlan},
-    suite::{
-        compile::load::fields::sources,
-        model::{BoundaryCondition, Scene, Suite, load::LoadTarget},
-    },
-};
+use crate::mpm::{MaterialParameter, MaterialPlan};
+use crate::suite::compile::load::fields::sources;
+use crate::suite::model::load::LoadTarget;
+use crate::suite::model::{BoundaryCondition, Scene, Suite};
 
 /// Parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {

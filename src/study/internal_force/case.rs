@@ -1,17 +1,11 @@
 //! The internal-force study: the force at every position, judged.
 
-use crate::{
-    study::{
-        describe::statement::{Rows, push},
-        kind::{CaseRunner, Progress, RunContext, Study},
-    },
-    suite::{
-        compile::internal_force,
-        model::{ForceCase, ForceExpectation, ForcePlan},
-    },
-    verify,
-    verify::{CaseOutcome, ForceRow, InternalForce},
-};
+use crate::study::describe::statement::{Rows, push};
+use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::suite::compile::internal_force;
+use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
+use crate::verify;
+use crate::verify::{CaseOutcome, ForceRow, InternalForce};
 use std::sync::Arc;
 
 impl Study for ForcePlan {

@@ -1,28 +1,18 @@
 //! One case of a stability study: runs, predictions and limits, row by row.
 
-use crate::{
-    exact::Random,
-    study::{
-        build::{
-            dispatch::{perturbable, stable_time_step_of},
-            initial_state::Initial,
-            setup::Body,
-        },
-        convergence::stable_step::ROUNDS,
-        kind::RunContext,
-    },
-    subject::{Perturbable, Subject},
-    suite::{
-        compile::stability::setup::{ParameterValues, RunSetup},
-        model::{
-            refine_plan::Extent,
-            stability::{StabilityCase, StabilityPlan},
-        },
-    },
-    verify::{
-        CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow,
-        Trial, amplification, resume_trial, spectral_radius, stability_limit,
-    },
+use crate::exact::Random;
+use crate::study::build::dispatch::{perturbable, stable_time_step_of};
+use crate::study::build::initial_state::Initial;
+use crate::study::build::setup::Body;
+use crate::study::convergence::stable_step::ROUNDS;
+use crate::study::kind::RunContext;
+use crate::subject::{Perturbable, Subject};
+use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
+use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::stability::{StabilityCase, StabilityPlan};
+use crate::verify::{
+    CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow, Trial,
+    amplification, resume_trial, spectral_radius, stability_limit,
 };
 
 /// Values at which a limit is looked for before the first unstable interval is halved.
@@ -202,11 +192,9 @@ fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        study::cache::checkpoints::Interruption,
-        suite::{Suite, embedded},
-        verify::NoCheckpoints,
-    };
+    use crate::study::cache::checkpoints::Interruption;
+    use crate::suite::{Suite, embedded};
+    use crate::verify::NoCheckpoints;
     use rstest::rstest;
 
     /// Runs that come to their end, and runs that fail by name; steps of two lengths.

@@ -1,14 +1,11 @@
 //! Running a stability study: every row of every case, and the outcome.
 
-use super::{run::CaseRun, statement};
-use crate::{
-    study::{
-        describe::statement::Rows,
-        kind::{CaseRunner, Progress, RunContext, Study},
-    },
-    suite::model::stability::StabilityPlan,
-    verify::{CaseOutcome, StabilityRow, StabilityStudy},
-};
+use super::run::CaseRun;
+use super::statement;
+use crate::study::describe::statement::Rows;
+use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::suite::model::stability::StabilityPlan;
+use crate::verify::{CaseOutcome, StabilityRow, StabilityStudy};
 use rayon::prelude::*;
 use std::sync::Arc;
 

@@ -1,12 +1,9 @@
 //! A stability study in rows of name and value.
 
-use crate::{
-    study::describe::statement::{Rows, push, scene},
-    suite::{
-        compile::{stability::setup::RunSetup, wording::shown},
-        model::stability::StabilityPlan,
-    },
-};
+use crate::study::describe::statement::{Rows, push, scene};
+use crate::suite::compile::stability::setup::RunSetup;
+use crate::suite::compile::wording::shown;
+use crate::suite::model::stability::StabilityPlan;
 
 /// Rows of the study, with the set-up of its first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {

@@ -1,11 +1,11 @@
 //! From what a file says to numbers and formulas, with the place of whatever is wrong.
 
-use super::{path::Path, wording::shown};
-use crate::{
-    exact::formula::{Expr, Formula, FormulaError, Scope},
-    suite::yaml::{Diagnostic, NumberText, Ordered, Source},
-};
-use std::{cell::RefCell, collections::BTreeSet};
+use super::path::Path;
+use super::wording::shown;
+use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 /// Largest count that a suite may ask for (cells, particles per cell, instants).
 const MOST: f64 = 1e7;

@@ -1,6 +1,7 @@
 //! Two ends, the lower one first.
 
-use super::{evaluator::Evaluator, path::Path};
+use super::evaluator::Evaluator;
+use super::path::Path;
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Two ends, the lower one first.

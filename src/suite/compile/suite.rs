@@ -1,29 +1,22 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
-use super::{
-    check::{fem_support, size, subject_support},
-    evaluator::{DeclaredParameter, Evaluator},
-    internal_force,
-    load::{LoadEntry, StudyFacts},
-    path::Path,
-    run::{cases, refine, steps},
-    scene::{rest, scene},
-    stability,
-    truth::{conservation_only, exact, law},
-    wording::shown,
+use super::check::{fem_support, size, subject_support};
+use super::evaluator::{DeclaredParameter, Evaluator};
+use super::load::{LoadEntry, StudyFacts};
+use super::path::Path;
+use super::run::{cases, refine, steps};
+use super::scene::{rest, scene};
+use super::truth::{conservation_only, exact, law};
+use super::wording::shown;
+use super::{internal_force, stability};
+use crate::suite::grammar::{
+    ConvergenceSpec, Head, InternalForceSpec, ObserveSpec, ReferenceSpec, StabilitySpec, StudyName,
 };
-use crate::suite::{
-    grammar::{
-        ConvergenceSpec, Head, InternalForceSpec, ObserveSpec, ReferenceSpec, StabilitySpec,
-        StudyName,
-    },
-    model::{
-        ConvergencePlan, ReferencePlan, Scene, Suite, fingerprint::fingerprint,
-        study_plan::StudyPlan,
-    },
-    yaml::{Diagnostic, Ordered, Source, read},
-};
+use crate::suite::model::fingerprint::fingerprint;
+use crate::suite::model::study_plan::StudyPlan;
+use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene, Suite};
+use crate::suite::yaml::{Diagnostic, Ordered, Source, read};
 use std::sync::Arc;
 
 /// Instants at which the error is taken unless a suite says otherwise.

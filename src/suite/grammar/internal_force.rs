@@ -1,10 +1,8 @@
 //! Keys of an internal-force study.
 
 use super::StudyName;
-use crate::{
-    mpm::BasisName,
-    suite::yaml::{NumberText, OneOrMany, Ordered},
-};
+use crate::mpm::BasisName;
+use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use serde::Deserialize;
 
 /// A study of the internal force.

@@ -27,13 +27,11 @@ pub use truth::EquationName;
 pub(crate) use truth::{ExactSpec, ManufacturedSpec};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
-use crate::{
-    fem::{Element, Mass, Sampling},
-    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
-    named::named,
-    subject::Start,
-    verify::{FloorCause, Quantity},
-};
+use crate::fem::{Element, Mass, Sampling};
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::named::named;
+use crate::subject::Start;
+use crate::verify::{FloorCause, Quantity};
 use serde::Deserialize;
 
 /// A convergence study.

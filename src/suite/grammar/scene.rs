@@ -1,12 +1,8 @@
 //! Keys of a scene.
 
-use crate::{
-    mpm::MaterialSpec,
-    suite::{
-        compile::load::LoadSpec,
-        yaml::{NumberText, Ordered},
-    },
-};
+use crate::mpm::MaterialSpec;
+use crate::suite::compile::load::LoadSpec;
+use crate::suite::yaml::{NumberText, Ordered};
 use serde::Deserialize;
 
 #[derive(Debug, Clone, Deserialize)]

@@ -1,10 +1,8 @@
 //! Keys of a stability study.
 
 use super::{MethodSpec, SceneSpec, StepSpec, StudyName};
-use crate::{
-    suite::yaml::{NumberText, OneOrMany, Ordered},
-    verify::Stability,
-};
+use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
+use crate::verify::Stability;
 use serde::Deserialize;
 
 /// A stability study.

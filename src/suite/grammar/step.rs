@@ -1,10 +1,8 @@
 //! A time step: a length, or a rule for it (`auto`, `{courant: 0.5}`).
 
 use crate::suite::yaml::NumberText;
-use serde::de::{
-    Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor,
-    value::MapAccessDeserializer,
-};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor};
 use std::fmt;
 
 /// Length of a step.

@@ -1,10 +1,9 @@
 //! Grammar of a transfer: a name, or a name with its parameter (`{fmpm: 8}`).
 
-use crate::{
-    mpm::{TransferChoice, TransferName, WithParameter},
-    suite::yaml::refuse,
-};
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor, value::StrDeserializer};
+use crate::mpm::{TransferChoice, TransferName, WithParameter};
+use crate::suite::yaml::refuse;
+use serde::de::value::StrDeserializer;
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
 impl<'de> Deserialize<'de> for TransferChoice {

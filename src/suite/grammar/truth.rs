@@ -1,7 +1,10 @@
 //! A truth that is given by formulas.
 
-use crate::{exact::Equation, fem::BarLaw, suite::yaml::NumberText};
-use serde::{Deserialize, Deserializer, de::Error as _};
+use crate::exact::Equation;
+use crate::fem::BarLaw;
+use crate::suite::yaml::NumberText;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 /// A solution, or the state in which the body comes to rest.
 #[derive(Debug, Clone, Deserialize)]

@@ -1,6 +1,7 @@
 //! Conduction of heat in a scene.
 
-use crate::exact::{formula::Formula, heat::HeatFace};
+use crate::exact::formula::Formula;
+use crate::exact::heat::HeatFace;
 
 /// Conduction of heat, with every number computed.
 #[derive(Debug, Clone)]

@@ -1,7 +1,8 @@
 //! An internal-force study whose every word has been checked.
 
 use super::study_plan::StudyPlan;
-use crate::{exact::formula::Formula, mpm::BasisName};
+use crate::exact::formula::Formula;
+use crate::mpm::BasisName;
 
 /// An internal-force study.
 #[derive(Debug, Clone)]

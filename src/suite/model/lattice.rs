@@ -6,11 +6,10 @@
 //! differ from those of the body by a share that falls with h. A quadrilateral is filled by its
 //! bilinear map, independent of the grid.
 
-use super::{Scene, grid_size::grid_axis};
-use crate::{
-    dimension::with_dimension,
-    mpm::{Block, Vector},
-};
+use super::Scene;
+use super::grid_size::grid_axis;
+use crate::dimension::with_dimension;
+use crate::mpm::{Block, Vector};
 
 /// The box that is filled: the body's own or, around a round body, whole cells of the grid that
 /// starts at `origin`.

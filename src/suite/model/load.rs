@@ -1,12 +1,12 @@
 //! Loads of a scene: the contract of the family, whose members stand in `suite/compile/load`.
 
 use super::heat::SceneHeat;
-use crate::{
-    dimension::{in_every_dimension, with_dimension},
-    exact::{Condition, Term, heat::Conduction},
-    mpm::{BasisName, Effect, Grid, Particles},
-};
-use std::{any::Any, sync::Arc};
+use crate::dimension::{in_every_dimension, with_dimension};
+use crate::exact::heat::Conduction;
+use crate::exact::{Condition, Term};
+use crate::mpm::{BasisName, Effect, Grid, Particles};
+use std::any::Any;
+use std::sync::Arc;
 
 /// Part of the scene that a load acts on. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,11 +1,9 @@
 //! The methods that a suite can put to the test.
 
-use crate::{
-    fem::{Element, Mass, Sampling},
-    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
-    subject::Start,
-    suite::grammar::EquationName,
-};
+use crate::fem::{Element, Mass, Sampling};
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::subject::Start;
+use crate::suite::grammar::EquationName;
 
 /// A subject, by the names of its parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

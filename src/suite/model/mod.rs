@@ -17,14 +17,17 @@ pub use boundary::BoundaryCondition;
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use scene::{Scene, SceneFace};
 
-use self::{method::Method, refine_plan::RefinePlan, study_plan::StudyPlan};
+use self::method::Method;
+use self::refine_plan::RefinePlan;
+use self::study_plan::StudyPlan;
 use super::grammar::{CrossingLevels, EquationName, NormName};
-use crate::{
-    exact::{Problem, formula::Formula, heat::Conduction},
-    fem::{Element, Mass},
-    verify::{Expectation, Quantity},
-};
-use std::{any::Any, sync::Arc};
+use crate::exact::Problem;
+use crate::exact::formula::Formula;
+use crate::exact::heat::Conduction;
+use crate::fem::{Element, Mass};
+use crate::verify::{Expectation, Quantity};
+use std::any::Any;
+use std::sync::Arc;
 
 /// A suite, ready to run.
 #[derive(Debug, Clone)]

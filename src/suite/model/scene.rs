@@ -1,14 +1,11 @@
 //! The body, what holds it and what acts on it.
 
-use super::{
-    boundary::BoundaryCondition,
-    heat::SceneHeat,
-    load::{LoadTarget, SceneLoad},
-};
-use crate::{
-    exact::{Region, Round, Term, formula::Formula},
-    mpm::{MaterialPlan, Quadrilateral},
-};
+use super::boundary::BoundaryCondition;
+use super::heat::SceneHeat;
+use super::load::{LoadTarget, SceneLoad};
+use crate::exact::formula::Formula;
+use crate::exact::{Region, Round, Term};
+use crate::mpm::{MaterialPlan, Quadrilateral};
 use std::sync::Arc;
 
 /// The body and what acts on it.

@@ -1,10 +1,10 @@
 //! A stability study whose every word has been checked.
 
-use super::{method::Method, study_plan::StudyPlan};
-use crate::{
-    suite::{grammar::StabilitySpec, yaml::Source},
-    verify::{RunFigure, StabilityExpectation},
-};
+use super::method::Method;
+use super::study_plan::StudyPlan;
+use crate::suite::grammar::StabilitySpec;
+use crate::suite::yaml::Source;
+use crate::verify::{RunFigure, StabilityExpectation};
 
 /// A stability study.
 #[derive(Debug, Clone)]

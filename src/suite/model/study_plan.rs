@@ -1,6 +1,7 @@
 //! Plan of a study, of any kind.
 
-use std::{any::Any, fmt::Debug};
+use std::any::Any;
+use std::fmt::Debug;
 
 /// Checked values of one kind of study.
 pub trait StudyPlan: Any + Debug + Send + Sync {

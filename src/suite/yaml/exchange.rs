@@ -1,7 +1,8 @@
 //! Text that the program writes for itself to read again: numbers come back bit by bit, NaN and
 //! infinities among them, which JSON cannot express.
 
-use serde::{Serialize, de::DeserializeOwned};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// The text of a value.
 ///

@@ -1,6 +1,7 @@
 //! A value, or a list of alternatives.
 
-use super::{refuse, shape::within_cap};
+use super::refuse;
+use super::shape::within_cap;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;

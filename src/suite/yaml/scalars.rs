@@ -1,10 +1,8 @@
 //! How far a scalar reaches, by the rules of its style.
 
-use super::{
-    Diagnostic,
-    scalar::{Scalar, Style},
-    scan::Scanner,
-};
+use super::Diagnostic;
+use super::scalar::{Scalar, Style};
+use super::scan::Scanner;
 use std::ops::Range;
 
 impl Scanner<'_> {

@@ -7,7 +7,8 @@
 //! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
 //! quotes that are never closed, of which the parser would only notice the end of the file.
 
-use super::{Diagnostic, scalar::Scalar};
+use super::Diagnostic;
+use super::scalar::Scalar;
 use std::ops::Range;
 
 /// The scalars of a text in their order, or the reason why it is refused.

@@ -1,6 +1,8 @@
 //! A suite file in memory, checked before anything interprets it.
 
-use super::{Diagnostic, Place, scalar::Scalar, scan::scan};
+use super::scalar::Scalar;
+use super::scan::scan;
+use super::{Diagnostic, Place};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::ops::Range;

@@ -1,10 +1,8 @@
 //! Errors of the YAML library, in terms of a suite.
 
-use super::{
-    Diagnostic, Source,
-    phrase::{expected, found, listed, nearest, syntax},
-    refusal::refused,
-};
+use super::phrase::{expected, found, listed, nearest, syntax};
+use super::refusal::refused;
+use super::{Diagnostic, Source};
 
 /// Turns an error of the library into a complaint at the same place.
 pub(crate) fn diagnostic(source: &Source, error: &serde_yaml::Error) -> Diagnostic {

@@ -1,6 +1,7 @@
 //! Diagnostics of the scan.
 
-use super::{Diagnostic, MAX_NESTING, Place, scan::Scanner};
+use super::scan::Scanner;
+use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;
 
 impl Scanner<'_> {

@@ -8,7 +8,8 @@
 //! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
 //! section 3.2).
 
-use super::{part::ConvergingPart, sample::Sample};
+use super::part::ConvergingPart;
+use super::sample::Sample;
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 
 /// Fewest points with an interval.

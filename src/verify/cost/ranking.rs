@@ -1,13 +1,11 @@
 //! The methods of one problem, the cheapest first.
 
-use super::{
-    TARGETS,
-    exponent::Exponent,
-    front::pareto_front,
-    part::{ConvergingPart, End},
-    reach::Reach,
-    sample::Sample,
-};
+use super::TARGETS;
+use super::exponent::Exponent;
+use super::front::pareto_front;
+use super::part::{ConvergingPart, End};
+use super::reach::Reach;
+use super::sample::Sample;
 use crate::verify::outcome::{CaseOutcome, Convergence, LevelOutcome};
 use std::cmp::Ordering;
 

@@ -1,6 +1,7 @@
 //! The work at which a method reaches an error.
 
-use super::{part::ConvergingPart, sample::Sample};
+use super::part::ConvergingPart;
+use super::sample::Sample;
 
 /// Where an error is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]

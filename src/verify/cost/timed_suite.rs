@@ -1,10 +1,8 @@
 //! A suite whose levels have been timed.
 
-use super::{
-    model::{Model, Workload},
-    ranking::{Ranking, rankings},
-    timing::{Machine, Timing},
-};
+use super::model::{Model, Workload};
+use super::ranking::{Ranking, rankings};
+use super::timing::{Machine, Timing};
 use crate::verify::outcome::{CaseOutcome, LevelOutcome, SuiteOutcome};
 
 /// A suite with the seconds of its levels.

@@ -17,7 +17,8 @@ pub struct ErrorScale {
 
 #[cfg(test)]
 mod tests {
-    use crate::{exact::Truth, verify::Quantity};
+    use crate::exact::Truth;
+    use crate::verify::Quantity;
     use approx::assert_relative_eq;
     use rstest::rstest;
 

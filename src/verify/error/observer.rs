@@ -1,6 +1,7 @@
 //! One place of the body, watched over time.
 
-use crate::{exact::Truth, subject::Samples};
+use crate::exact::Truth;
+use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 
 /// Velocity at one label during a run.

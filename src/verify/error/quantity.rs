@@ -7,7 +7,9 @@
 //! length: the square root of the sum of the squares of all components.
 
 use super::norm::Norms;
-use crate::{exact::Truth, named::named, subject::Samples};
+use crate::exact::Truth;
+use crate::named::named;
+use crate::subject::Samples;
 use std::borrow::Cow;
 
 named! {

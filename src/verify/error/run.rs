@@ -1,21 +1,15 @@
 //! One subject on one level, held against the truth.
 
-use super::{
-    checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed},
-    clock::Clock,
-    norm::{Norms, larger},
-    observer::{History, displacement_at},
-    quantity::Quantity,
-    run_result::RunResult,
-};
-use crate::{
-    exact::Truth,
-    subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals},
-    verify::{
-        conservation::{Balance, ConservationError},
-        energy_rate::energy_rate,
-    },
-};
+use super::checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed};
+use super::clock::Clock;
+use super::norm::{Norms, larger};
+use super::observer::{History, displacement_at};
+use super::quantity::Quantity;
+use super::run_result::RunResult;
+use crate::exact::Truth;
+use crate::subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals};
+use crate::verify::conservation::{Balance, ConservationError};
+use crate::verify::energy_rate::energy_rate;
 
 /// Quantities compared in a run, besides the displacement.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,10 +1,10 @@
 //! Results of one run: all that is judged, reported and kept of it.
 
-use super::{norm::Norms, observer::History};
-use crate::{
-    subject::{RunCounters, Totals},
-    verify::{conservation::ConservationError, order::fit::Interval},
-};
+use super::norm::Norms;
+use super::observer::History;
+use crate::subject::{RunCounters, Totals};
+use crate::verify::conservation::ConservationError;
+use crate::verify::order::fit::Interval;
 use serde::{Deserialize, Serialize};
 
 /// Results of a run.

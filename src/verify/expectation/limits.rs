@@ -1,9 +1,7 @@
 //! Bounds on figures, for expectations that name no order: one level is enough for them.
 
-use crate::verify::{
-    conservation::{ConservationError, Conserved},
-    order::format_number::format_number,
-};
+use crate::verify::conservation::{ConservationError, Conserved};
+use crate::verify::order::format_number::format_number;
 
 /// Bounds, themselves allowed. Every one that is given must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -171,7 +169,8 @@ fn rounding(drift: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{subject::Totals, verify::conservation::Balance};
+    use crate::subject::Totals;
+    use crate::verify::conservation::Balance;
     use rstest::rstest;
 
     const NAN: f64 = f64::NAN;

@@ -2,10 +2,9 @@
 
 pub(crate) mod limits;
 
-use super::{
-    expectation::limits::{Limits, Measured},
-    verdict::{floor::FloorCause, name::Verdict},
-};
+use super::expectation::limits::{Limits, Measured};
+use super::verdict::floor::FloorCause;
+use super::verdict::name::Verdict;
 
 /// Bounds, both included.
 pub type Bounds = (f64, f64);

@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-use super::{axis::Axis, format_number::format_number};
+use super::axis::Axis;
+use super::format_number::format_number;
 
 /// One level of refinement: a spacing and the error measured there.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,10 +18,8 @@
 
 use std::ops::Range;
 
-use super::{
-    f_test,
-    fit::{FittedLine, LogPoint},
-};
+use super::f_test;
+use super::fit::{FittedLine, LogPoint};
 
 /// Fewest levels of which an order is claimed: two degrees of freedom remain to contradict it.
 pub(crate) const FEWEST_LEVELS: usize = 4;

@@ -1,12 +1,10 @@
 //! Expectations of a stability study, row by row.
 
-use super::{
-    figure::RunFigure,
-    limit::StabilityLimit,
-    outcome::{Critical, StabilityRow},
-    trial_result::Trial,
-    verdict::Stability,
-};
+use super::figure::RunFigure;
+use super::limit::StabilityLimit;
+use super::outcome::{Critical, StabilityRow};
+use super::trial_result::Trial;
+use super::verdict::Stability;
 use crate::verify::order::format_number::format_number;
 
 /// Expectation of one row.

@@ -1,6 +1,9 @@
 //! The results of a stability study.
 
-use super::{figure::RunFigure, limit::StabilityLimit, trial_result::Trial, verdict::Stability};
+use super::figure::RunFigure;
+use super::limit::StabilityLimit;
+use super::trial_result::Trial;
+use super::verdict::Stability;
 use crate::verify::order::format_number::format_number;
 
 /// Results of a stability study: one row for each value of the parameter that is swept.

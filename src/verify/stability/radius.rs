@@ -1,6 +1,7 @@
 //! The spectral radius of a matrix, and the eigenvalue that has it.
 
-use nalgebra::{DMatrix, linalg::Schur};
+use nalgebra::DMatrix;
+use nalgebra::linalg::Schur;
 
 /// Iterations of the QR algorithm after which powers of the matrix answer instead.
 const PATIENCE: usize = 1_000;

@@ -5,21 +5,15 @@
 //! elsewhere it is a measure of the size of the stress, which is all that growth needs. It is
 //! compared with its start, or, in a body that starts at rest, with the energy of a strain of one.
 
-use super::{
-    checkerboard::{checkerboard, stress_spread},
-    trial_result::{Scales, Trial},
-    verdict::Stability,
+use super::checkerboard::{checkerboard, stress_spread};
+use super::trial_result::{Scales, Trial};
+use super::verdict::Stability;
+use crate::subject::{Checkpoint, Failure, Memory, Samples, Subject};
+use crate::verify::conservation::{Balance, ConservationError, Conserved};
+use crate::verify::error::checkpoint_store::{
+    CheckpointStore, NoCheckpoints, keep_if_due, resumed,
 };
-use crate::{
-    subject::{Checkpoint, Failure, Memory, Samples, Subject},
-    verify::{
-        conservation::{Balance, ConservationError, Conserved},
-        error::{
-            checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed},
-            norm::larger,
-        },
-    },
-};
+use crate::verify::error::norm::larger;
 
 /// Steps after which the state is looked at: each of the first ones, and then at equal distances.
 /// Growth that matters in ten thousand steps is slow, and fast growth is over in these first ones.

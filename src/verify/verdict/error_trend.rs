@@ -3,10 +3,8 @@
 
 use std::f64::consts::LN_2;
 
-use crate::verify::order::{
-    fit::{FittedLine, LogPoint},
-    window::{FEWEST_LEVELS, FLAT_ORDER},
-};
+use crate::verify::order::fit::{FittedLine, LogPoint};
+use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 
 /// A divergence must at least double the error: what grows less may be the noise of a floor.
 const LEAST_GROWTH: f64 = LN_2;

@@ -14,15 +14,15 @@
 
 use std::ops::Range;
 
-use super::{error_trend, name::Verdict, reason::Reason};
-use crate::verify::order::{
-    fit::{FittedLine, Interval, LogPoint},
-    hypothesis::OrderHypothesis,
-    level::{Level, arrange},
-    pairwise::pairwise,
-    window,
-    window::{FEWEST_LEVELS, Window},
-};
+use super::error_trend;
+use super::name::Verdict;
+use super::reason::Reason;
+use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
+use crate::verify::order::hypothesis::OrderHypothesis;
+use crate::verify::order::level::{Level, arrange};
+use crate::verify::order::pairwise::pairwise;
+use crate::verify::order::window;
+use crate::verify::order::window::{FEWEST_LEVELS, Window};
 
 /// The order of a window has settled if its interval is no wider than this to each side: half of
 /// the gap between orders that differ by a half.

@@ -1,13 +1,11 @@
 //! The one line that says why, for a reader who has only the figures.
 
 use super::name::Verdict;
-use crate::verify::order::{
-    axis::Axis,
-    fit::{FittedLine, LogPoint},
-    format_number::{format_number, order},
-    level::Level,
-    window::FEWEST_LEVELS,
-};
+use crate::verify::order::axis::Axis;
+use crate::verify::order::fit::{FittedLine, LogPoint};
+use crate::verify::order::format_number::{format_number, order};
+use crate::verify::order::level::Level;
+use crate::verify::order::window::FEWEST_LEVELS;
 
 /// Reason of a verdict; levels by index.
 pub(crate) enum Reason {

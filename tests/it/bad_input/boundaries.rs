@@ -1,9 +1,7 @@
 //! Boundary conditions and loads on sets: unknown words, and motions that violate them.
 
-use super::{
-    Edits, load, refused,
-    samples::{BAR, PLATE},
-};
+use super::samples::{BAR, PLATE};
+use super::{Edits, load, refused};
 use rstest::rstest;
 
 /// A bar without ends.

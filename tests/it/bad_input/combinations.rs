@@ -1,6 +1,7 @@
 //! Parts of a method that do not go together.
 
-use super::{Edits, refused, samples::BAR};
+use super::samples::BAR;
+use super::{Edits, refused};
 use rstest::rstest;
 
 const METHOD: &str = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}";

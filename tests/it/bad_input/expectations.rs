@@ -1,6 +1,7 @@
 //! Cases and what is expected of them: exactly one expectation for each.
 
-use super::{Edits, refused, samples::BAR};
+use super::samples::BAR;
+use super::{Edits, refused};
 use rstest::rstest;
 
 #[rstest]

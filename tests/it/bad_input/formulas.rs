@@ -1,6 +1,7 @@
 //! Formulas, parameters and functions.
 
-use super::{Edits, refused, samples::BAR};
+use super::samples::BAR;
+use super::{Edits, refused};
 use rstest::rstest;
 
 #[rstest]

@@ -1,9 +1,7 @@
 //! Keys, names and types.
 
-use super::{
-    Edits, refused,
-    samples::{BAR, FORCE},
-};
+use super::samples::{BAR, FORCE};
+use super::{Edits, refused};
 use rstest::rstest;
 
 #[rstest]

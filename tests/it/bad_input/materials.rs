@@ -1,6 +1,7 @@
 //! Materials and their parameters.
 
-use super::{Edits, load, refused, samples::BAR};
+use super::samples::BAR;
+use super::{Edits, load, refused};
 use rstest::rstest;
 
 const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";

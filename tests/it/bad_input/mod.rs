@@ -27,10 +27,8 @@ mod steps;
 mod truths;
 mod vortex;
 
-use mpm_verify::suite::{
-    Suite,
-    yaml::{Diagnostic, Source},
-};
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::{Diagnostic, Source};
 use rstest::rstest;
 use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED, SWEPT};
 

@@ -1,9 +1,7 @@
 //! Numbers that mean nothing where they stand.
 
-use super::{
-    Edits, refused,
-    samples::{BAR, COLUMN, PLATE},
-};
+use super::samples::{BAR, COLUMN, PLATE};
+use super::{Edits, refused};
 use rstest::rstest;
 
 #[rstest]

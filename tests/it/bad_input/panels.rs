@@ -1,7 +1,8 @@
 //! Bodies with four straight sides: corners that are none, faces that are no sides, and what asks
 //! for another body.
 
-use super::{Edits, refused, samples::PLATE};
+use super::samples::PLATE;
+use super::{Edits, refused};
 use rstest::rstest;
 
 const COOK: &str = include_str!("../../../verification/cooks-membrane.yaml");

@@ -1,6 +1,7 @@
 //! Judged quantities, and bounds on figures.
 
-use super::{Edits, refused, samples::BAR};
+use super::samples::BAR;
+use super::{Edits, refused};
 use rstest::rstest;
 
 const EXPECTED: &str = "    verdict: too_few_levels\n    finest_pair: [1.5, 2.5]\n";

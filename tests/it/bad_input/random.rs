@@ -3,11 +3,10 @@
 #[path = "../../fuzz/suite_input.rs"]
 mod suite_input;
 
-use super::{
-    load,
-    samples::{BAR, FORCE, PLATE},
-};
-use proptest::{collection::vec, prelude::*};
+use super::load;
+use super::samples::{BAR, FORCE, PLATE};
+use proptest::collection::vec;
+use proptest::prelude::*;
 
 /// Characters that mean something to YAML, to formulas or to nobody.
 const KEYS: &str = "09.-+*/^()[]{}:,#'\"%&!|>~ \t\neXtLé\u{0}";

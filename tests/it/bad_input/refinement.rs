@@ -1,6 +1,7 @@
 //! Refinement plans that mean nothing.
 
-use super::{Edits, refused, samples::BAR};
+use super::samples::BAR;
+use super::{Edits, refused};
 use rstest::rstest;
 
 const PLAN: &str = "refine: {cells: [6, 12], ppc: 4}";

@@ -1,9 +1,7 @@
 //! Bodies, grids, loads, references and the place that is observed.
 
-use super::{
-    Edits, refused,
-    samples::{BAR, COLUMN, PLATE, PULLED},
-};
+use super::samples::{BAR, COLUMN, PLATE, PULLED};
+use super::{Edits, refused};
 use rstest::rstest;
 
 #[rstest]

@@ -1,9 +1,7 @@
 //! Suites that would take all memory or all time: refused at once, before anything is allocated.
 
-use super::{
-    Edits, refused,
-    samples::{BAR, CUBE, PLATE},
-};
+use super::samples::{BAR, CUBE, PLATE};
+use super::{Edits, refused};
 use rstest::rstest;
 use std::time::{Duration, Instant};
 

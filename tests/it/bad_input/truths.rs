@@ -1,9 +1,7 @@
 //! Solutions that solve another problem: which condition fails, where, and by how much.
 
-use super::{
-    Edits, refused,
-    samples::{BAR, COLUMN, PLATE, PULLED},
-};
+use super::samples::{BAR, COLUMN, PLATE, PULLED};
+use super::{Edits, refused};
 use rstest::rstest;
 
 /// Refuses, and demands a place, a time and both numbers besides `words`.

@@ -3,13 +3,11 @@
 mod viscosity;
 
 use crate::common::{DT, H, free_body, in_dimension, methods};
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, Bodies, LinearElastic, Matrix, Particles, SchemeName, Setup, Solver,
-        TransferKind, TransferName, Vector,
-    },
-    subject::{Samples, Start, Subject, Totals},
+use mpm_verify::mpm::{
+    BasisName, Block, Bodies, LinearElastic, Matrix, Particles, SchemeName, Setup, Solver,
+    TransferKind, TransferName, Vector,
 };
+use mpm_verify::subject::{Samples, Start, Subject, Totals};
 use rstest::rstest;
 
 /// The methods, in space only those that take little time.

@@ -1,13 +1,11 @@
 //! Artificial viscosity at the front of a shock.
 
 use crate::common::free_body;
-use mpm_verify::{
-    mpm::{
-        ArtificialViscosity, BasisName, Block, Bodies, Effect, LinearElastic, Particles,
-        SchemeName, TransferName,
-    },
-    subject::Subject,
+use mpm_verify::mpm::{
+    ArtificialViscosity, BasisName, Block, Bodies, Effect, LinearElastic, Particles, SchemeName,
+    TransferName,
 };
+use mpm_verify::subject::Subject;
 use rstest::rstest;
 
 /// Two bars with rho = c = 1 that have run into each other with `v0`: the largest pressure over

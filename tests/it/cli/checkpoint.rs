@@ -1,12 +1,11 @@
 //! A run that is killed in the middle of a level, and goes on there.
 
-use super::{BAD_INPUT, BAR, SOUND, folder::Folder};
-use std::{
-    fs,
-    path::PathBuf,
-    process::Stdio,
-    time::{Duration, Instant},
-};
+use super::folder::Folder;
+use super::{BAD_INPUT, BAR, SOUND};
+use std::fs;
+use std::path::PathBuf;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 
 /// One level of fifty thousand steps, too few for a state to be kept unless that is asked for.
 fn long() -> String {

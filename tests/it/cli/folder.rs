@@ -1,11 +1,9 @@
 //! A folder of its own for each test, and the program run in it.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::{Command, Stdio},
-    sync::atomic::{AtomicU32, Ordering},
-};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A new, empty folder that goes when the test ends.
 pub(super) struct Folder(PathBuf);

@@ -1,10 +1,8 @@
 //! `run`: reports, verdicts, files, and the exit status that a machine looks at.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
-use std::{
-    io::{BufRead, BufReader, Read},
-    process::Stdio,
-};
+use std::io::{BufRead, BufReader, Read};
+use std::process::Stdio;
 
 #[test]
 fn a_run_prints_the_report_and_the_table_of_verdicts() {

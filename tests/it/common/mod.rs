@@ -3,13 +3,11 @@
 pub(crate) mod columns;
 pub(crate) mod interrupted;
 
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
-        TransferName, Vector, combine, kernel, mass_matrix, transfer,
-    },
-    subject::Start,
+use mpm_verify::mpm::{
+    BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
+    TransferName, Vector, combine, kernel, mass_matrix, transfer,
 };
+use mpm_verify::subject::Start;
 
 /// Cell size (m).
 pub(crate) const H: f64 = 0.25;

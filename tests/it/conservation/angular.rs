@@ -4,13 +4,11 @@
 //! `m C D` besides.
 
 use crate::common::{H, body, pairs};
-use mpm_verify::{
-    mpm::{
-        BasisName, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
-        Solver, Transfer, TransferName, Vector, combine,
-    },
-    subject::Subject,
+use mpm_verify::mpm::{
+    BasisName, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup, Solver,
+    Transfer, TransferName, Vector, combine,
 };
+use mpm_verify::subject::Subject;
 use rstest::rstest;
 
 const CELLS: usize = 12;

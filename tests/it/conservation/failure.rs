@@ -1,13 +1,11 @@
 //! A step that cannot go on says what broke and which particle, and never panics.
 
 use crate::common::{DT, body, free_body, in_dimension, methods};
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, Fixed, LinearElastic, Matrix, Particles, SchemeName, Setup, Side, Solver,
-        TransferName, Vector,
-    },
-    subject::{Failure, Samples, Site, Subject},
+use mpm_verify::mpm::{
+    BasisName, Block, Fixed, LinearElastic, Matrix, Particles, SchemeName, Setup, Side, Solver,
+    TransferName, Vector,
 };
+use mpm_verify::subject::{Failure, Samples, Site, Subject};
 use proptest::prelude::*;
 use rstest::rstest;
 

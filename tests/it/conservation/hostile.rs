@@ -8,10 +8,8 @@ mod scene;
 mod step_input;
 
 use crate::common::in_dimension;
-use mpm_verify::{
-    mpm::{MaterialPlan, Matrix, Particles, SchemeName, Vector},
-    subject::{Failure, Site, Start},
-};
+use mpm_verify::mpm::{MaterialPlan, Matrix, Particles, SchemeName, Vector};
+use mpm_verify::subject::{Failure, Site, Start};
 use proptest::prelude::*;
 use rstest::rstest;
 use scene::{MATERIALS, Scene, body, every_method};

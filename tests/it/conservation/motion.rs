@@ -3,10 +3,8 @@
 use super::{conservative, some};
 use crate::common::{DT, free_body, in_dimension};
 use approx::assert_abs_diff_eq;
-use mpm_verify::{
-    mpm::{Damping, Gravity, Matrix, Particles, SchemeName, Solver, Vector},
-    subject::{Start, Subject},
-};
+use mpm_verify::mpm::{Damping, Gravity, Matrix, Particles, SchemeName, Solver, Vector};
+use mpm_verify::subject::{Start, Subject};
 use rstest::rstest;
 
 const STEPS: usize = 40;

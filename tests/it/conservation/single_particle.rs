@@ -5,13 +5,11 @@
 //! `sigma <- (1 - C^2 / (xi (1 - xi))) sigma`; under USF and MUSL the stress never changes.
 
 use crate::common::{H, body};
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, Fixed, Hencky, LinearElastic, Particles, SchemeName, Setup, Side, Solver,
-        TransferName, Vector,
-    },
-    subject::{Start, Subject},
+use mpm_verify::mpm::{
+    BasisName, Block, Fixed, Hencky, LinearElastic, Particles, SchemeName, Setup, Side, Solver,
+    TransferName, Vector,
 };
+use mpm_verify::subject::{Start, Subject};
 use proptest::prelude::*;
 
 const YOUNG: f64 = 100.0;

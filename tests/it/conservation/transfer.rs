@@ -3,7 +3,9 @@
 use crate::common::{H, in_dimension, pairs};
 use approx::assert_abs_diff_eq;
 use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Stage, Vector, g2p, kernel, transfer};
-use proptest::{array::uniform3, collection::vec, prelude::*};
+use proptest::array::uniform3;
+use proptest::collection::vec;
+use proptest::prelude::*;
 
 const CELLS: usize = 4;
 

@@ -2,13 +2,11 @@
 
 use super::{conservative, some};
 use crate::common::{DT, H, free_body, in_dimension};
-use mpm_verify::{
-    mpm::{
-        BasisName, Block, Fixed, Gravity, Matrix, Particles, Prescribed, PrescribedVelocity,
-        Roller, SchemeName, SetForce, Setup, Side, Solver, TransferName, Vector, VelocityField,
-    },
-    subject::{Start, Subject},
+use mpm_verify::mpm::{
+    BasisName, Block, Fixed, Gravity, Matrix, Particles, Prescribed, PrescribedVelocity, Roller,
+    SchemeName, SetForce, Setup, Side, Solver, TransferName, Vector, VelocityField,
 };
+use mpm_verify::subject::{Start, Subject};
 use rstest::rstest;
 
 const CELLS: usize = 4;

@@ -1,9 +1,7 @@
 //! The work-precision diagram.
 
-use super::{
-    WorkPrecision, any_value, marks, samples,
-    xml::{well_formed, without_bad_numbers},
-};
+use super::xml::{well_formed, without_bad_numbers};
+use super::{WorkPrecision, any_value, marks, samples};
 use mpm_verify::report::figure::{Mark, PlotPoint, PlotSeries};
 use proptest::prelude::*;
 

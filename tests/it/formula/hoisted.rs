@@ -3,10 +3,8 @@
 use proptest::prelude::*;
 use rstest::rstest;
 
-use super::{
-    bind,
-    random::{grow, same, tree},
-};
+use super::bind;
+use super::random::{grow, same, tree};
 use mpm_verify::exact::formula::{Formula, Hoisted, Jet};
 
 /// The variables of `grow`: y is the one that stands for the time.

@@ -3,10 +3,8 @@
 use proptest::prelude::*;
 use rstest::rstest;
 
-use super::{
-    bind,
-    random::{grow, same, tree},
-};
+use super::bind;
+use super::random::{grow, same, tree};
 use mpm_verify::exact::formula::{Formula, NumberBatch};
 
 /// Holds the values at eight places against those at each of them, bit for bit.

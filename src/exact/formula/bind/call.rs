@@ -1,7 +1,10 @@
 //! Calls of user functions, whose bodies are put in place.
 
 use super::{Frame, ProgramBuilder, above};
-use crate::exact::formula::{ast::Node, builtin, error::FormulaError, program::Operand};
+use crate::exact::formula::ast::Node;
+use crate::exact::formula::builtin;
+use crate::exact::formula::error::FormulaError;
+use crate::exact::formula::program::Operand;
 
 impl<'a> ProgramBuilder<'a> {
     /// Compiles the arguments, each once, and then the body with its parameters standing for them.

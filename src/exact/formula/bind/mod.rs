@@ -10,14 +10,12 @@ mod sum;
 
 use std::collections::BTreeSet;
 
-use super::{
-    ast::{Expr, Node, NodeKind},
-    binary::Binary,
-    error::FormulaError,
-    number::whole,
-    program::{Action, Instruction, Operand, run},
-    scope::Scope,
-};
+use super::ast::{Expr, Node, NodeKind};
+use super::binary::Binary;
+use super::error::FormulaError;
+use super::number::whole;
+use super::program::{Action, Instruction, Operand, run};
+use super::scope::Scope;
 
 /// Most nodes of a formula, with those of the functions it calls.
 const MAX_NODES: usize = 100_000;

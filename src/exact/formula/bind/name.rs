@@ -1,9 +1,11 @@
 //! Names of a formula: what they stand for, and what is said of those that stand for nothing.
 
 use super::{Frame, ProgramBuilder};
-use crate::exact::formula::{
-    ast::Node, builtin, error::FormulaError, hint::hint, program::Operand,
-};
+use crate::exact::formula::ast::Node;
+use crate::exact::formula::builtin;
+use crate::exact::formula::error::FormulaError;
+use crate::exact::formula::hint::hint;
+use crate::exact::formula::program::Operand;
 
 impl ProgramBuilder<'_> {
     /// The value that a name stands for.

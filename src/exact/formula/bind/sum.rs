@@ -1,12 +1,10 @@
 //! Sums, which become loops.
 
 use super::{Frame, ProgramBuilder};
-use crate::exact::formula::{
-    ast::Sum,
-    error::FormulaError,
-    number::whole,
-    program::{Action, Loop, Operand, run},
-};
+use crate::exact::formula::ast::Sum;
+use crate::exact::formula::error::FormulaError;
+use crate::exact::formula::number::whole;
+use crate::exact::formula::program::{Action, Loop, Operand, run};
 
 /// Most terms of a sum.
 const MAX_TERMS: f64 = 100_000.0;

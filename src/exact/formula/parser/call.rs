@@ -3,13 +3,11 @@
 use std::ops::Range;
 
 use super::Parser;
-use crate::exact::formula::{
-    ast::{NodeKind, Sum},
-    builtin,
-    builtin::{Builtin, PI},
-    error::FormulaError,
-    lexer::Token,
-};
+use crate::exact::formula::ast::{NodeKind, Sum};
+use crate::exact::formula::builtin;
+use crate::exact::formula::builtin::{Builtin, PI};
+use crate::exact::formula::error::FormulaError;
+use crate::exact::formula::lexer::Token;
 
 const SUM_FORM: &str = "the form is `sum(index, from, to, body)`";
 

@@ -4,12 +4,10 @@ mod call;
 
 use std::ops::Range;
 
-use super::{
-    ast::{Expr, Node, NodeKind},
-    binary::Binary,
-    error::FormulaError,
-    lexer::{Lexeme, Token, tokens},
-};
+use super::ast::{Expr, Node, NodeKind};
+use super::binary::Binary;
+use super::error::FormulaError;
+use super::lexer::{Lexeme, Token, tokens};
 
 /// Deepest nesting of parentheses, arguments, signs and right operands.
 const MAX_DEPTH: usize = 128;

@@ -9,24 +9,16 @@
 mod fit;
 mod quadrature_points;
 
-use self::{
-    fit::Fit,
-    quadrature_points::{QuadraturePoint, QuadraturePoints},
-};
+use self::fit::Fit;
+use self::quadrature_points::{QuadraturePoint, QuadraturePoints};
 use super::contract::{Transfer, TransferKind};
-use crate::{
-    mpm::{
-        algebra::Vector,
-        grid::Grid,
-        kernel::{
-            contract::Kernel,
-            request::{G2pRequest, ParticleField},
-        },
-        particles::Particles,
-        stage::Stage,
-    },
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::kernel::request::{G2pRequest, ParticleField};
+use crate::mpm::particles::Particles;
+use crate::mpm::stage::Stage;
+use crate::subject::Column;
 
 /// FLIP with fields reconstructed in cells.
 #[derive(Debug, Clone, Default)]
@@ -152,7 +144,8 @@ fn p2g_momentum<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{BasisName, Block, Matrix, kernel::kernel};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::{BasisName, Block, Matrix};
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 

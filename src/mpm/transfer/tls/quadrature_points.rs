@@ -1,10 +1,10 @@
 //! Quadrature points: the Gauss points of full cells, and the particles themselves in cells
 //! at the rim of the body, where no polynomial may reach beyond it.
 
-use crate::{
-    mpm::{algebra::Vector, grid::Grid, particles::Particles},
-    subject::Column,
-};
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
 
 /// Gauss's rule along an axis, exact for a cubic B-spline times a linear field.
 const RULE: [(f64, f64); 3] = [

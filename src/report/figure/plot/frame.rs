@@ -1,14 +1,12 @@
 //! The frame of a figure: title, axes, grid, and the document around them.
 
-use super::{
-    label::Label,
-    scale::{Scale, ScaleKind},
-    space::Rect,
-    style::{FONT, GRID, HEIGHT, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH},
-    svg::{Pt, SvgElement, number},
-    text, ticks,
-    ticks::Tick,
-};
+use super::label::Label;
+use super::scale::{Scale, ScaleKind};
+use super::space::Rect;
+use super::style::{FONT, GRID, HEIGHT, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH};
+use super::svg::{Pt, SvgElement, number};
+use super::ticks::Tick;
+use super::{text, ticks};
 
 /// The texts around a frame.
 #[derive(Clone, Copy, Debug)]

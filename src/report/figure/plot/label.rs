@@ -1,10 +1,8 @@
 //! A number as an axis shows it, possibly with a true superscript.
 
-use super::{
-    style::{SUPERSCRIPT, TEXT},
-    svg::{Pt, SvgElement},
-    text,
-};
+use super::style::{SUPERSCRIPT, TEXT};
+use super::svg::{Pt, SvgElement};
+use super::text;
 
 /// A number, or a power of ten with its factor.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,11 +1,9 @@
 //! The legend: what it says, and where it hides nothing.
 
-use super::{
-    space::{Rect, Space},
-    style::{GRID, HEIGHT, PAPER, TEXT, WIDTH},
-    svg::{Pt, SvgElement},
-    text,
-};
+use super::space::{Rect, Space};
+use super::style::{GRID, HEIGHT, PAPER, TEXT, WIDTH};
+use super::svg::{Pt, SvgElement};
+use super::text;
 
 /// Width of the sample of line and marker in front of a text.
 pub(crate) const KEY: f64 = 30.0;

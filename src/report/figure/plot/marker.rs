@@ -1,9 +1,7 @@
 //! Markers: one outline per series, one filling per meaning.
 
-use super::{
-    style::{MarkerShape, PAPER},
-    svg::{Pt, SvgElement},
-};
+use super::style::{MarkerShape, PAPER};
+use super::svg::{Pt, SvgElement};
 
 /// How a marker is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

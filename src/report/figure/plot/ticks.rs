@@ -1,9 +1,7 @@
 //! Where an axis is ticked, and what the ticks say.
 
-use super::{
-    label::Label,
-    scale::{Scale, ScaleKind},
-};
+use super::label::Label;
+use super::scale::{Scale, ScaleKind};
 
 /// One tick; a tick with a label is a major one.
 #[derive(Clone, Debug)]

@@ -1,12 +1,10 @@
 //! Slope triangles: the reference orders, drawn where they touch nothing.
 
-use super::{
-    frame::Plot,
-    space::{Rect, Space},
-    style::{NEUTRAL, TEXT},
-    svg::{Pt, SvgElement},
-    text,
-};
+use super::frame::Plot;
+use super::space::{Rect, Space};
+use super::style::{NEUTRAL, TEXT};
+use super::svg::{Pt, SvgElement};
+use super::text;
 
 /// A slope triangle with its place.
 #[derive(Clone, Debug)]

@@ -1,10 +1,9 @@
 //! Whether a scene has an energy that can be bound.
 
-use crate::suite::{
-    compile::{evaluator::Evaluator, path::Path},
-    model::ConvergencePlan,
-    yaml::Diagnostic,
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::model::ConvergencePlan;
+use crate::suite::yaml::Diagnostic;
 
 /// Refuses to bound the energy of a body whose law has none; `path` is that of the bound.
 pub(crate) fn check(

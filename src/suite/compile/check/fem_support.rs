@@ -1,11 +1,10 @@
 //! Conditions outside the scope of the FEM bar, refused before anything runs.
 
-use crate::suite::{
-    compile::{evaluator::Evaluator, path::Path},
-    grammar::ConvergenceSpec,
-    model::{BoundaryCondition, Scene},
-    yaml::Diagnostic,
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::yaml::Diagnostic;
 
 /// Refuses conditions that the bar does not know, if the suite asks for one.
 pub(crate) fn check(

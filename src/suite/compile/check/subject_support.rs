@@ -1,14 +1,12 @@
 //! Whether what a suite judges is there to be compared: in every subject, and in every truth.
 
-use crate::{
-    suite::{
-        compile::{evaluator::Evaluator, path::Path},
-        grammar::ConvergenceSpec,
-        model::{ConvergencePlan, method::Method},
-        yaml::Diagnostic,
-    },
-    verify::Limits,
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::Method;
+use crate::suite::yaml::Diagnostic;
+use crate::verify::Limits;
 
 /// Refuses to judge a quantity that the reference FEM does not give.
 pub(crate) fn check(

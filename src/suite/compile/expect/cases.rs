@@ -1,18 +1,16 @@
 //! Which expectation holds for which case: exactly one for each.
 
 use super::limits::limits;
-use crate::{
-    suite::{
-        compile::{
-            check::subject_support, evaluator::Evaluator, interval::interval, path::Path,
-            wording::suggestion,
-        },
-        grammar::{CrossingsName, ExpectSpec},
-        model::{ConvergencePlan, method::Method},
-        yaml::{Diagnostic, NumberText, OneOrMany},
-    },
-    verify::{Expectation, Verdict},
-};
+use crate::suite::compile::check::subject_support;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::interval::interval;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::suggestion;
+use crate::suite::grammar::{CrossingsName, ExpectSpec};
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::Method;
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::verify::{Expectation, Verdict};
 use std::str::FromStr;
 
 /// Expectation of a case, and of a full run if that differs.

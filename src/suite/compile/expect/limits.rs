@@ -1,14 +1,13 @@
 //! Bounds on figures, from an entry of `expect`.
 
-use crate::{
-    suite::{
-        compile::{check::energy, evaluator::Evaluator, interval::interval, path::Path},
-        grammar::{DriftSpec, ExpectSpec},
-        model::ConvergencePlan,
-        yaml::{Diagnostic, NumberText},
-    },
-    verify::{Conserved, Limits},
-};
+use crate::suite::compile::check::energy;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::interval::interval;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{DriftSpec, ExpectSpec};
+use crate::suite::model::ConvergencePlan;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::verify::{Conserved, Limits};
 
 /// The limits of the expectation at `path`.
 pub(crate) fn limits(

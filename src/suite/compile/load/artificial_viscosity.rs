@@ -1,15 +1,11 @@
 //! Artificial viscosity: a pressure against compression, for shocks.
 
 use super::contract::{LoadEntry, LoadWords};
-use crate::{
-    exact::Term,
-    mpm::{ArtificialViscosity, Effect},
-    suite::{
-        compile::wording::shown,
-        model::load::{BodySite, BuildEffect, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::exact::Term;
+use crate::mpm::{ArtificialViscosity, Effect};
+use crate::suite::compile::wording::shown;
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Coefficients of the artificial viscosity.

@@ -1,20 +1,12 @@
 //! A stated force per unit mass that depends on place and time.
 
-use super::{
-    contract::{LoadEntry, LoadWords},
-    fields::{component, of_place_and_time, sources},
-};
-use crate::{
-    exact::{
-        Term,
-        formula::{Formula, Hoisted},
-    },
-    mpm::{BodyForce, Effect, Vector},
-    suite::{
-        model::load::{BodySite, BuildEffect, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::contract::{LoadEntry, LoadWords};
+use super::fields::{component, of_place_and_time, sources};
+use crate::exact::Term;
+use crate::exact::formula::{Formula, Hoisted};
+use crate::mpm::{BodyForce, Effect, Vector};
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Longest formula that is taken apart for its places, with its sums written out.

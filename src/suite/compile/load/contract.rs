@@ -1,22 +1,16 @@
 //! The words of a load, and what they are compiled with.
 
-use crate::{
-    exact::{Region, formula::Formula},
-    mpm::{Particles, Placement, Side},
-    suite::{
-        compile::{
-            coordinates::coordinates_and_time,
-            evaluator::Evaluator,
-            path::Path,
-            scene::{face::face, sets},
-        },
-        model::{
-            load::{LoadTarget, SceneLoad},
-            scene::Scene,
-        },
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::exact::Region;
+use crate::exact::formula::Formula;
+use crate::mpm::{Particles, Placement, Side};
+use crate::suite::compile::coordinates::coordinates_and_time;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::face::face;
+use crate::suite::compile::scene::sets;
+use crate::suite::model::load::{LoadTarget, SceneLoad};
+use crate::suite::model::scene::Scene;
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Facts of a convergence study that a load is checked against.

@@ -1,15 +1,12 @@
 //! Damping in proportion to mass: velocities decay at a rate.
 
 use super::contract::{LoadEntry, LoadWords, StudyFacts};
-use crate::{
-    exact::{Term, formula::Formula},
-    mpm::{Damping, Effect},
-    suite::{
-        compile::wording::shown,
-        model::load::{BodySite, BuildEffect, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::exact::Term;
+use crate::exact::formula::Formula;
+use crate::mpm::{Damping, Effect};
+use crate::suite::compile::wording::shown;
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Times of a run at which the sign of the rate is checked.

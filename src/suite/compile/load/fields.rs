@@ -1,9 +1,8 @@
 //! Formulas as the functions that effects and boundary conditions of the solver take.
 
-use crate::{
-    exact::{formula::Formula, variables},
-    mpm::{ScalarField, Vector, VelocityField},
-};
+use crate::exact::formula::Formula;
+use crate::exact::variables;
+use crate::mpm::{ScalarField, Vector, VelocityField};
 
 /// Formulas of t, one for each component.
 pub(crate) fn of_time<const D: usize>(

@@ -1,17 +1,12 @@
 //! Gravity: a uniform acceleration, constant or a function of time.
 
-use super::{
-    contract::{LoadEntry, LoadWords},
-    fields::{of_time, sources},
-};
-use crate::{
-    exact::{Term, formula::Formula},
-    mpm::{Effect, Gravity},
-    suite::{
-        model::load::{BodySite, BuildEffect, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::contract::{LoadEntry, LoadWords};
+use super::fields::{of_time, sources};
+use crate::exact::Term;
+use crate::exact::formula::Formula;
+use crate::mpm::{Effect, Gravity};
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Uniform acceleration (m/s2), formulas of t.

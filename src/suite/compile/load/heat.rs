@@ -1,25 +1,15 @@
 //! Conduction of heat.
 
-use super::{
-    contract::{LoadEntry, LoadWords},
-    fields::scalar,
-    thermal_face::{self, ThermalSpec},
-};
-use crate::{
-    exact::{
-        Round, Term,
-        formula::Formula,
-        heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives},
-    },
-    mpm::{Effect, Heat, HeatSource, Particles, Vector},
-    suite::{
-        model::{
-            heat::SceneHeat,
-            load::{BodySite, BuildEffect, SceneLoad},
-        },
-        yaml::{Diagnostic, NumberText, Ordered},
-    },
-};
+use super::contract::{LoadEntry, LoadWords};
+use super::fields::scalar;
+use super::thermal_face::{self, ThermalSpec};
+use crate::exact::formula::Formula;
+use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives};
+use crate::exact::{Round, Term};
+use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
+use crate::suite::model::heat::SceneHeat;
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 use std::sync::Arc;
 
 /// Conduction of heat, and the conditions on the faces.

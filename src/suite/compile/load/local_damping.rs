@@ -1,15 +1,12 @@
 //! Local damping: a share of the force out of balance, against the motion.
 
 use super::contract::{LoadEntry, LoadWords, StudyFacts};
-use crate::{
-    exact::Term,
-    mpm::{Effect, LocalDamping},
-    suite::{
-        compile::{path::Path, wording::shown},
-        model::load::{BodySite, BuildEffect, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::exact::Term;
+use crate::mpm::{Effect, LocalDamping};
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Share of the force out of balance that opposes the motion, node by node.

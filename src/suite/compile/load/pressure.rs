@@ -1,17 +1,12 @@
 //! A pressure on a face of a box, which follows the face.
 
-use super::{
-    contract::{LoadEntry, LoadWords, LoadedFace},
-    fields::scalar,
-};
-use crate::{
-    exact::{Condition, Term, formula::Formula},
-    mpm::{Effect, Placement, Pressure},
-    suite::{
-        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::contract::{LoadEntry, LoadWords, LoadedFace};
+use super::fields::scalar;
+use crate::exact::formula::Formula;
+use crate::exact::{Condition, Term};
+use crate::mpm::{Effect, Placement, Pressure};
+use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Pressure that follows one face (Pa), a formula of the coordinates and t.

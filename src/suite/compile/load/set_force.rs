@@ -1,17 +1,12 @@
 //! A total force on a set of particles.
 
-use super::{
-    contract::{LoadEntry, LoadWords, LoadedSet},
-    fields::{of_time, sources},
-};
-use crate::{
-    exact::{Term, formula::Formula},
-    mpm::{Effect, SetForce},
-    suite::{
-        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::contract::{LoadEntry, LoadWords, LoadedSet};
+use super::fields::{of_time, sources};
+use crate::exact::Term;
+use crate::exact::formula::Formula;
+use crate::mpm::{Effect, SetForce};
+use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Total force on a set (N), formulas of t.

@@ -1,17 +1,12 @@
 //! A prescribed velocity of a set of particles.
 
-use super::{
-    contract::{LoadEntry, LoadWords, LoadedSet},
-    fields::{of_place_and_time, sources},
-};
-use crate::{
-    exact::{Region, Term, formula::Formula},
-    mpm::{Effect, PrescribedVelocity},
-    suite::{
-        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::contract::{LoadEntry, LoadWords, LoadedSet};
+use super::fields::{of_place_and_time, sources};
+use crate::exact::formula::Formula;
+use crate::exact::{Region, Term};
+use crate::mpm::{Effect, PrescribedVelocity};
+use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Velocity of a set (m/s), formulas of the coordinates and t.

@@ -1,14 +1,10 @@
 //! Thermal expansion: strain that temperature makes.
 
 use super::contract::{LoadEntry, LoadWords};
-use crate::{
-    exact::{Expansion, Term},
-    mpm::{Effect, ThermalExpansion},
-    suite::{
-        model::load::{BodySite, BuildEffect, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::exact::{Expansion, Term};
+use crate::mpm::{Effect, ThermalExpansion};
+use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Coefficients of the expansion.

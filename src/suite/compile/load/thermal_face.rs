@@ -1,15 +1,15 @@
 //! Thermal conditions on the faces of a body in which heat flows.
 
-use super::{contract::LoadEntry, fields::scalar};
-use crate::{
-    exact::heat::{HeatFace, ThermalCondition},
-    mpm::{Side, Thermal, ThermalBoundary},
-    suite::{
-        compile::{path::Path, scene::face::face},
-        model::{boundary::BoundaryCondition, load::BodySite, scene::SceneFace},
-        yaml::{Diagnostic, NumberText, Ordered},
-    },
-};
+use super::contract::LoadEntry;
+use super::fields::scalar;
+use crate::exact::heat::{HeatFace, ThermalCondition};
+use crate::mpm::{Side, Thermal, ThermalBoundary};
+use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::face::face;
+use crate::suite::model::boundary::BoundaryCondition;
+use crate::suite::model::load::BodySite;
+use crate::suite::model::scene::SceneFace;
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 
 /// The condition on a face; formulas are of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]

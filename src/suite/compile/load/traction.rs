@@ -1,17 +1,12 @@
 //! A traction on a face of a box.
 
-use super::{
-    contract::{LoadEntry, LoadWords, LoadedFace},
-    fields::{of_place_and_time, sources},
-};
-use crate::{
-    exact::{Condition, Term, formula::Formula},
-    mpm::{Effect, Placement, Traction},
-    suite::{
-        model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::contract::{LoadEntry, LoadWords, LoadedFace};
+use super::fields::{of_place_and_time, sources};
+use crate::exact::formula::Formula;
+use crate::exact::{Condition, Term};
+use crate::mpm::{Effect, Placement, Traction};
+use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Force per reference area on one face (Pa), formulas of the coordinates and t.

@@ -1,22 +1,17 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
 use super::methods::methods;
-use crate::{
-    mpm::{FrameName, MassName, combine, combine_bodies},
-    suite::{
-        compile::{
-            evaluator::Evaluator,
-            expect::cases,
-            path::Path,
-            truth::{conservation_only, law},
-            wording::shown,
-        },
-        grammar::{ConvergenceSpec, EquationName, MethodSpec},
-        model::{Against, BoundaryCondition, Case, ConvergencePlan, SceneFace, method::Method},
-        yaml::{Diagnostic, NumberText, OneOrMany},
-    },
-    verify::Axis,
-};
+use crate::mpm::{FrameName, MassName, combine, combine_bodies};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::expect::cases;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::truth::{conservation_only, law};
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
+use crate::suite::model::method::Method;
+use crate::suite::model::{Against, BoundaryCondition, Case, ConvergencePlan, SceneFace};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::verify::Axis;
 
 /// Most cases that a suite may unfold into.
 const MOST_CASES: usize = 1000;

@@ -1,15 +1,11 @@
 //! One entry of `methods` becomes methods: the product of its lists, with names.
 
-use crate::{
-    fem::{Element, Mass, Sampling},
-    mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice},
-    subject::Start,
-    suite::{
-        grammar::{EquationName, MethodSpec},
-        model::method::Method,
-        yaml::OneOrMany,
-    },
-};
+use crate::fem::{Element, Mass, Sampling};
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::subject::Start;
+use crate::suite::grammar::{EquationName, MethodSpec};
+use crate::suite::model::method::Method;
+use crate::suite::yaml::OneOrMany;
 
 /// The product of one entry of `methods`. A choice enters the name where there is one, or where
 /// it always has to be made.

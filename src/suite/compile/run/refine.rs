@@ -1,20 +1,15 @@
 //! The refinement plan of a suite: the key that holds a list is refined.
 
 use super::step_rule;
-use crate::{
-    exact::formula::Formula,
-    suite::{
-        compile::{evaluator::Evaluator, path::Path},
-        grammar::{ConvergenceSpec, RefineSpec},
-        model::{
-            Scene,
-            grid_size::{cell_size, per_axis},
-            refine_plan::{LevelPlan, RefinePlan},
-        },
-        yaml::{Diagnostic, NumberText, OneOrMany},
-    },
-    verify::Axis,
-};
+use crate::exact::formula::Formula;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{ConvergenceSpec, RefineSpec};
+use crate::suite::model::Scene;
+use crate::suite::model::grid_size::{cell_size, per_axis};
+use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::verify::Axis;
 
 /// Where a file states what makes a level: its size, and its time step.
 pub(crate) struct LevelPaths {

@@ -1,11 +1,10 @@
 //! Time steps by rule: a share of the longest safe step.
 
-use crate::suite::{
-    compile::{evaluator::Evaluator, path::Path},
-    grammar::{MethodSpec, StepSpec},
-    model::Scene,
-    yaml::{Diagnostic, NumberText},
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{MethodSpec, StepSpec};
+use crate::suite::model::Scene;
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// The share that `auto` takes.
 const AUTO: f64 = 0.5;

@@ -1,15 +1,15 @@
 //! Time steps that runs can take.
 
 use super::refine::{COARSE_TO_FINE, LevelPaths};
-use crate::{
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::ConvergenceSpec,
-        model::{ConvergencePlan, grid_size::cell_size, refine_plan::RefinePlan},
-        yaml::Diagnostic,
-    },
-    verify::{Axis, Clock},
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::grid_size::cell_size;
+use crate::suite::model::refine_plan::RefinePlan;
+use crate::suite::yaml::Diagnostic;
+use crate::verify::{Axis, Clock};
 
 /// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
 /// order, so that an error of second order on the finest level is known to 1/64.

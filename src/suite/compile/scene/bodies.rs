@@ -3,15 +3,13 @@
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
 //! loads are those of the scene: they act on every body.
 
-use crate::{
-    mpm::MaterialSpec,
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::{BodySpec, OneBodySpec, SceneSpec},
-        model::{BoundaryCondition, Scene},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::mpm::MaterialSpec;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec};
+use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Most bodies of a scene.
 const MOST: usize = 100;

@@ -1,19 +1,15 @@
 //! Boxes and bodies that are not boxes, from words.
 
-use super::{
-    lengths::{LONGEST, SHORTEST},
-    quadrilateral::quadrilateral,
-};
-use crate::{
-    exact::Round,
-    mpm::Quadrilateral,
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec},
-        model::{BoundaryCondition, Scene, SceneFace},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::lengths::{LONGEST, SHORTEST};
+use super::quadrilateral::quadrilateral;
+use crate::exact::Round;
+use crate::mpm::Quadrilateral;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
+use crate::suite::model::{BoundaryCondition, Scene, SceneFace};
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Shape of a body.
 pub(crate) enum BodyShape<'a> {

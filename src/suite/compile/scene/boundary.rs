@@ -1,11 +1,13 @@
 //! Boundary conditions of the faces, from `boundary`.
 
-use crate::suite::{
-    compile::{evaluator::Evaluator, path::Path, scene::face::face, wording::shown},
-    grammar::{BoundarySpec, SceneSpec},
-    model::{BoundaryCondition, scene::FACES},
-    yaml::{Diagnostic, NumberText},
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::face::face;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{BoundarySpec, SceneSpec};
+use crate::suite::model::BoundaryCondition;
+use crate::suite::model::scene::FACES;
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Boundary conditions of the faces, in their order; `variables` are the coordinates and t.
 pub(crate) fn holds(

@@ -1,12 +1,10 @@
 //! The material of a body, from words.
 
-use crate::{
-    mpm::{MaterialPlan, MaterialSpec, Range},
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::shown},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use crate::mpm::{MaterialPlan, MaterialSpec, Range};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// The material and its density (kg/m^D).
 pub(crate) fn material(

@@ -1,15 +1,13 @@
 //! Panels with four straight sides, from words.
 
 use super::lengths::{LONGEST, SHORTEST};
-use crate::{
-    mpm::{Quadrilateral, Vector},
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::{BoundarySpec, ConvergenceSpec, QuadrilateralSpec, SceneSpec},
-        model::scene::FACES,
-        yaml::Diagnostic,
-    },
-};
+use crate::mpm::{Quadrilateral, Vector};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{BoundarySpec, ConvergenceSpec, QuadrilateralSpec, SceneSpec};
+use crate::suite::model::scene::FACES;
+use crate::suite::yaml::Diagnostic;
 
 /// The panel that `words` at `path` describe.
 ///

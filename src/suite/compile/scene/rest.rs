@@ -3,23 +3,15 @@
 //! No stage of mechanics runs and no column of it is kept, so that every word about motion is
 //! refused.
 
-use crate::{
-    exact::heat::Conduction,
-    suite::{
-        compile::{
-            evaluator::Evaluator,
-            load::LoadSpec,
-            path::Path,
-            truth::{
-                conduction::{self, ConductionInputs},
-                exact,
-            },
-        },
-        grammar::{ConvergenceSpec, ExactSpec, MethodSpec, SceneSpec},
-        model::{BoundaryCondition, Scene, SceneFace},
-        yaml::Diagnostic,
-    },
-};
+use crate::exact::heat::Conduction;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::load::LoadSpec;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::truth::conduction::{self, ConductionInputs};
+use crate::suite::compile::truth::exact;
+use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec, SceneSpec};
+use crate::suite::model::{BoundaryCondition, Scene, SceneFace};
+use crate::suite::yaml::Diagnostic;
 
 /// Sets every face at rest that is not periodic, and refuses words that hold or move the body.
 /// `path` is that of the scene.

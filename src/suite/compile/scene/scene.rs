@@ -1,25 +1,22 @@
 //! The body and what acts on it, from words.
 
-use super::{
-    bodies, bodies::Listed, body, body::BodyShape, boundary, material::material,
-    quadrilateral::faces_are_sides, rest, sets,
-};
-use crate::{
-    exact::{Region, formula::Formula},
-    mpm::MaterialPlan,
-    suite::{
-        compile::{
-            coordinates::coordinates_and_time,
-            evaluator::Evaluator,
-            load::{EffectName, LoadEntry, LoadSpec},
-            path::Path,
-            wording::shown,
-        },
-        grammar::{SceneSpec, SetSpec},
-        model::{Scene, SceneFace, scene::FACES},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::bodies::Listed;
+use super::body::BodyShape;
+use super::material::material;
+use super::quadrilateral::faces_are_sides;
+use super::{bodies, body, boundary, rest, sets};
+use crate::exact::Region;
+use crate::exact::formula::Formula;
+use crate::mpm::MaterialPlan;
+use crate::suite::compile::coordinates::coordinates_and_time;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::load::{EffectName, LoadEntry, LoadSpec};
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{SceneSpec, SetSpec};
+use crate::suite::model::scene::FACES;
+use crate::suite::model::{Scene, SceneFace};
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Checks the scene of a suite.
 pub(crate) fn scene(evaluator: &Evaluator<'_>, words: &SceneSpec) -> Result<Scene, Diagnostic> {

@@ -1,20 +1,12 @@
 //! Sets of particles, and what acts on them.
 
-use crate::{
-    exact::Region,
-    suite::{
-        compile::{
-            evaluator::Evaluator,
-            path::Path,
-            wording::{shown, suggestion},
-        },
-        model::{
-            load::LoadTarget,
-            scene::{FACES, Scene},
-        },
-        yaml::Diagnostic,
-    },
-};
+use crate::exact::Region;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::{shown, suggestion};
+use crate::suite::model::load::LoadTarget;
+use crate::suite::model::scene::{FACES, Scene};
+use crate::suite::yaml::Diagnostic;
 
 /// A set that is called like a face could be taken for it.
 pub(crate) fn refuse_face_name(

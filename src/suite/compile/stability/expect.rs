@@ -1,14 +1,12 @@
 //! Expectations of the rows of a stability study.
 
-use crate::{
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::suggestion},
-        grammar::{FigureSpec, StabilityExpectSpec},
-        model::stability::SetupTemplate,
-        yaml::Diagnostic,
-    },
-    verify::{FigureBounds, RunFigure, StabilityExpectation},
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::suggestion;
+use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
+use crate::suite::model::stability::SetupTemplate;
+use crate::suite::yaml::Diagnostic;
+use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
 
 /// The figures that an entry of `expect` speaks of.
 pub(crate) fn named(

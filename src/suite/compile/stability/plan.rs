@@ -1,25 +1,18 @@
 //! A stability study, checked before anything runs.
 
-use super::{expect, setup::setup};
-use crate::{
-    mpm::{MaterialPlan, combine},
-    suite::{
-        compile::{
-            evaluator::Evaluator,
-            expect::cases::{assign, because},
-            path::Path,
-            run::methods::methods,
-            truth::law,
-            wording::{shown, suggestion},
-        },
-        grammar::{MethodSpec, StabilitySpec},
-        model::{
-            method::Method,
-            stability::{SetupTemplate, StabilityCase, StabilityPlan},
-        },
-        yaml::{Diagnostic, Source},
-    },
-};
+use super::expect;
+use super::setup::setup;
+use crate::mpm::{MaterialPlan, combine};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::expect::cases::{assign, because};
+use crate::suite::compile::path::Path;
+use crate::suite::compile::run::methods::methods;
+use crate::suite::compile::truth::law;
+use crate::suite::compile::wording::{shown, suggestion};
+use crate::suite::grammar::{MethodSpec, StabilitySpec};
+use crate::suite::model::method::Method;
+use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan};
+use crate::suite::yaml::{Diagnostic, Source};
 
 /// Most rows and most cases of a study.
 const MOST: usize = 500;

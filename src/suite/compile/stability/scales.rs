@@ -1,14 +1,12 @@
 //! Scales and bounds that a run is judged by.
 
-use crate::{
-    suite::{
-        compile::{evaluator::Evaluator, path::Path, wording::shown},
-        grammar::StabilitySpec,
-        model::Scene,
-        yaml::{Diagnostic, NumberText},
-    },
-    verify::{RunFigure, Scales},
-};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::StabilitySpec;
+use crate::suite::model::Scene;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::verify::{RunFigure, Scales};
 
 /// Energy, over that at the start, up to which a run is stable: above what the exchange between
 /// velocities and stresses makes of a random start just below the limit of a leapfrog.

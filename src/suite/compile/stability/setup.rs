@@ -4,23 +4,19 @@
 //! specification is evaluated once more for every value.
 
 use super::scales::scales;
-use crate::{
-    suite::{
-        compile::{
-            check::size, evaluator::Evaluator, path::Path, run::step_rule, scene::scene,
-            wording::shown,
-        },
-        grammar::StabilitySpec,
-        model::{
-            BoundaryCondition, Scene,
-            grid_size::{cell_size, grid_axis, per_axis},
-            refine_plan::LevelPlan,
-            stability::{LatticeEdits, SetupTemplate},
-        },
-        yaml::{Diagnostic, NumberText},
-    },
-    verify::Scales,
-};
+use crate::suite::compile::check::size;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::run::step_rule;
+use crate::suite::compile::scene::scene;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::StabilitySpec;
+use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
+use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::verify::Scales;
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
 const PERTURBATION: f64 = 1e-9;

@@ -1,18 +1,14 @@
 //! The heat problem that a stated temperature is to solve, and the methods that know of heat.
 
-use crate::{
-    exact::{
-        Motion,
-        heat::{Conduction, Temperature},
-    },
-    mpm::{FrameName, TransferKind},
-    suite::{
-        compile::{coordinates::coordinates_and_time, evaluator::Evaluator, path::Path},
-        grammar::{ConvergenceSpec, MethodSpec},
-        model::Scene,
-        yaml::{Diagnostic, NumberText, OneOrMany},
-    },
-};
+use crate::exact::Motion;
+use crate::exact::heat::{Conduction, Temperature};
+use crate::mpm::{FrameName, TransferKind};
+use crate::suite::compile::coordinates::coordinates_and_time;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
+use crate::suite::model::Scene;
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 
 /// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
 /// none where neither is there.

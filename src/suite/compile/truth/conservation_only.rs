@@ -1,15 +1,12 @@
 //! Suites without a truth: no error is taken, and expectations bound only what a run keeps.
 
-use crate::{
-    exact::Truth,
-    suite::{
-        compile::{evaluator::Evaluator, path::Path},
-        grammar::{ConvergenceSpec, ExpectSpec},
-        model::ConvergencePlan,
-        yaml::Diagnostic,
-    },
-    verify::{Judgement, LevelOutcome, Verdict},
-};
+use crate::exact::Truth;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
+use crate::suite::model::ConvergencePlan;
+use crate::suite::yaml::Diagnostic;
+use crate::verify::{Judgement, LevelOutcome, Verdict};
 
 /// The truth of which nothing is known.
 pub(crate) struct Unknown;

@@ -3,12 +3,12 @@
 //! A body that comes to rest under a load is compared with its equilibrium once it is there: at the
 //! end of the run.
 
-use crate::suite::{
-    compile::{coordinates::COORDINATES, evaluator::Evaluator, path::Path},
-    grammar::{ConvergenceSpec, ExactSpec, NormName},
-    model::{BoundaryCondition, Scene},
-    yaml::Diagnostic,
-};
+use crate::suite::compile::coordinates::COORDINATES;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{ConvergenceSpec, ExactSpec, NormName};
+use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::yaml::Diagnostic;
 
 /// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
 pub(crate) fn refuse(

@@ -1,21 +1,16 @@
 //! The exact solution of a suite, checked before it is used.
 
-use super::{
-    conduction::{self, ConductionInputs},
-    equilibrium, interface, law,
-};
-use crate::{
-    exact::{Condition, Equation, Face, Motion, Problem, Violation},
-    suite::{
-        compile::{
-            coordinates::coordinates_and_time, evaluator::Evaluator, path::Path,
-            scene::quadrilateral::refuse_truth,
-        },
-        grammar::{ConvergenceSpec, EquationName, ExactSpec},
-        model::{BoundaryCondition, Scene, load::LoadTarget},
-        yaml::{Diagnostic, NumberText},
-    },
-};
+use super::conduction::{self, ConductionInputs};
+use super::{equilibrium, interface, law};
+use crate::exact::{Condition, Equation, Face, Motion, Problem, Violation};
+use crate::suite::compile::coordinates::coordinates_and_time;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::quadrilateral::refuse_truth;
+use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
+use crate::suite::model::load::LoadTarget;
+use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 const TOLERANCE: f64 = 1e-8;

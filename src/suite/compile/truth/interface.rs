@@ -4,15 +4,12 @@
 //! same extent, touching or with a gap between them. No condition is known for other faces and for
 //! rims.
 
-use crate::{
-    exact::{Condition, Problem, Violation, meets},
-    suite::{
-        compile::{evaluator::Evaluator, path::Path},
-        grammar::ConvergenceSpec,
-        model::Scene,
-        yaml::Diagnostic,
-    },
-};
+use crate::exact::{Condition, Problem, Violation, meets};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::model::Scene;
+use crate::suite::yaml::Diagnostic;
 
 /// Refuses truths that are those of one body.
 ///

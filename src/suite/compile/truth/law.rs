@@ -1,16 +1,13 @@
 //! Laws of the truth and of the reference FEM for a material.
 
-use crate::{
-    exact::Equation,
-    fem::BarLaw,
-    mpm::MaterialPlan,
-    suite::{
-        compile::{evaluator::Evaluator, path::Path},
-        grammar::{ConvergenceSpec, EquationName, MethodSpec},
-        model::Scene,
-        yaml::Diagnostic,
-    },
-};
+use crate::exact::Equation;
+use crate::fem::BarLaw;
+use crate::mpm::MaterialPlan;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
+use crate::suite::model::Scene;
+use crate::suite::yaml::Diagnostic;
 
 /// Name of the law of an FEM bar of this material, if the FEM has it.
 pub(crate) fn own(material: &MaterialPlan) -> Option<EquationName> {
