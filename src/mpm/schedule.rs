@@ -169,12 +169,12 @@ mod tests {
 
     #[test]
     fn bodies_are_coupled_once_for_each_change_of_the_grid() {
+        use CouplingPoint as At;
         let points = |scheme: SchemeName| -> Vec<CouplingPoint> {
             let passes = compile(scheme.stages(true), true, true).into_iter();
             let point = |pass| if let Pass::Couple(point) = pass { Some(point) } else { None };
             passes.filter_map(point).collect()
         };
-        use CouplingPoint as At;
         let usf = [At::Mass, At::StrainVelocity, At::Strained, At::Acceleration];
         assert_eq!(points(SchemeName::Usf), usf);
         assert_eq!(points(SchemeName::Usl), [At::Mass, At::Velocity, At::Acceleration]);

@@ -175,9 +175,13 @@ fn unknown(from: &str, text: &str, has: &Repository) -> Vec<String> {
         return lost.then(|| format!("names `{text}`, which is not in src/")).into_iter().collect();
     }
     let paths = alternatives(text);
-    let lost = paths.iter().filter(|path| match path.contains('/') {
-        true => has.is_ours(path) && !has.finds(path, from),
-        false => (path.ends_with(".rs") || path.ends_with(".md")) && !has.has_name(path),
+    let is_file = |path: &str| matches!(path.rsplit_once('.'), Some((_, "rs" | "md")));
+    let lost = paths.iter().filter(|path| {
+        if path.contains('/') {
+            has.is_ours(path) && !has.finds(path, from)
+        } else {
+            is_file(path) && !has.has_name(path)
+        }
     });
     let mut lost: Vec<String> =
         lost.map(|path| format!("names `{path}`, which is not there")).collect();

@@ -165,12 +165,12 @@ pub(crate) fn equation(problem: &Problem) -> Result<(), Violation> {
             let (inertia, stress, force) = terms(event, d, i);
             let name = format!("equation of motion in {}, rho0 u_tt = Div P + rho0 b,", AXES[i]);
             let (allowed, rho0) = (problem.tolerance * size, problem.density);
-            if !problem.terms.iter().any(|term| term.is_body_force()) {
-                event.judge(allowed, name, (stress + force, inertia), "N/m3")?;
-            } else {
+            if problem.terms.iter().any(|term| term.is_body_force()) {
                 let (name, forces) =
                     (name + " solved for b,", ((inertia - stress) / rho0, force / rho0));
                 event.judge(allowed / rho0, name, forces, "m/s2")?;
+            } else {
+                event.judge(allowed, name, (stress + force, inertia), "N/m3")?;
             }
         }
     }

@@ -24,6 +24,7 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
 }
 
 /// The sum of the parts that are present.
+#[expect(clippy::unnecessary_wraps, reason = "it replaces the part that it is given")]
 #[inline(always)]
 fn plus<F: F64x4>(sum: Option<F>, term: F) -> Option<F> {
     match sum {

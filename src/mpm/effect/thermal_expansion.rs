@@ -81,7 +81,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
         match &mut self.law {
             ExpansionLaw::OfDeformation { elastic } => elastic.clone_from(&particles.def_grad),
             ExpansionLaw::InRateForm { before, .. } => {
-                before.resize(particles.len(), self.reference)
+                before.resize(particles.len(), self.reference);
             }
         }
         self.before_stress(particles);

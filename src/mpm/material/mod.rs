@@ -1,5 +1,5 @@
 //! Materials: the family. A member is one file, its `mod` and one line below; a parameter that no
-//! other material has is one line in [`parameter`]. The truth's law of a material is a member of
+//! other material has is one line in `parameter`. The truth's law of a material is a member of
 //! the family in `exact/law`.
 
 #[cfg(test)]

@@ -93,7 +93,7 @@ pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
             row.trial.as_ref().map(run)
         }),
         RowColumn::json("confirmed", "runs at shares of the predicted limit", |row| {
-            row.critical.as_ref().map(|critical| confirmations(critical))
+            row.critical.as_ref().map(confirmations)
         }),
         RowColumn::json("refused", "why there is neither", |row| row.refused.clone()),
     ]);

@@ -22,7 +22,9 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     for (key, value) in &outcome.statement {
         row(&mut lines, key, value);
     }
-    KINDS.iter().for_each(|kind| kind.overview(&mut lines, outcome));
+    for kind in KINDS {
+        kind.overview(&mut lines, outcome);
+    }
     for case in &outcome.cases {
         lines.push(String::new());
         case_lines(&mut lines, case);
@@ -80,7 +82,9 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
         row(lines, key, &value);
     }
     lines.push(String::new());
-    KINDS.iter().for_each(|kind| kind.tables(lines, case));
+    for kind in KINDS {
+        kind.tables(lines, case);
+    }
     lines.push(String::new());
     row(lines, "verdict", &format!("{}: {}", case.verdict, case.reason));
     row(lines, "expected", &format!("{}, because {}", case.expected, case.because));

@@ -66,7 +66,9 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
 fn add_stated(loads: &[Arc<dyn SceneLoad>], t: f64, places: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t);
-        values.iter_mut().for_each(|value| *value += everywhere);
+        for value in &mut *values {
+            *value += everywhere;
+        }
     }
     for load in loads.iter().filter(|load| !load.is_uniform()) {
         for (value, x) in values.iter_mut().zip(places) {

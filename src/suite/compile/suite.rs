@@ -6,7 +6,7 @@ use super::evaluator::{DeclaredParameter, Evaluator};
 use super::load::{LoadEntry, StudyFacts};
 use super::path::Path;
 use super::run::{cases, refine, steps};
-use super::scene::{rest, scene};
+use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, law};
 use super::wording::shown;
 use super::{internal_force, stability};
@@ -46,7 +46,7 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     let spec: ConvergenceSpec = read(source)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;
-    let scene = scene::scene(&evaluator, &spec.scene)?;
+    let scene = whole::scene(&evaluator, &spec.scene)?;
     fem_support::check(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {

@@ -8,3 +8,4 @@ pub(crate) mod observer;
 pub(crate) mod quantity;
 pub(crate) mod run;
 pub(crate) mod run_result;
+mod tensor_shape;

@@ -7,6 +7,7 @@
 //! length: the square root of the sum of the squares of all components.
 
 use super::norm::Norms;
+use super::tensor_shape::TensorShape;
 use crate::exact::Truth;
 use crate::named::named;
 use crate::subject::Samples;
@@ -30,7 +31,11 @@ named! {
     }
 }
 
+/// Exact values at all labels in so many dimensions, at a time.
+type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
+
 /// All that is known of a quantity besides its name.
+#[expect(clippy::struct_excessive_bools, reason = "four independent questions, each asked by name")]
 struct Declaration {
     /// Its unit; empty for a number.
     unit: &'static str,
@@ -40,7 +45,7 @@ struct Declaration {
     /// Exact value at the label X at time t; false from a truth that does not know it.
     exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
     /// Exact values at all labels in D dimensions at once, where a truth has a faster way.
-    exact_at_all: Option<fn(&dyn Truth, usize, &[f64], f64, &mut [f64])>,
+    exact_at_all: Option<ExactAtAll>,
     /// Natural size of exact values, which errors are compared with.
     size: SolutionSize,
     /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN
@@ -54,16 +59,6 @@ struct Declaration {
     is_of_motion: bool,
     /// Whether a subject must keep F for it.
     needs_deformation_gradient: bool,
-}
-
-/// Components at a label in D dimensions.
-enum TensorShape {
-    /// 1.
-    Scalar,
-    /// D.
-    Vector,
-    /// D * D, row after row.
-    Tensor,
 }
 
 /// Natural size of a field.
@@ -193,12 +188,7 @@ impl Quantity {
 
     /// Numbers at each label in `d` dimensions.
     fn components(self, d: usize) -> usize {
-        match self.declaration().shape {
-            // Without a dimension there is nothing to compare, be it a number.
-            TensorShape::Scalar => d.min(1),
-            TensorShape::Vector => d,
-            TensorShape::Tensor => d * d,
-        }
+        self.declaration().shape.components(d)
     }
 
     /// The exact values at all labels; whether the truth knows them.

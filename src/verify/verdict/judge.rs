@@ -3,7 +3,7 @@
 //! 1. Is every level sound, and the hypothesis testable? Else `failed`.
 //! 2. Are there four usable levels? Else `too few levels`.
 //! 3. Does the error go up and down, grow, or rest on a floor? `oscillatory`, `divergent`, `at
-//!    floor`, by the shapes of [`error_trend`](super::error_trend) and, for an exact zero, as such.
+//!    floor`, by the shapes of [`error_trend`] and, for an exact zero, as such.
 //! 4. Which levels are asymptotic? The [`window`]; if it leaves out levels at the fine end, the
 //!    verdict is `at floor`.
 //! 5. Has the order settled there? A wide interval or a drift is `pre-asymptotic`.

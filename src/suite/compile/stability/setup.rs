@@ -8,7 +8,7 @@ use crate::suite::compile::check::size;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::run::step_rule;
-use crate::suite::compile::scene::scene;
+use crate::suite::compile::scene::whole;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
@@ -68,7 +68,7 @@ pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
 ) -> Result<RunSetup, Diagnostic> {
-    let scene = scene::scene(evaluator, &spec.scene)?;
+    let scene = whole::scene(evaluator, &spec.scene)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");
