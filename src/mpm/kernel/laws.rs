@@ -13,7 +13,7 @@ use crate::mpm::basis::{Basis, BasisName, with_basis};
 use crate::mpm::grid::Grid;
 use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedField};
 use crate::mpm::particles::{Block, Particles};
-use crate::mpm::simd::{Plain, SimdPass, lower_levels, run_at};
+use crate::mpm::simd::{lower_levels, run_at};
 use approx::assert_relative_eq;
 use fearless_simd::Level;
 use rstest::rstest;
@@ -161,8 +161,9 @@ fn levels_agree<B: Basis, const D: usize>(periodic: bool) {
     let mut fields = workspace.each_mut().map(|field| field.shaped(&start));
     fields.iter_mut().for_each(FieldViewMut::clear);
     let (request, range, basis) = (&request, 0..particles.len(), PhantomData);
-    Scatter::<D, B> { grid: &start, particles: &particles, range, request, fields, basis }
-        .run(Plain);
+    let pass =
+        Scatter::<D, B> { grid: &start, particles: &particles, range, request, fields, basis };
+    run_at(Level::baseline(), pass);
     for field in &mut workspace {
         field.fold(&start);
     }
@@ -194,20 +195,16 @@ fn levels_agree<B: Basis, const D: usize>(periodic: bool) {
     let mut workspace = [PackedField::default(), PackedField::default()];
     pack(&mut workspace, &start, &start.velocity, true);
     let fields = workspace.each_ref().map(PackedField::view);
-    let gather = |level: Option<Level>| {
+    let gather = |level: Level| {
         take(&|request| {
             let (range, basis) = (0..particles.len(), PhantomData);
             let (grid, particles) = (&start, &particles);
             let pass = Gather::<D, B> { grid, particles, range, request, fields, basis };
-            match level {
-                Some(level) => run_at(level, pass),
-                None => pass.run(Plain),
-            }
+            run_at(level, pass);
         })
     };
-    assert_eq!(best, gather(None));
     for level in lower_levels() {
-        assert_eq!(best, gather(Some(level)), "{level:?}");
+        assert_eq!(best, gather(level), "{level:?}");
     }
 }
 

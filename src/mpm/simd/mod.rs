@@ -65,12 +65,11 @@ pub(in crate::mpm) fn run_at<P: SimdPass>(level: Level, pass: P) {
     pass.run(Plain);
 }
 
-/// Levels below the best one of this processor.
+/// Levels below the best one of this processor, down to plain arrays.
 #[cfg(test)]
 pub(in crate::mpm) fn lower_levels() -> Vec<Level> {
+    let mut levels = vec![Level::baseline()];
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    if let Some(avx2) = Level::new().as_avx2() {
-        return vec![Level::Avx2(avx2)];
-    }
-    Vec::new()
+    levels.extend(Level::new().as_avx2().map(Level::Avx2));
+    levels
 }
