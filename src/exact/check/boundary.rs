@@ -1,7 +1,7 @@
 //! Boundary conditions, checked at points of every face, and of every part whose motion is given.
 
 use super::friction;
-use super::pointwise::{AXES, Event, POINTS, largest, scale};
+use super::pointwise::{AXES, Event, POINTS, largest, scale, strain};
 use crate::exact::formula::Formula;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::problem::{Condition, Face, Problem};
@@ -18,7 +18,7 @@ struct Magnitudes {
 
 /// Every face of the body, at random points and times.
 pub(crate) fn boundary(problem: &Problem) -> Result<(), Violation> {
-    let gradient = scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max));
+    let gradient = strain(problem);
     let sizes = Magnitudes {
         displacement: scale(problem, |_, d| largest(&d.u)),
         velocity: scale(problem, |_, d| largest(&d.velocity)),

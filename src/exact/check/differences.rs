@@ -8,21 +8,19 @@ use crate::exact::violation::Violation;
 
 /// Relative agreement asked of automatic differentiation and finite differences. Differences of
 /// second order with the steps below reach about 1e-6.
-const DIFFERENCE_TOLERANCE: f64 = 1e-4;
+pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
-/// Automatic differentiation against central differences. A kink (a wave front) that happens to
-/// lie within the reach of the differences is no fault, so a point is moved twice before it
-/// counts.
-pub(crate) fn differentiation(problem: &Problem) -> Result<(), Violation> {
+/// Holds `check` at random events. A kink (a wave front) that happens to lie within the reach of
+/// differences is no fault, so an event is moved twice before it counts.
+pub(crate) fn away_from_kinks(
+    event: impl Fn(&mut Random) -> Event,
+    check: impl Fn(&Event) -> Result<(), Violation>,
+) -> Result<(), Violation> {
     let mut random = Random::new(5);
-    let speed = scale(problem, |_, d| largest(&d.velocity));
-    let acceleration = scale(problem, |_, d| largest(&d.acceleration));
     for _ in 0..POINTS / 4 {
         let mut last = Ok(());
         for _ in 0..3 {
-            let label = problem.point(&mut random);
-            let event = Event { label, t: problem.moment(&mut random) };
-            last = differences(problem, &event, speed, acceleration);
+            last = check(&event(&mut random));
             if last.is_ok() {
                 break;
             }
@@ -30,6 +28,16 @@ pub(crate) fn differentiation(problem: &Problem) -> Result<(), Violation> {
         last?;
     }
     Ok(())
+}
+
+/// Automatic differentiation against central differences.
+pub(crate) fn differentiation(problem: &Problem) -> Result<(), Violation> {
+    let speed = scale(problem, |_, d| largest(&d.velocity));
+    let acceleration = scale(problem, |_, d| largest(&d.acceleration));
+    away_from_kinks(
+        |random| Event { label: problem.point(random), t: problem.moment(random) },
+        |event| differences(problem, event, speed, acceleration),
+    )
 }
 
 fn differences(

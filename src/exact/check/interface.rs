@@ -8,7 +8,7 @@
 //! inside, a billionth of its length from the face.
 
 use super::friction::{InterfaceTraction, coulomb};
-use super::pointwise::{AXES, Event, POINTS, largest, scale};
+use super::pointwise::{AXES, Event, POINTS, largest, scale, strain};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -44,11 +44,10 @@ pub fn meets(
 /// Largest displacement (m), velocity (m/s) and stress (Pa) of the two.
 fn sizes(one: &Problem, other: &Problem) -> [f64; 3] {
     let of = |problem: &Problem| {
-        let gradient = scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max));
         [
             scale(problem, |_, d| largest(&d.u)),
             scale(problem, |_, d| largest(&d.velocity)),
-            problem.equation.modulus() * gradient,
+            problem.equation.modulus() * strain(problem),
         ]
     };
     let (a, b) = (of(one), of(other));

@@ -59,24 +59,29 @@ impl Event {
     }
 }
 
-fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
+/// Draws [`POINTS`] points from the sequence of `seed`.
+pub(crate) fn drawn<T>(seed: u64, mut point: impl FnMut(&mut Random) -> T) -> Vec<T> {
     let mut random = Random::new(seed);
-    let mut event = || {
-        let label = problem.point(&mut random);
-        let t = problem.moment(&mut random);
-        let all = problem.motion.derivatives(&label, t);
-        (Event { label, t }, all)
-    };
-    (0..POINTS).map(|_| event()).collect()
+    (0..POINTS).map(|_| point(&mut random)).collect()
 }
 
-/// Largest value of a quantity over the interior points; NaN if any is NaN, so that every
-/// comparison with it fails.
+fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
+    drawn(seed, |random| {
+        let label = problem.point(random);
+        let t = problem.moment(random);
+        let all = problem.motion.derivatives(&label, t);
+        (Event { label, t }, all)
+    })
+}
+
+/// Largest of magnitudes; NaN if any is NaN, so that every comparison with it fails.
+pub(crate) fn greatest(magnitudes: impl Iterator<Item = f64>) -> f64 {
+    magnitudes.fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
+}
+
+/// Largest value of a quantity over the interior points; NaN if any is.
 pub(crate) fn scale(problem: &Problem, quantity: impl Fn(&Event, &Derivatives) -> f64) -> f64 {
-    interior(problem, 1)
-        .iter()
-        .map(|(e, d)| quantity(e, d))
-        .fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
+    greatest(interior(problem, 1).iter().map(|(e, d)| quantity(e, d)))
 }
 
 pub(crate) fn largest(values: &[f64; 3]) -> f64 {

@@ -15,7 +15,7 @@ pub(crate) const PATCHES: usize = 12;
 
 /// Largest imbalance, relative to the sum of the magnitudes of the terms. The quadrature of a jump
 /// that runs obliquely through the grid of points below is good to about a thousandth.
-pub(crate) const TOLERANCE: f64 = 0.005;
+const TOLERANCE: f64 = 0.005;
 
 /// Longest patch, in times that a wave takes through the body: the points below must resolve it.
 const WAVES: f64 = 4.0;
@@ -65,8 +65,24 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
+    /// Points of the midpoint rule: those of space, and those of time for each of them.
+    pub(crate) fn raster(&self) -> (Vec<Vec<AxisPoint>>, Vec<AxisPoint>) {
+        let d = self.centre.len() - 1;
+        let per_axis = [0, 64, 20, 10][d];
+        let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
+        let spot = |k: usize| {
+            let points = axes.iter().scan(k, |k, axis| {
+                let point = axis[*k % per_axis];
+                *k /= per_axis;
+                Some(point)
+            });
+            points.collect()
+        };
+        ((0..per_axis.pow(d as u32)).map(spot).collect(), self.axis(d, per_axis))
+    }
+
     /// Equally spaced points on the axis `a`, time being the last one.
-    pub(crate) fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
+    fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
         let point = |index: usize| {
             let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
             let inside = 1.0 - xi * xi;
@@ -133,43 +149,42 @@ pub(crate) struct Sums {
     pub(crate) size: f64,
 }
 
+impl Sums {
+    /// Holds gain against loss; `condition` ends with the name of the equation.
+    pub(crate) fn judge(
+        &self,
+        condition: &str,
+        (label, t): (&[f64], f64),
+    ) -> Result<(), Violation> {
+        if (self.gain - self.loss).abs() <= TOLERANCE * self.size {
+            return Ok(());
+        }
+        Err(Violation {
+            condition: format!("{condition} in weak form; shares of the sum of all terms)"),
+            label: label.to_vec(),
+            t,
+            expected: Some(self.loss / self.size),
+            found: self.gain / self.size,
+            unit: "",
+        })
+    }
+}
+
 fn balance(problem: &Problem, patch: &SpaceTimePatch) -> Result<(), Violation> {
     let d = problem.dimension();
-    for sums in &sums(problem, patch)[..d] {
-        if !((sums.gain - sums.loss).abs() <= TOLERANCE * sums.size) {
-            return Err(Violation {
-                condition: "momentum balance across wave fronts (the equation of motion in weak \
-                            form; shares of the sum of all terms)"
-                    .to_owned(),
-                label: patch.centre[..d].to_vec(),
-                t: problem.loaded(patch.centre[d]),
-                expected: Some(sums.loss / sums.size),
-                found: sums.gain / sums.size,
-                unit: "",
-            });
-        }
-    }
-    Ok(())
+    let condition = "momentum balance across wave fronts (the equation of motion";
+    let centre = (&patch.centre[..d], problem.loaded(patch.centre[d]));
+    sums(problem, patch)[..d].iter().try_for_each(|sums| sums.judge(condition, centre))
 }
 
 /// The balance of every component, by the midpoint rule on a raster of the patch.
 fn sums(problem: &Problem, patch: &SpaceTimePatch) -> [Sums; 3] {
     let d = problem.dimension();
-    let per_axis = [0, 64, 20, 10][d];
-    let axes: Vec<Vec<AxisPoint>> = (0..=d).map(|a| patch.axis(a, per_axis)).collect();
-    let spot = |k: usize| {
-        axes[..d].iter().scan(k, |k, axis| {
-            let point = axis[*k % per_axis];
-            *k /= per_axis;
-            Some(point)
-        })
-    };
-    let spots: Vec<Vec<AxisPoint>> =
-        (0..per_axis.pow(d as u32)).map(|k| spot(k).collect()).collect();
+    let (spots, times) = patch.raster();
     let labels: Vec<Vec<f64>> = spots.iter().map(|s| s.iter().map(|p| p.at).collect()).collect();
     let mut places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
     let (mut all, mut now) = ([Sums::default(); 3], Derivatives::default());
-    for time in &axes[d] {
+    for time in &times {
         places.set_time(time.at);
         let loaded = problem.loaded(time.at);
         for (place, spot) in spots.iter().enumerate() {

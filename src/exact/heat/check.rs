@@ -3,14 +3,12 @@
 use super::field::TemperatureDerivatives;
 use super::problem::{Conduction, HeatFace, ThermalCondition};
 use super::{equation, weak};
-use crate::exact::check::pointwise::{Event, POINTS, largest};
+use crate::exact::check::differences::{DIFFERENCE_TOLERANCE, away_from_kinks};
+use crate::exact::check::pointwise::{Event, POINTS, drawn, greatest, largest};
 use crate::exact::formula::Formula;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
-
-/// Relative agreement asked of automatic differentiation and finite differences.
-const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
 impl Conduction {
     /// Holds the temperature against the heat equation (point by point and in weak form), the
@@ -28,25 +26,26 @@ impl Conduction {
     }
 }
 
+impl Conduction {
+    /// A random place in the body, and a time of the run.
+    fn event(&self, random: &mut Random) -> Event {
+        Event { label: random.point(&self.from, &self.to), t: self.moment(random) }
+    }
+}
+
 type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
 
 fn interior(problem: &Conduction, seed: u64) -> Vec<HeatPoint> {
-    let mut random = Random::new(seed);
-    let mut point = || {
-        let label = random.point(&problem.from, &problem.to);
-        let t = problem.moment(&mut random);
-        let (motion, now) = problem.now(&label, t);
-        (Event { label, t }, motion, now)
-    };
-    (0..POINTS).map(|_| point()).collect()
+    drawn(seed, |random| {
+        let event = problem.event(random);
+        let (motion, now) = problem.now(&event.label, event.t);
+        (event, motion, now)
+    })
 }
 
 /// Largest value of a quantity over the interior points; NaN if any is.
 fn scale(problem: &Conduction, quantity: impl Fn(&HeatPoint) -> f64) -> f64 {
-    interior(problem, 1)
-        .iter()
-        .map(|point| quantity(point).abs())
-        .fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b) })
+    greatest(interior(problem, 1).iter().map(|point| quantity(point).abs()))
 }
 
 /// The temperature is a number everywhere inside, and not zero everywhere.
@@ -157,24 +156,10 @@ fn on_face(
     }
 }
 
-/// T_t and Div Q, once by automatic differentiation and once by central differences. A kink that
-/// happens to lie within their reach is no fault, so a point is moved twice before it counts.
+/// T_t and Div Q, once by automatic differentiation and once by central differences.
 fn differentiation(problem: &Conduction) -> Result<(), Violation> {
     let rate = scale(problem, |(_, _, now)| now.rate);
-    let mut random = Random::new(5);
-    for _ in 0..POINTS / 4 {
-        let mut last = Ok(());
-        for _ in 0..3 {
-            let label = random.point(&problem.from, &problem.to);
-            let event = Event { label, t: problem.moment(&mut random) };
-            last = differences(problem, &event, rate);
-            if last.is_ok() {
-                break;
-            }
-        }
-        last?;
-    }
-    Ok(())
+    away_from_kinks(|random| problem.event(random), |event| differences(problem, event, rate))
 }
 
 fn differences(problem: &Conduction, event: &Event, rate: f64) -> Result<(), Violation> {
