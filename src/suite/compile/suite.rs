@@ -105,8 +105,8 @@ fn loads(
 ) -> Result<(), Diagnostic> {
     let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
     for (i, load) in spec.scene.loads.iter().enumerate() {
-        let path = Path::top("scene").then("loads").then(i).then(load.effect().name());
-        load.words().check(&LoadEntry { evaluator, path, scene }, &study)?;
+        let entry = LoadEntry { evaluator, path: load.path(i), scene };
+        load.words().check(&entry, &study)?;
         if let Some(lacked) = load.words().lacked_by_fem() {
             subject_support::fem_lacks(evaluator, spec, lacked)?;
         }

@@ -19,6 +19,7 @@ mod traction;
 
 pub(crate) use contract::{LoadEntry, LoadWords, StudyFacts};
 
+use super::path::Path;
 use registry::loads;
 
 loads! {
@@ -44,6 +45,13 @@ loads! {
     Heat = "heat": heat::HeatSpec;
     /// Strain that temperature makes.
     ThermalExpansion = "thermal_expansion": thermal_expansion::ExpansionSpec, needs [Heat];
+}
+
+impl LoadSpec {
+    /// Path of the value of the entry with this `number` in the list of loads.
+    pub(crate) fn path(&self, number: usize) -> Path {
+        Path::top("scene").then("loads").then(number).then(self.effect().name())
+    }
 }
 
 impl EffectName {

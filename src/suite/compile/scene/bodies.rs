@@ -79,7 +79,7 @@ fn refuse_beside(
             None => continue,
         };
         let message = format!("`{name}` {acts} one body, and the scene has several");
-        return Err(evaluator.diagnostic_at_key(&path.then("loads").then(i).then(name), &message));
+        return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
     }
     Ok(())
 }

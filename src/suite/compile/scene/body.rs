@@ -144,10 +144,7 @@ pub(crate) fn rims_are_free(
     let loaded = words.loads.iter().enumerate().find_map(|(i, load)| {
         let on = load.words().face()?;
         let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
-        Some(evaluator.diagnostic(
-            &path.then("loads").then(i).then(load.effect().name()).then("on"),
-            &message,
-        ))
+        Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
     });
     match held.or(loaded) {
         Some(diagnostic) => {

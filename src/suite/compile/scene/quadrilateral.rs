@@ -83,11 +83,7 @@ pub(crate) fn faces_are_sides(
     for (i, load) in words.loads.iter().enumerate() {
         let Some(on) = load.words().face() else { continue };
         if !is_side(on) {
-            return Err(no_side(
-                &path.then("loads").then(i).then(load.effect().name()).then("on"),
-                on,
-                false,
-            ));
+            return Err(no_side(&load.path(i).then("on"), on, false));
         }
     }
     Ok(())

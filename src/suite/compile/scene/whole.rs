@@ -84,12 +84,11 @@ fn body(
         bodies: Vec::new(),
         contact: None,
     };
-    let loads = path.then("loads");
-    combined(evaluator, &loads, &words.loads)?;
+    combined(evaluator, &words.loads)?;
     if scene.is_at_rest() {
         rest::settle(evaluator, &path, words, &mut scene.faces)?;
     }
-    add_loads(evaluator, &loads, &words.loads, &mut scene)?;
+    add_loads(evaluator, &words.loads, &mut scene)?;
     Ok(scene)
 }
 
@@ -170,13 +169,11 @@ fn initial_velocity(
 /// Adds the loads to a scene that has none, in the order in which solvers apply them.
 fn add_loads(
     evaluator: &Evaluator<'_>,
-    path: &Path,
     words: &[LoadSpec],
     scene: &mut Scene,
 ) -> Result<(), Diagnostic> {
     for (i, load) in words.iter().enumerate() {
-        let path = path.then(i).then(load.effect().name());
-        let entry = LoadEntry { evaluator, path, scene };
+        let entry = LoadEntry { evaluator, path: load.path(i), scene };
         let compiled = load.words().compile(&entry)?;
         scene.loads.push(compiled);
     }
@@ -185,10 +182,10 @@ fn add_loads(
 }
 
 /// Refuses effects without those that they need.
-fn combined(evaluator: &Evaluator<'_>, path: &Path, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
+fn combined(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {
         let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
-        evaluator.diagnostic_at_key(&path.then(at).then(effect.name()), &message)
+        evaluator.diagnostic_at_key(&loads[at].path(at), &message)
     })
 }
