@@ -53,7 +53,7 @@ impl<const D: usize> HeatSolver<D> {
             particles: self.particles.len(),
             nodes: self.grid.nodes(),
             columns,
-            passes: Vec::new(),
+            ..Profile::default()
         }
     }
 }
@@ -83,6 +83,12 @@ impl<const D: usize> Subject for HeatSolver<D> {
             min_j: 1.0,
         }
     }
+
+    fn passes(&self) -> Vec<String> {
+        let passes = self.effects.iter().flat_map(|effect| effect.state_passes());
+        passes.map(|pass| (*pass).to_owned()).collect()
+    }
+
     /// The grid has its masses from the start.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;

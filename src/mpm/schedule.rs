@@ -45,6 +45,40 @@ pub(super) enum CouplingPoint {
     Acceleration,
 }
 
+impl Pass {
+    /// The pass as reports list it: `P2G(mass, momentum)`. A stage that has a pass of P2G or G2P is
+    /// named there only; `state` are the passes of the effects' own state.
+    fn texts(self, state: &[&str]) -> Vec<String> {
+        let of = |kind: &str, stages: &[Stage]| {
+            let names: Vec<&str> = stages.iter().map(|stage| stage.name()).collect();
+            vec![format!("{kind}({})", names.join(", "))]
+        };
+        match self {
+            Self::P2g(stages) => of("P2G", stages),
+            Self::G2p(stages) => of("G2P", stages),
+            Self::Update(stage @ (Stage::Acceleration | Stage::GridVelocity)) => {
+                vec![stage.name().to_owned()]
+            }
+            Self::Update(_) => Vec::new(),
+            Self::IntegrateState => state.iter().map(|pass| (*pass).to_owned()).collect(),
+            Self::Couple(point) => vec![format!("coupling({})", point.name())],
+        }
+    }
+}
+
+impl CouplingPoint {
+    /// The quantity that is coupled, as reports name it.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::Velocity => "velocity",
+            Self::StrainVelocity => "strain velocity",
+            Self::Strained => "mapped velocity",
+            Self::Acceleration => "acceleration",
+        }
+    }
+}
+
 /// Passes of a run.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StepSchedule {
@@ -87,6 +121,11 @@ impl StepSchedule {
             opening: compile(opening, false, coupled.bodies).into(),
             passes: compile(stages, true, coupled.bodies).into(),
         }
+    }
+
+    /// Passes of each step as reports list them; `state` are those of the effects' own state.
+    pub(super) fn texts(&self, state: &[&str]) -> Vec<String> {
+        self.passes.iter().flat_map(|pass| pass.texts(state)).collect()
     }
 }
 
@@ -165,6 +204,21 @@ mod tests {
         };
         assert_eq!(visits(SchemeName::Musl, false), musl(&[Mass, Force]));
         assert_eq!(visits(SchemeName::Musl, true), musl(&[Mass, Momentum, Force]));
+    }
+
+    #[test]
+    fn a_schedule_reads_as_the_order_of_its_passes() {
+        let text = |scheme: SchemeName, is_coupled, state: &[&str]| {
+            let passes = compile(scheme.stages(true), true, is_coupled).into();
+            StepSchedule { passes, ..StepSchedule::default() }.texts(state).join("; ")
+        };
+        let usl = "P2G(mass, momentum, force); acceleration; grid velocity; \
+                   G2P(particle velocity, stress, position)";
+        assert_eq!(text(SchemeName::Usl, false, &[]), usl);
+        let usf = "P2G(mass, momentum); P2G(T); coupling(mass); coupling(strain velocity); \
+                   G2P(stress); coupling(mapped velocity); P2G(force); acceleration; \
+                   coupling(acceleration); grid velocity; G2P(particle velocity, position)";
+        assert_eq!(text(SchemeName::Usf, true, &["P2G(T)"]), usf);
     }
 
     #[test]

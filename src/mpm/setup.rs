@@ -54,6 +54,11 @@ impl<const D: usize> Setup<D> {
         self.scheme.stages(is_taken || is_read || self.reads_velocity())
     }
 
+    /// Passes of the effects' own state.
+    pub(super) fn state_passes(&self) -> Vec<&'static str> {
+        self.effects.iter().flat_map(|effect| effect.state_passes()).copied().collect()
+    }
+
     /// The effects, and all columns for particles and nodes, with those `of_solver`; the factors of
     /// a consistent mass matrix, computed anew in each step, are left out.
     pub(super) fn profile(&self, of_solver: [Column; 2]) -> Profile {
@@ -71,7 +76,7 @@ impl<const D: usize> Setup<D> {
             particles: particles.len(),
             nodes: grid.nodes(),
             columns,
-            passes: Vec::new(),
+            ..Profile::default()
         }
     }
 }

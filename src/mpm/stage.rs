@@ -20,3 +20,19 @@ pub enum Stage {
     /// G2P: `x_p += dt sum_i v_i N_i`.
     Position,
 }
+
+impl Stage {
+    /// The quantity that the stage gives, as reports name it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::Momentum => "momentum",
+            Self::Force => "force",
+            Self::Acceleration => "acceleration",
+            Self::GridVelocity => "grid velocity",
+            Self::ParticleVelocity => "particle velocity",
+            Self::Stress => "stress",
+            Self::Position => "position",
+        }
+    }
+}

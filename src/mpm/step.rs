@@ -88,6 +88,11 @@ impl<const D: usize> Subject for Solver<D> {
             min_j: self.min_j,
         }
     }
+
+    fn passes(&self) -> Vec<String> {
+        self.schedule.texts(&self.setup.state_passes())
+    }
+
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         checkpoint.visit(self);
         true

@@ -29,6 +29,12 @@ pub trait Subject {
     /// Counters of the run so far.
     fn counters(&self) -> RunCounters;
 
+    /// Passes of a step in their order, as reports list them (`P2G(mass, momentum)`); empty from a
+    /// subject that does not say.
+    fn passes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
     fn totals(&self) -> Option<Totals> {
         None

@@ -1,4 +1,4 @@
-//! Cost of a step: columns of memory and passes of work.
+//! Cost of a step: its passes, the particles that they visit, and columns of memory.
 
 /// Owner of an entry of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,9 +46,11 @@ pub struct Profile {
     pub nodes: usize,
     /// Memory; no column is empty.
     pub columns: Vec<Column>,
-    /// Passes of one step: what a pass computes, and the particles that it visits. A pass that
-    /// runs twice counts twice.
-    pub passes: Vec<(&'static str, u64)>,
+    /// Passes of one step in their order, from [`Subject::passes`](super::Subject::passes).
+    pub passes: Vec<String>,
+    /// Parts of the passes of one step, and the particles that each visits. A part that is computed
+    /// twice counts twice.
+    pub visits: Vec<(&'static str, u64)>,
 }
 
 impl Profile {

@@ -67,6 +67,11 @@ pub trait Effect<const D: usize>: Send {
     /// Hook after the constitutive update.
     fn after_stress(&mut self, _particles: &mut Particles<D>) {}
 
+    /// Passes of [`Effect::integrate_state`] in their order, as reports list them.
+    fn state_passes(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// Integrates the effect's own state from `t` to `t + dt` (s). Called once a step, with the
     /// particles at their positions at `t` and the masses of the grid up to date. Returns the
     /// particle-node pairs visited.

@@ -147,6 +147,10 @@ impl<const D: usize> Effect<D> for Heat<D> {
         checkpoint.visit(&mut self.slope[..]);
     }
 
+    fn state_passes(&self) -> &'static [&'static str] {
+        &["P2G(temperature)", "G2P(grad T)", "P2G(heat flow)", "G2P(temperature)"]
+    }
+
     fn integrate_state(
         &mut self,
         (t, dt): (f64, f64),

@@ -1,4 +1,4 @@
-//! Kernel that counts its passes. The parts of one pass are counted one by one.
+//! Kernel that counts the particles it visits, for each part of its passes.
 
 use super::contract::Kernel;
 use super::moments::Moments;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
-/// Particles visited by each kind of pass.
+/// Particles visited for each part of a pass.
 #[derive(Debug, Default)]
 pub struct Tally([AtomicU64; NAMES.len()]);
 
@@ -43,7 +43,7 @@ impl Tally {
         }
     }
 
-    /// Passes since the last call, with the number of particles visited.
+    /// Parts of passes since the last call, with the number of particles visited.
     pub fn take(&self) -> Vec<(&'static str, u64)> {
         let sums = NAMES.iter().zip(&self.0).map(|(name, count)| (*name, count.swap(0, Relaxed)));
         sums.filter(|(_, visited)| *visited > 0).collect()

@@ -145,6 +145,13 @@ impl<const D: usize> Subject for Bodies<D> {
             min_j: all().map(|counters| counters.min_j).fold(f64::INFINITY, f64::min),
         }
     }
+
+    /// Those of the first body, as is the schedule, with the coupling of all.
+    fn passes(&self) -> Vec<String> {
+        let state = self.solvers.first().map(|one| one.setup.state_passes());
+        self.schedule.texts(&state.unwrap_or_default())
+    }
+
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { solvers, coupling, schedule: _ } = self;
         checkpoint.visit(&mut solvers[..]);

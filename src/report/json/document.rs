@@ -10,7 +10,8 @@
 //!     "verdict": "converging", "expected": "...", "passed": true,
 //!     "reason": "...", "unmet": [],
 //!     "profile": {"effects": ["gravity"], "particles": 20, "nodes": 26,
-//!         "passes": [{"pass": "p2g mass", "particles": 20}],
+//!         "passes": ["P2G(mass, momentum)", "G2P(stress)"],
+//!         "visits": [{"part": "p2g mass", "particles": 20}],
 //!         "columns": [{"name": "v", "of": "particle", "entries": 20, "bytes": 8}]},
 //!     "floor": {"cause": "time", "error": 1e-4,
 //!         "probes": [{"axis": "time", "error": 5e-5, "failure": null}]},
@@ -45,9 +46,11 @@
 //! are, there is no formal order. `energy_rate` is d ln E/dt (1/s), and both ends of its 95 %
 //! interval; of a law without an energy the drift of `energy` is `"nan"`. `safe_step` is the
 //! longest safe time step (s), where a rule chose the step or a stated one is longer. `profile` is
-//! what one step takes on the coarsest level, from a subject that says (MPM); `bytes` are those of
-//! one entry. `floor` is what became of the finest level's error with another spacing halved, where
-//! that was tried; its `cause` is one of the axes, or `none`, or null where it could not be told.
+//! what one step takes on the coarsest level, from a subject that says (MPM): its `passes` in their
+//! order, the particles that each part of them `visits`, and the `columns` of memory, with the
+//! `bytes` of one entry. `floor` is what became of the finest level's error with another spacing
+//! halved, where that was tried; its `cause` is one of the axes, or `none`, or null where it could
+//! not be told.
 //! Keys may be added; none is renamed or removed without a new major version. `docs/columns.md`
 //! lists those of rows.
 
@@ -90,7 +93,7 @@ fn case(outcome: &CaseOutcome) -> Value {
 }
 
 fn profile(profile: &Profile) -> Value {
-    let pass = |(pass, particles): &(&str, u64)| json!({"pass": pass, "particles": particles});
+    let visit = |(part, particles): &(&str, u64)| json!({"part": part, "particles": particles});
     let column = |column: &Column| {
         let of = match column.holder {
             Holder::Particle => "particle",
@@ -103,7 +106,8 @@ fn profile(profile: &Profile) -> Value {
         "effects": profile.effects,
         "particles": profile.particles,
         "nodes": profile.nodes,
-        "passes": profile.passes.iter().map(pass).collect::<Vec<_>>(),
+        "passes": profile.passes,
+        "visits": profile.visits.iter().map(visit).collect::<Vec<_>>(),
         "columns": profile.columns.iter().map(column).collect::<Vec<_>>(),
     })
 }

@@ -1,4 +1,4 @@
-//! Cost of a step: effects, passes and memory, in rows for reports and `explain`.
+//! Cost of a step: effects, passes, visits and memory, in rows for reports and `explain`.
 
 use crate::subject::{Column, Holder, Profile};
 
@@ -8,7 +8,8 @@ pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     let effects = if effects.is_empty() { "none".to_owned() } else { effects };
     vec![
         ("effects", effects),
-        ("a step", passes(profile)),
+        ("a step", profile.passes.join(", ")),
+        ("particle visits", visits(profile)),
         ("a particle", memory(profile, Holder::Particle)),
         ("a node", memory(profile, Holder::Node)),
     ]
@@ -23,14 +24,14 @@ pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, Strin
 }
 
 /// `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
-fn passes(profile: &Profile) -> String {
+fn visits(profile: &Profile) -> String {
     let particles = profile.particles as u64;
-    let pass = |&(name, visited): &(&str, u64)| match visited.checked_div(particles) {
+    let part = |&(name, visited): &(&str, u64)| match visited.checked_div(particles) {
         Some(1) if visited % particles == 0 => name.to_owned(),
         Some(times) if visited % particles == 0 => format!("{name} x {times}"),
         _ => format!("{name} at {visited} of {particles} particles"),
     };
-    profile.passes.iter().map(pass).collect::<Vec<_>>().join(", ")
+    profile.visits.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
 /// `168 B: X 16, x 16, ...`, the columns with fewer entries than there are holders after them.
@@ -68,16 +69,19 @@ mod tests {
                 Column::of_particles("layer", &[0_u32; 4]),
                 Column::of_nodes("mass", &[0.0; 9]),
             ],
-            passes: vec![("p2g mass", 20), ("g2p", 40), ("p2g point force", 4)],
+            passes: vec!["P2G(mass)".to_owned(), "G2P(stress)".to_owned()],
+            visits: vec![("p2g mass", 20), ("g2p", 40), ("p2g point force", 4)],
         }
     }
 
     #[test]
-    fn whole_columns_and_passes_are_told_from_partial_ones() {
+    fn whole_columns_and_visits_are_told_from_partial_ones() {
         let rows = profile(&sample());
         let text = |key| &rows.iter().find(|(name, _)| *name == key).expect("a row").1;
         assert_eq!(text("effects"), "gravity, traction");
-        assert_eq!(text("a step"), "p2g mass, g2p x 2, p2g point force at 4 of 20 particles");
+        assert_eq!(text("a step"), "P2G(mass), G2P(stress)");
+        let visits = "p2g mass, g2p x 2, p2g point force at 4 of 20 particles";
+        assert_eq!(text("particle visits"), visits);
         assert_eq!(text("a particle"), "8 B: v 8; layer 4 at 4 of 20");
         assert_eq!(text("a node"), "8 B: mass 8");
     }

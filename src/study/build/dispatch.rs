@@ -47,7 +47,7 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         bodies.step(level.dt).ok()?;
         tally.take();
         bodies.step(level.dt).ok()?;
-        Some(Profile { passes: tally.take(), ..bodies.profile() })
+        Some(Profile { passes: bodies.passes(), visits: tally.take(), ..bodies.profile() })
     }
     fn of_heat<const D: usize>(
         plan: &ConvergencePlan,
@@ -65,7 +65,7 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         body.step(level.dt).ok()?;
         tally.take();
         body.step(level.dt).ok()?;
-        Some(Profile { passes: tally.take(), ..body.profile() })
+        Some(Profile { passes: body.passes(), visits: tally.take(), ..body.profile() })
     }
     with_dimension!(plan.scene.dimension(), D => match method {
         Method::Fem { .. } => None,

@@ -47,7 +47,8 @@ fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
     assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
     for words in [
         "effects           body_force, force\n",
-        "a step            p2g mass, p2g momentum, p2g internal force, p2g point force at 24 of 16",
+        "a step            P2G(mass, force), acceleration, G2P(particle velocity), P2G(momentum), ",
+        "particle visits   p2g mass, p2g momentum, p2g internal force, p2g point force at 24 of 16",
         "share 16 at 8 of 16\n",
         "without           `force` these lines change:\n",
         "    becomes         body_force\n",
