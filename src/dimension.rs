@@ -31,6 +31,20 @@ macro_rules! in_every_dimension {
         pub(crate) trait $every: $contract<1> + $contract<2> + $contract<3> {}
 
         impl<T: $contract<1> + $contract<2> + $contract<3> + ?Sized> $every for T {}
+
+        impl dyn $every {
+            /// The same object in D dimensions, which are 1, 2 or 3.
+            pub(crate) fn in_dimension<const D: usize>(
+                self: std::sync::Arc<Self>,
+            ) -> Option<std::sync::Arc<dyn $contract<D>>> {
+                $crate::dimension::with_dimension!(D, N => {
+                    let object: std::sync::Arc<dyn $contract<N>> = self;
+                    // N is D, which the compiler does not know.
+                    let object: &dyn std::any::Any = &object;
+                    object.downcast_ref().cloned()
+                })
+            }
+        }
     };
 }
 pub(crate) use in_every_dimension;

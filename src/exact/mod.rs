@@ -5,6 +5,7 @@
 //! runs. Knows no solver.
 
 mod check;
+mod condition;
 mod equation;
 mod expansion;
 mod forcing;
@@ -24,12 +25,13 @@ mod violation;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use check::interface::meets;
+pub use check::interface::{Interface, meets};
+pub use condition::{Condition, FacePoint};
 pub use expansion::Expansion;
 pub use forcing::Forcing;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
 pub use motion::{Derivatives, Motion, Places, variables};
-pub use problem::{Condition, Face, Problem};
+pub use problem::{Face, Problem};
 pub use random::Random;
 pub use region::Region;
 pub use round::Round;

@@ -1,5 +1,6 @@
 //! The continuum problem that an exact solution is held to.
 
+use super::condition::Condition;
 use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
 use super::formula::Formula;
 use super::heat::Conduction;
@@ -12,33 +13,6 @@ use super::term::Term;
 use super::truth::Truth;
 use std::sync::Arc;
 
-/// A boundary condition on one face of the body.
-#[derive(Debug, Clone)]
-pub enum Condition {
-    /// u = 0.
-    Fixed,
-    /// u . n = 0, and no traction along the face.
-    Roller,
-    /// u . n = 0 and no pull; along the face a traction of mu times the pressure against the
-    /// velocity, and at most as much where the face rests.
-    Friction(f64),
-    /// u_t = v(X, t), one formula of the coordinates and t for each component (m/s).
-    Velocity(Vec<Formula>),
-    /// x lies one period further along the axis than on the opposite face, and grad u is the same.
-    /// The period (m) is the length of the axis on which the body moves; that of the body itself,
-    /// unless it starts deformed.
-    Periodic(f64),
-    /// P n = p0(X, t), one formula of the coordinates and t for each component (Pa).
-    Traction(Vec<Formula>),
-    /// P n = -p(X, t) J F^-T n, the pressure p a formula of the coordinates and t (Pa): it stays
-    /// normal to the moving face. Where strains are small, P n = -p n.
-    Pressure(Formula),
-    /// Another body is there; [`meets`](super::meets) holds the two against each other.
-    Met,
-    /// P n = 0.
-    Free,
-}
-
 /// One face of a box-shaped body.
 #[derive(Debug, Clone)]
 pub struct Face {
@@ -48,8 +22,11 @@ pub struct Face {
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
+    /// Length (m) of the axis on which the body moves: a period, where the axis has no end. It is
+    /// that of the body itself, unless a periodic body starts deformed.
+    pub period: f64,
     /// Condition on the motion there.
-    pub condition: Condition,
+    pub condition: Arc<dyn Condition>,
 }
 
 /// An initial-boundary-value problem on a box or a round body, with its claimed solution.

@@ -3,7 +3,10 @@
 
 use super::formula::{Expr, Formula, Scope};
 use super::random::Random;
-use super::{Condition, Face, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term};
+use super::{
+    Condition, Face, FacePoint, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term,
+    Violation,
+};
 use rstest::rstest;
 use std::sync::Arc;
 
@@ -52,6 +55,45 @@ impl Term for LocallyDamped {
     }
 }
 
+/// A condition by what it demands of a point.
+pub(super) struct Demands<F>(F);
+
+impl<F> Demands<F>
+where
+    F: Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync + 'static,
+{
+    pub(super) fn condition(demands: F) -> Arc<dyn Condition> {
+        Arc::new(Self(demands))
+    }
+}
+
+impl<F> std::fmt::Debug for Demands<F> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Demands")
+    }
+}
+
+impl<F> Condition for Demands<F>
+where
+    F: Fn(&dyn FacePoint) -> Result<(), Violation> + Send + Sync,
+{
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
+        (self.0)(point)
+    }
+}
+
+/// A face that does not move.
+fn fixed() -> Arc<dyn Condition> {
+    Demands::condition(|point| (0..point.dimension()).try_for_each(|i| point.held(i, "fixed")))
+}
+
+/// A face on which nothing acts.
+pub(super) fn free() -> Arc<dyn Condition> {
+    Demands::condition(|point| {
+        (0..point.dimension()).try_for_each(|i| point.traction(i, "free", 0.0))
+    })
+}
+
 fn held(dimension: usize) -> Problem {
     let names: Vec<&str> = NAMES[..dimension].iter().chain(&["t"]).copied().collect();
     let shape: Vec<String> = NAMES[..dimension].iter().map(|x| format!("sin(pi*{x})")).collect();
@@ -61,7 +103,7 @@ fn held(dimension: usize) -> Problem {
     };
     let face = |axis: usize, high: bool| {
         let name = if high { "high" } else { "low" };
-        Face { name, axis, high, condition: Condition::Fixed }
+        Face { name, axis, high, period: 1.0, condition: fixed() }
     };
     Problem {
         from: vec![0.0; dimension],
@@ -113,13 +155,13 @@ fn the_force_of_a_run_is_the_force(#[values(1, 2, 3)] dimension: usize) {
 }
 
 /// A bar from 0 to 1 with c = 1, and its left end fixed.
-fn bar(displacement: &str, right: Condition) -> Problem {
-    let face = |name, high, condition| Face { name, axis: 0, high, condition };
+fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
+    let face = |name, high, condition| Face { name, axis: 0, high, period: 1.0, condition };
     Problem {
         equation: SmallStrainLaw::new(2.0, 0.0).into(),
         terms: Vec::new(),
         manufactured: false,
-        faces: vec![face("left", false, Condition::Fixed), face("right", true, right)],
+        faces: vec![face("left", false, fixed()), face("right", true, right)],
         motion: Motion::new(vec![bind(displacement, &["X", "t"])]),
         ..held(1)
     }
@@ -127,14 +169,17 @@ fn bar(displacement: &str, right: Condition) -> Problem {
 
 /// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by what
 /// acts on its top, where P N = mu (F - F^-T) N.
-fn sheared(top: Condition) -> Problem {
+fn sheared(top: Arc<dyn Condition>) -> Problem {
     let names = ["X", "Y", "t"];
-    let face = |name, axis, high, condition| Face { name, axis, high, condition };
-    let driven = || Condition::Velocity(vec![bind("0.2*Y", &names), bind("0.3*Y", &names)]);
+    let face = |name, axis, high, condition| Face { name, axis, high, period: 1.0, condition };
+    let speed = ["0.2*Y", "0.3*Y"].map(|v| bind(v, &names));
+    let driven = Demands::condition(move |point| {
+        (0..2).try_for_each(|i| point.velocity(i, point.value(&speed[i])))
+    });
     Problem {
         equation: NeoHookeanLaw::new(10.0, 0.0).into(),
         terms: Vec::new(),
-        faces: vec![face("bottom", 1, false, driven()), face("top", 1, true, top)],
+        faces: vec![face("bottom", 1, false, driven), face("top", 1, true, top)],
         motion: Motion::new(vec![bind("0.2*Y*t", &names), bind("0.3*Y*t", &names)]),
         ..held(2)
     }
@@ -145,7 +190,10 @@ fn a_traction_may_depend_on_the_place() {
     let pull = |x: &str| {
         let normal = "5*(1 + 0.3*t - 1/(1 + 0.3*t))";
         let value = [format!("{x} - t*X"), format!("{normal} + 0*X")];
-        Condition::Traction(value.map(|v| bind(&v, &["X", "Y", "t"])).to_vec())
+        let value = value.map(|v| bind(&v, &["X", "Y", "t"]));
+        Demands::condition(move |point| {
+            (0..2).try_for_each(|i| point.traction(i, "loaded", point.value(&value[i])))
+        })
     };
     sheared(pull("t + t*X")).check().unwrap();
     let found = sheared(pull("t + 1.01*t*X")).check().unwrap_err();
@@ -162,11 +210,14 @@ fn a_pressure_acts_on_the_present_area() {
         // tau = lambda ln J + mu (s^2 - 1), P = tau/s, p = -P/s^2.
         let (lambda, mu) = (10.0 * 0.3 / (1.3 * 0.4), 10.0 / 2.6);
         let p = format!("-({lambda}*3*ln({s}) + {mu}*({s}^2 - 1))/{s}^3*{scale}");
-        let face = |axis, high| Face {
-            name: "side",
-            axis,
-            high,
-            condition: Condition::Pressure(bind(&p, &names)),
+        let p = bind(&p, &names);
+        let pressure = Demands::condition(move |point| {
+            let (p, area) = (point.value(&p), point.present_area());
+            (0..3).try_for_each(|i| point.traction(i, "under pressure", -p * area[i]))
+        });
+        let face = |axis, high| {
+            let condition = pressure.clone();
+            Face { name: "side", axis, high, period: 1.0, condition }
         };
         Problem {
             terms: Vec::new(),
@@ -186,7 +237,7 @@ fn a_pressure_acts_on_the_present_area() {
 #[test]
 fn damping_is_a_force_in_the_equation_of_motion() {
     let wave = "sin(pi*X)*exp(-t)*sin(sqrt(pi^2 - 1)*t)";
-    let damped = Problem { terms: vec![Arc::new(Damped(2.0))], ..bar(wave, Condition::Fixed) };
+    let damped = Problem { terms: vec![Arc::new(Damped(2.0))], ..bar(wave, fixed()) };
     damped.check().unwrap();
     let undamped = Problem { terms: Vec::new(), ..damped.clone() };
     let found = undamped.check().unwrap_err();
@@ -207,7 +258,7 @@ fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     let wave = swing("(2*pi*sqrt(0.4))", half);
     let locally = |share, wave: &str| Problem {
         terms: vec![Arc::new(LocallyDamped(share))],
-        ..bar(wave, Condition::Fixed)
+        ..bar(wave, fixed())
     };
     locally(0.6, &wave).check().unwrap();
     for wrong in
@@ -229,7 +280,7 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
         at_rest: true,
         follows_motion: false,
         terms: weight(&["9*min(2*t, 1)"]),
-        ..bar("9*(X - X^2/2)", Condition::Free)
+        ..bar("9*(X - X^2/2)", free())
     };
     hanging.check().unwrap();
     for wrong in [

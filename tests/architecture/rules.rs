@@ -61,6 +61,7 @@ pub(crate) const WALLS: &[Wall] = &[
         around: "suite::grammar",
         may: &[
             "suite::yaml",
+            "suite::compile::boundary",
             "suite::compile::load",
             "mpm",
             "fem",
@@ -69,8 +70,8 @@ pub(crate) const WALLS: &[Wall] = &[
             "subject",
             "named",
         ],
-        why: "it says what may stand in a file, and computes nothing; the words of a load stand in \
-              the file of that load",
+        why: "it says what may stand in a file, and computes nothing; the words of a load, or of a \
+              condition on a face, stand in the file of that load or condition",
     },
     Wall {
         around: "suite::model",

@@ -12,7 +12,7 @@ use mpm_verify::mpm::{
 };
 use mpm_verify::study;
 use mpm_verify::subject::{Column, Holder, Profile, Subject};
-use mpm_verify::suite::{BoundaryCondition, ConvergencePlan, EffectName, Suite, embedded};
+use mpm_verify::suite::{ConvergencePlan, EffectName, Suite, embedded};
 use rstest::rstest;
 use std::sync::Arc;
 
@@ -232,13 +232,7 @@ fn lists(suite: &str, effect: EffectName) -> bool {
 fn has_wall(suite: &str, name: &str) -> bool {
     let suite = load(suite);
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return false };
-    plan.scene.faces.iter().any(|face| match face.hold {
-        BoundaryCondition::Free | BoundaryCondition::Periodic | BoundaryCondition::AtRest => false,
-        BoundaryCondition::Fixed => name == "fixed",
-        BoundaryCondition::Roller => name == "roller",
-        BoundaryCondition::Velocity(_) => name == "velocity",
-        BoundaryCondition::Friction(_) => name == "friction",
-    })
+    plan.scene.faces.iter().any(|face| face.condition() == name)
 }
 
 /// The README's rows begin as `rows` say, and end with suites of which each `verifies`.

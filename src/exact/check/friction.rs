@@ -88,8 +88,8 @@ pub(crate) fn coulomb(
 mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::tests::Weight;
-    use crate::exact::{Condition, Motion, SmallStrainLaw};
+    use crate::exact::tests::{Demands, Weight, free};
+    use crate::exact::{Motion, SmallStrainLaw};
     use rstest::rstest;
     use std::sync::Arc;
 
@@ -99,7 +99,8 @@ mod tests {
         let bind = |text: &str, names: &[&str]| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
         };
-        let face = |name, high, condition| Face { name, axis: 1, high, condition };
+        let face = |name, high, condition| Face { name, axis: 1, high, period: 1.0, condition };
+        let wall = Demands::condition(move |point| point.friction(coefficient));
         Problem {
             from: vec![0.0; 2],
             to: vec![1.0; 2],
@@ -110,10 +111,7 @@ mod tests {
             heat: None,
             at_rest: false,
             manufactured: false,
-            faces: vec![
-                face("bottom", false, Condition::Friction(coefficient)),
-                face("top", true, Condition::Free),
-            ],
+            faces: vec![face("bottom", false, wall), face("top", true, free())],
             follows_motion: true,
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),

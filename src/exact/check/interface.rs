@@ -9,10 +9,21 @@
 
 use super::friction::{InterfaceTraction, coulomb};
 use super::pointwise::{AXES, Event, POINTS, largest, scale, strain};
+use crate::exact::condition::{Condition, FacePoint};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
+
+/// The condition on a face where another body is; [`meets`] holds the two against each other.
+#[derive(Debug)]
+pub struct Interface;
+
+impl Condition for Interface {
+    fn check(&self, _: &dyn FacePoint) -> Result<(), Violation> {
+        Ok(())
+    }
+}
 
 /// How far inside a face is looked at, in lengths of the body.
 const INSIDE: f64 = 1e-9;
@@ -139,15 +150,17 @@ impl BodyPair<'_> {
 mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::{Condition, Face, Motion, SmallStrainLaw};
+    use crate::exact::tests::free;
+    use crate::exact::{Face, Motion, SmallStrainLaw};
     use rstest::rstest;
+    use std::sync::Arc;
 
     /// Bars from 0 to 1 and from 1 to 2, with rho = c = 1.
     fn bars(displacement: &str) -> [Problem; 2] {
         let expr = Expr::parse(displacement).unwrap();
         let bind = || Formula::bind(&expr, &Scope::new(), &["X", "t"]).unwrap();
-        let face = |name, high, condition| Face { name, axis: 0, high, condition };
-        let bar = |from: f64, ends: [Condition; 2]| {
+        let face = |name, high, condition| Face { name, axis: 0, high, period: 1.0, condition };
+        let bar = |from: f64, ends: [Arc<dyn Condition>; 2]| {
             let [low, high] = ends;
             Problem {
                 heat: None,
@@ -168,7 +181,7 @@ mod tests {
                 tolerance: 1e-8,
             }
         };
-        [bar(0.0, [Condition::Free, Condition::Met]), bar(1.0, [Condition::Met, Condition::Free])]
+        [bar(0.0, [free(), Arc::new(Interface)]), bar(1.0, [Arc::new(Interface), free()])]
     }
 
     /// The bars run into each other with velocity 1/100 and part after 2.

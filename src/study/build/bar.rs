@@ -1,7 +1,7 @@
 //! The FEM bar, from a plan: subject, and what references are made of.
 
 use super::initial_state::Initial;
-use crate::exact::{Condition, Forcing, Problem};
+use crate::exact::{Forcing, Problem};
 use crate::fem;
 use crate::fem::{Bar, BarLaw, Sampling};
 use crate::mpm::MaterialPlan;
@@ -79,17 +79,8 @@ fn add_stated(loads: &[Arc<dyn SceneLoad>], t: f64, places: &[f64], values: &mut
 
 /// A suite gives forces along +X; the FEM wants tension, which points outwards.
 fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
-    let x = if end == 0 { scene.from[0] } else { scene.to[0] };
-    match scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.condition())? {
-        // In uniaxial strain a face keeps its area, so a pressure is a traction.
-        Condition::Pressure(value) => Some(Box::new(move |t| -value.eval(&[x, t]))),
-        Condition::Traction(value) => {
-            let outwards = if end == 0 { -1.0 } else { 1.0 };
-            let formula = value.into_iter().next()?;
-            Some(Box::new(move |t| outwards * formula.eval(&[x, t])))
-        }
-        _ => None,
-    }
+    let (x, outwards) = if end == 0 { (scene.from[0], -1.0) } else { (scene.to[0], 1.0) };
+    scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.tension(x, outwards))
 }
 
 /// P(F) (Pa) of a bar in uniaxial strain.

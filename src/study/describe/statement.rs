@@ -3,7 +3,7 @@
 use crate::mpm::{MaterialParameter, MaterialPlan};
 use crate::suite::compile::load::fields::sources;
 use crate::suite::model::load::LoadTarget;
-use crate::suite::model::{BoundaryCondition, Scene, Suite};
+use crate::suite::model::{Scene, Suite};
 
 /// Parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
@@ -82,7 +82,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     for (number, face) in scene.faces.iter().enumerate() {
         rows.extend(scene.loads_on(LoadTarget::Face(number)).flat_map(|load| load.rows()));
         let is_loaded = scene.loads_on(LoadTarget::Face(number)).next().is_some();
-        push(rows, face.name, &if is_loaded { String::new() } else { held(&face.hold) });
+        push(rows, face.name, &if is_loaded { String::new() } else { face.hold.row() });
     }
     let (on_body, on_parts): (Vec<_>, Vec<_>) =
         scene.loads.iter().partition(|load| load.target() == LoadTarget::Body);
@@ -91,21 +91,6 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     push(rows, "initial displacement", &sources(&scene.initial_displacement));
     if one {
         push(rows, "initial velocity", &sources(&scene.initial_velocity));
-    }
-}
-
-/// The condition on a face that carries no load.
-fn held(condition: &BoundaryCondition) -> String {
-    match condition {
-        BoundaryCondition::Velocity(value) => format!("velocity {} m/s", sources(value)),
-        BoundaryCondition::Friction(coefficient) => {
-            format!("wall that does not pull, coefficient of friction {coefficient}")
-        }
-        BoundaryCondition::Free => "free".to_owned(),
-        BoundaryCondition::Fixed => "fixed".to_owned(),
-        BoundaryCondition::Roller => "roller".to_owned(),
-        BoundaryCondition::Periodic => "periodic".to_owned(),
-        BoundaryCondition::AtRest => String::new(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! From the grammar to the model: every number computed, every name resolved, the truth checked.
 
+pub(crate) mod boundary;
 pub(crate) mod check;
 pub(crate) mod coordinates;
 pub(crate) mod evaluator;

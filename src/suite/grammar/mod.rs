@@ -18,8 +18,7 @@ pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 pub(crate) use refine::{RefineSpec, RunSpec};
 pub(crate) use scene::{
-    AnnulusSpec, BodySpec, BoundarySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec,
-    SceneSpec, SetSpec,
+    AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
 };
 pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
 pub(crate) use step::StepSpec;

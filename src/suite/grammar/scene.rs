@@ -1,6 +1,7 @@
 //! Keys of a scene.
 
 use crate::mpm::MaterialSpec;
+use crate::suite::compile::boundary::BoundarySpec;
 use crate::suite::compile::load::LoadSpec;
 use crate::suite::yaml::{NumberText, Ordered};
 use serde::Deserialize;
@@ -79,22 +80,6 @@ pub(crate) struct AnnulusSpec {
 pub(crate) struct RoundSpec {
     pub(crate) centre: Vec<NumberText>,
     pub(crate) radius: NumberText,
-}
-
-/// Boundary conditions on a face; a face that is not named is free.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum BoundarySpec {
-    /// No displacement.
-    Fixed,
-    /// No displacement along the normal, no traction along the face.
-    Roller,
-    /// A wall that presses and does not pull, with a coefficient of friction.
-    Friction(NumberText),
-    /// The same state as on the opposite face.
-    Periodic,
-    /// A given velocity (m/s), formulas of the coordinates and t.
-    Velocity(Vec<NumberText>),
 }
 
 /// Material points with a name.

@@ -1,47 +1,92 @@
-//! Boundary conditions of the faces of a body.
+//! Boundary conditions of a scene: the contract of the family, whose members stand in
+//! `suite/compile/boundary`.
 
-use crate::exact::formula::Formula;
+use crate::dimension::in_every_dimension;
+use crate::exact::Condition;
+use crate::mpm::{BasisName, Boundary, Grid, Side};
+use std::sync::Arc;
 
-/// Condition on the motion of one face.
-#[derive(Debug, Clone)]
-pub enum BoundaryCondition {
-    /// Nothing: it may carry a traction.
-    Free,
-    /// It does not move.
-    Fixed,
-    /// It does not move along its normal, and slides freely along itself.
-    Roller,
-    /// The wall presses on it, does not pull, and resists sliding by this coefficient of friction.
-    Friction(f64),
-    /// It has a given velocity (m/s), formulas of the coordinates and t.
-    Velocity(Vec<Formula>),
-    /// It is one and the same with the opposite face.
-    Periodic,
-    /// The whole body is at rest.
-    AtRest,
+/// A face of a grid in D dimensions that gets its condition.
+pub(crate) struct FaceSite<'a, const D: usize> {
+    pub(crate) grid: &'a Grid<D>,
+    pub(crate) basis: BasisName,
+    /// Axis of the normal, and the end of that axis.
+    pub(crate) at: (usize, Side),
 }
 
-impl BoundaryCondition {
-    /// Whether nothing holds the face.
-    pub fn is_free(&self) -> bool {
-        matches!(self, Self::Free)
+/// A condition of a scene as one of the solver.
+pub(crate) trait BuildBoundary<const D: usize> {
+    /// The condition on the nodes of the face at `site`; none where they are not held.
+    fn build(&self, _site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
+        None
+    }
+}
+
+in_every_dimension! {
+    /// A condition of a scene as one of the solver in any dimension.
+    BuildBoundaries: BuildBoundary
+}
+
+/// Condition on the motion of one face of the body, with every number computed.
+pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
+    /// Its name, as suites write it.
+    fn name(&self) -> &'static str;
+
+    /// In words that follow "the left face".
+    fn verb(&self) -> &'static str;
+
+    /// Value of its row in reports; empty: no row.
+    fn row(&self) -> String {
+        self.name().to_owned()
+    }
+
+    /// Where faces share a node the stronger condition wins: a wall that drives a body does not
+    /// tear it from one that holds it.
+    fn strength(&self) -> u8 {
+        0
+    }
+
+    /// Whether nothing holds the face: it may carry a traction.
+    fn is_free(&self) -> bool {
+        false
+    }
+
+    /// Whether the face is one and the same with the opposite one.
+    fn is_periodic(&self) -> bool {
+        false
     }
 
     /// Whether nodes on the face are held.
-    pub fn is_held(&self) -> bool {
-        !matches!(self, Self::Free | Self::Periodic)
+    fn is_held(&self) -> bool {
+        !(self.is_free() || self.is_periodic())
     }
 
-    /// In words that follow "the left face".
-    pub fn verb(&self) -> &'static str {
-        match self {
-            Self::Free => "is free",
-            Self::Fixed => "is fixed",
-            Self::Roller => "is a roller",
-            Self::Friction(_) => "has friction",
-            Self::Velocity(_) => "has a given velocity",
-            Self::Periodic => "is periodic",
-            Self::AtRest => "is at rest",
-        }
+    /// Whether the face has a velocity of its own.
+    fn is_driven(&self) -> bool {
+        false
     }
+
+    /// Whether the face can but stay where the grid ends.
+    fn stays(&self) -> bool {
+        false
+    }
+
+    /// Whether the reference FEM does not know it.
+    fn is_lacked_by_fem(&self) -> bool {
+        false
+    }
+
+    /// Why no consistent mass matrix can be solved with it, if none can.
+    fn against_consistent_mass(&self) -> Option<&'static str> {
+        None
+    }
+}
+
+/// The condition in D dimensions on the nodes of the face at `site`.
+pub(crate) fn build<const D: usize>(
+    condition: &Arc<dyn BoundaryCondition>,
+    site: &FaceSite<'_, D>,
+) -> Option<Box<dyn Boundary<D>>> {
+    let condition: Arc<dyn BuildBoundaries> = condition.clone();
+    condition.in_dimension::<D>()?.build(site)
 }

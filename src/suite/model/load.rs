@@ -1,11 +1,11 @@
 //! Loads of a scene: the contract of the family, whose members stand in `suite/compile/load`.
 
 use super::heat::SceneHeat;
-use crate::dimension::{in_every_dimension, with_dimension};
+use crate::dimension::in_every_dimension;
 use crate::exact::heat::Conduction;
 use crate::exact::{Condition, Term};
+use crate::fem::TimeFunction;
 use crate::mpm::{BasisName, Effect, Grid, Particles};
-use std::any::Any;
 use std::sync::Arc;
 
 /// Part of the scene that a load acts on. Solvers apply loads in this order.
@@ -56,7 +56,13 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     fn rows(&self) -> Vec<(String, String)>;
 
     /// The boundary condition of the truth on the face that the load acts on.
-    fn condition(&self) -> Option<Condition> {
+    fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
+        None
+    }
+
+    /// Tension (Pa) that the load puts on the end `x` (m) of a bar, a function of t; `outwards` is
+    /// the sign of the end's outward normal.
+    fn tension(&self, _x: f64, _outwards: f64) -> Option<TimeFunction> {
         None
     }
 
@@ -79,11 +85,7 @@ pub(crate) fn build<const D: usize>(
     load: &Arc<dyn SceneLoad>,
     site: &mut BodySite<'_, D>,
 ) -> Result<Box<dyn Effect<D>>, String> {
-    let built = with_dimension!(D, N => {
-        let load: Arc<dyn BuildEffect<N>> = load.clone();
-        // N is D, which the compiler does not know.
-        let load: &dyn Any = &load;
-        load.downcast_ref::<Arc<dyn BuildEffect<D>>>().map(|load| load.build(site))
-    });
-    built.unwrap_or_else(|| Err(format!("there is no MPM in {D} dimensions")))
+    let load: Arc<dyn BuildEffects> = load.clone();
+    let load = load.in_dimension::<D>();
+    load.ok_or_else(|| format!("there is no MPM in {D} dimensions"))?.build(site)
 }

@@ -13,7 +13,6 @@ pub(crate) mod scene;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
-pub use boundary::BoundaryCondition;
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use scene::{Scene, SceneFace};
 

@@ -54,7 +54,14 @@ pub struct SceneFace {
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
     /// Condition on its motion.
-    pub hold: BoundaryCondition,
+    pub(crate) hold: Arc<dyn BoundaryCondition>,
+}
+
+impl SceneFace {
+    /// Name of the condition on its motion, as suites write it.
+    pub fn condition(&self) -> &'static str {
+        self.hold.name()
+    }
 }
 
 /// Names of the faces: low and high, axis by axis.

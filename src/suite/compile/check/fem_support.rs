@@ -3,7 +3,7 @@
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::ConvergenceSpec;
-use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 
 /// Refuses conditions that the bar does not know, if the suite asks for one.
@@ -18,12 +18,7 @@ pub(crate) fn check(
     let path = Path::top("scene");
     let help = "remove the FEM, also as `reference`, or the condition";
     for face in &scene.faces {
-        if matches!(
-            face.hold,
-            BoundaryCondition::Periodic
-                | BoundaryCondition::Friction(_)
-                | BoundaryCondition::Velocity(_)
-        ) {
+        if face.hold.is_lacked_by_fem() {
             let message = format!(
                 "the {} face {}, and the FEM knows fixed and free ends only",
                 face.name,

@@ -8,7 +8,7 @@ use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::lattice::is_vacant;
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{BoundaryCondition, ConvergencePlan, Scene};
+use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::yaml::Diagnostic;
 
 /// Most particles, and most nodes, of one level.
@@ -91,8 +91,8 @@ pub(crate) fn held_faces(
     for face in scene.faces.iter().filter(|face| !face.hold.is_free() && face.high) {
         let (origin, along) = grid_axis(scene, face.axis, h);
         let end = origin + along * h;
-        let body = match (&face.hold, &scene.grid) {
-            (BoundaryCondition::Periodic, Some((_, to))) => to[face.axis],
+        let body = match &scene.grid {
+            Some((_, to)) if face.hold.is_periodic() => to[face.axis],
             _ => scene.to[face.axis],
         };
         if (end - body).abs() > ROUNDING * h {

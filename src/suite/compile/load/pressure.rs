@@ -3,7 +3,8 @@
 use super::contract::{LoadEntry, LoadWords, LoadedFace};
 use super::fields::scalar;
 use crate::exact::formula::Formula;
-use crate::exact::{Condition, Term};
+use crate::exact::{Condition, FacePoint, Term, Violation};
+use crate::fem::TimeFunction;
 use crate::mpm::{Effect, Placement, Pressure};
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -42,6 +43,15 @@ struct PressureLoad {
 
 impl Term for PressureLoad {}
 
+/// `P n = -p J F^-T n`: it stays normal to the moving face.
+impl Condition for PressureLoad {
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
+        let (p, area) = (point.value(&self.value), point.present_area());
+        let pressed = |i| point.traction(i, "under pressure", -p * area[i]);
+        (0..point.dimension()).try_for_each(pressed)
+    }
+}
+
 impl SceneLoad for PressureLoad {
     fn name(&self) -> &'static str {
         "pressure"
@@ -56,8 +66,14 @@ impl SceneLoad for PressureLoad {
         vec![self.face.row(&text, self.placement)]
     }
 
-    fn condition(&self) -> Option<Condition> {
-        Some(Condition::Pressure(self.value.clone()))
+    fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
+        Some(self)
+    }
+
+    /// In uniaxial strain a face keeps its area, so a pressure is a traction.
+    fn tension(&self, x: f64, _: f64) -> Option<TimeFunction> {
+        let value = self.value.clone();
+        Some(Box::new(move |t| -value.eval(&[x, t])))
     }
 }
 

@@ -6,7 +6,6 @@ use crate::exact::heat::{HeatFace, ThermalCondition};
 use crate::mpm::{Side, Thermal, ThermalBoundary};
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
-use crate::suite::model::boundary::BoundaryCondition;
 use crate::suite::model::load::BodySite;
 use crate::suite::model::scene::SceneFace;
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
@@ -34,9 +33,10 @@ pub(crate) fn faces(
         name: face.name,
         axis: face.axis,
         high: face.high,
-        condition: match face.hold {
-            BoundaryCondition::Periodic => ThermalCondition::Periodic,
-            _ => ThermalCondition::Insulated,
+        condition: if face.hold.is_periodic() {
+            ThermalCondition::Periodic
+        } else {
+            ThermalCondition::Insulated
         },
     };
     let path = entry.path.then("boundary");
@@ -59,15 +59,11 @@ fn on_grid(
     face: &SceneFace,
 ) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.verb());
-    if matches!(face.hold, BoundaryCondition::Periodic) {
+    if face.hold.is_periodic() {
         let message = format!("the {name} face {verb}, and has no temperature of its own");
         return Err(entry.evaluator.diagnostic_at_key(path, &message));
     }
-    let stays = matches!(
-        face.hold,
-        BoundaryCondition::Fixed | BoundaryCondition::Roller | BoundaryCondition::AtRest
-    );
-    if stays || matches!(words, ThermalSpec::Insulated) {
+    if face.hold.stays() || matches!(words, ThermalSpec::Insulated) {
         return Ok(());
     }
     let message = format!("the {name} face {verb}, and heat enters at the face of the grid");

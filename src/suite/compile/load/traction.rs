@@ -3,7 +3,8 @@
 use super::contract::{LoadEntry, LoadWords, LoadedFace};
 use super::fields::{of_place_and_time, sources};
 use crate::exact::formula::Formula;
-use crate::exact::{Condition, Term};
+use crate::exact::{Condition, FacePoint, Term, Violation};
+use crate::fem::TimeFunction;
 use crate::mpm::{Effect, Placement, Traction};
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -42,6 +43,14 @@ struct TractionLoad {
 
 impl Term for TractionLoad {}
 
+/// `P n = p0(X, t)`.
+impl Condition for TractionLoad {
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
+        let pulled = |i| point.traction(i, "loaded", point.value(&self.value[i]));
+        (0..point.dimension()).try_for_each(pulled)
+    }
+}
+
 impl SceneLoad for TractionLoad {
     fn name(&self) -> &'static str {
         "traction"
@@ -55,8 +64,13 @@ impl SceneLoad for TractionLoad {
         vec![self.face.row(&format!("traction {} Pa", sources(&self.value)), self.placement)]
     }
 
-    fn condition(&self) -> Option<Condition> {
-        Some(Condition::Traction(self.value.clone()))
+    fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
+        Some(self)
+    }
+
+    fn tension(&self, x: f64, outwards: f64) -> Option<TimeFunction> {
+        let value = self.value.first()?.clone();
+        Some(Box::new(move |t| outwards * value.eval(&[x, t])))
     }
 }
 

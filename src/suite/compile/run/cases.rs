@@ -9,7 +9,7 @@ use crate::suite::compile::truth::{conservation_only, law};
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::method::Method;
-use crate::suite::model::{Against, BoundaryCondition, Case, ConvergencePlan, SceneFace};
+use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
 
@@ -177,17 +177,9 @@ fn possible(
                 .diagnostic(path, "the reference FEM is one bar, and the scene lists bodies"))
         }
         MethodSpec::Mpm { mass: Some(mass), .. }
-            if mass.as_slice().contains(&MassName::Consistent) && driven(plan) =>
+            if mass.as_slice().contains(&MassName::Consistent)
+                && let Some(message) = against_consistent_mass(plan) =>
         {
-            let message = "the consistent mass matrix is solved for walls at rest, and a face is \
-                           driven";
-            Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message))
-        }
-        MethodSpec::Mpm { mass: Some(mass), .. }
-            if mass.as_slice().contains(&MassName::Consistent) && rubs(plan) =>
-        {
-            let message = "friction is measured by what a held node would do, of which a consistent \
-                           mass matrix has no row";
             Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message))
         }
         MethodSpec::Mpm { frame: Some(frame), .. }
@@ -209,12 +201,9 @@ fn possible(
     }
 }
 
-fn driven(plan: &ConvergencePlan) -> bool {
-    plan.scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Velocity(_)))
-}
-
-fn rubs(plan: &ConvergencePlan) -> bool {
-    plan.scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Friction(_)))
+/// Why no consistent mass matrix can be solved with the walls of the scene, if none can.
+fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
+    plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
 
 /// Whether a period of the grid is not that of the body's reference place.
@@ -224,7 +213,7 @@ fn stretched(plan: &ConvergencePlan) -> bool {
         let length = scene.to[face.axis] - scene.from[face.axis];
         (scene.period(face.axis) - length).abs() > 1e-12 * length
     };
-    scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Periodic) && apart(face))
+    scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
 /// The law of an FEM case that names none: that of the scene's material. Where there is none, such

@@ -4,12 +4,14 @@
 //! loads are those of the scene: they act on every body.
 
 use crate::mpm::MaterialSpec;
+use crate::suite::compile::boundary::FreeFace;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec};
-use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
 
 /// Most bodies of a scene.
 const MOST: usize = 100;
@@ -140,7 +142,7 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
             body.from[axis] == scene.from[axis]
         };
         if !at_wall {
-            face.hold = BoundaryCondition::Free;
+            face.hold = Arc::new(FreeFace);
         }
     }
     if body.round.is_some() {

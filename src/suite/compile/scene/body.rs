@@ -8,7 +8,7 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
-use crate::suite::model::{BoundaryCondition, Scene, SceneFace};
+use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Shape of a body.
@@ -193,7 +193,7 @@ pub(crate) fn on_grid(
 ) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
-    let given = |face: &&SceneFace| !(deforms && matches!(face.hold, BoundaryCondition::Periodic));
+    let given = |face: &&SceneFace| !(deforms && face.hold.is_periodic());
     for face in scene.faces.iter().filter(given) {
         let (body, grid, key) = if face.high {
             (scene.to[face.axis], to[face.axis], "to")

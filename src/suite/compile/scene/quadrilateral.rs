@@ -5,7 +5,7 @@ use crate::mpm::{Quadrilateral, Vector};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::{BoundarySpec, ConvergenceSpec, QuadrilateralSpec, SceneSpec};
+use crate::suite::grammar::{ConvergenceSpec, QuadrilateralSpec, SceneSpec};
 use crate::suite::model::scene::FACES;
 use crate::suite::yaml::Diagnostic;
 
@@ -71,7 +71,7 @@ pub(crate) fn faces_are_sides(
     };
     for (face, hold) in words.boundary.as_slice() {
         let at = path.then("boundary").then(face.as_str());
-        if matches!(hold, BoundarySpec::Periodic) {
+        if hold.named().1.is_periodic() {
             return Err(
                 evaluator.diagnostic_at_key(&at, "a quadrilateral does not go on periodically")
             );

@@ -4,14 +4,16 @@
 //! refused.
 
 use crate::exact::heat::Conduction;
+use crate::suite::compile::boundary::FaceAtRest;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::LoadSpec;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::truth::conduction::{self, ConductionInputs};
 use crate::suite::compile::truth::exact;
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec, SceneSpec};
-use crate::suite::model::{BoundaryCondition, Scene, SceneFace};
+use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::Diagnostic;
+use std::sync::Arc;
 
 /// Sets every face at rest that is not periodic, and refuses words that hold or move the body.
 /// `path` is that of the scene.
@@ -26,13 +28,11 @@ pub(crate) fn settle(
         Err(diagnostic.with_help("a `rigid` body is at rest: remove this, or choose a material"))
     };
     for face in faces {
-        match face.hold {
-            BoundaryCondition::Free => face.hold = BoundaryCondition::AtRest,
-            BoundaryCondition::Periodic => {}
-            _ => {
-                let message = format!("the {} face {}", face.name, face.hold.verb());
-                return idle(&path.then("boundary").then(face.name), &message);
-            }
+        if face.hold.is_free() {
+            face.hold = Arc::new(FaceAtRest);
+        } else if !face.hold.is_periodic() {
+            let message = format!("the {} face {}", face.name, face.hold.verb());
+            return idle(&path.then("boundary").then(face.name), &message);
         }
     }
     for (key, stated) in [

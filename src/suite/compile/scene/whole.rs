@@ -113,7 +113,7 @@ fn faces(
     words: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Diagnostic> {
-    let holds = boundary::holds(evaluator, path, words, &coordinates_and_time(dimension))?;
+    let holds = boundary::holds(evaluator, path, words, dimension)?;
     let build = |(i, hold)| SceneFace { name: FACES[i], axis: i / 2, high: i % 2 == 1, hold };
     Ok(holds.into_iter().enumerate().map(build).collect())
 }

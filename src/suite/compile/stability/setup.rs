@@ -11,10 +11,10 @@ use crate::suite::compile::run::step_rule;
 use crate::suite::compile::scene::whole;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::StabilitySpec;
+use crate::suite::model::Scene;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::model::{BoundaryCondition, Scene};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::Scales;
 
@@ -190,7 +190,7 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
 /// A frozen body is one that rests: nothing acts on it.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
-    let driven = scene.faces.iter().any(|face| matches!(face.hold, BoundaryCondition::Velocity(_)));
+    let driven = scene.faces.iter().any(|face| face.hold.is_driven());
     let moves = scene
         .each()
         .iter()

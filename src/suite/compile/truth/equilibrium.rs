@@ -7,7 +7,7 @@ use crate::suite::compile::coordinates::COORDINATES;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, NormName};
-use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 
 /// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
@@ -60,8 +60,7 @@ pub(crate) fn refuse(
 /// Where a wall or a set has got to is not known from its velocity at the end.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
-    let face = scene.faces.iter().find(|face| matches!(face.hold, BoundaryCondition::Velocity(_)));
-    if let Some(face) = face {
+    if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
         let message = format!("the face `{}` is driven, and the body comes to rest", face.name);
         return Err(
             evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)

@@ -2,14 +2,14 @@
 
 use super::conduction::{self, ConductionInputs};
 use super::{equilibrium, interface, law};
-use crate::exact::{Condition, Equation, Face, Motion, Problem, Violation};
+use crate::exact::{Equation, Face, Motion, Problem, Violation};
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::quadrilateral::refuse_truth;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
 use crate::suite::model::load::LoadTarget;
-use crate::suite::model::{BoundaryCondition, Scene};
+use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
@@ -235,18 +235,10 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
+/// A face with its condition, which is that of the load on it, if there is one: it is free then.
 fn face(scene: &Scene, number: usize) -> Face {
-    let face = &scene.faces[number];
-    let condition = match &face.hold {
-        BoundaryCondition::Fixed | BoundaryCondition::AtRest => Condition::Fixed,
-        BoundaryCondition::Roller => Condition::Roller,
-        BoundaryCondition::Friction(coefficient) => Condition::Friction(*coefficient),
-        BoundaryCondition::Velocity(value) => Condition::Velocity(value.clone()),
-        BoundaryCondition::Periodic => Condition::Periodic(scene.period(face.axis)),
-        BoundaryCondition::Free => {
-            let mut loads = scene.loads_on(LoadTarget::Face(number));
-            loads.find_map(|load| load.condition()).unwrap_or(Condition::Free)
-        }
-    };
-    Face { name: face.name, axis: face.axis, high: face.high, condition }
+    let SceneFace { name, axis, high, hold } = &scene.faces[number];
+    let loaded = scene.loads_on(LoadTarget::Face(number)).find_map(|load| load.clone().condition());
+    let condition = loaded.unwrap_or_else(|| hold.clone());
+    Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
 }

@@ -4,12 +4,13 @@
 //! same extent, touching or with a gap between them. No condition is known for other faces and for
 //! rims.
 
-use crate::exact::{Condition, Problem, Violation, meets};
+use crate::exact::{Interface, Problem, Violation, meets};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
+use std::sync::Arc;
 
 /// Refuses truths that are those of one body.
 ///
@@ -52,8 +53,8 @@ pub(crate) fn check(
                            without h in it";
             return Err(evaluator.diagnostic_at_key(&at.then(k).then("body"), message));
         }
-        problems[i].faces[2 * axis + 1].condition = Condition::Met;
-        problems[k].faces[2 * axis].condition = Condition::Met;
+        problems[i].faces[2 * axis + 1].condition = Arc::new(Interface);
+        problems[k].faces[2 * axis].condition = Arc::new(Interface);
     }
     refuse_other_touch(evaluator, &at, &problems, &pairs)?;
     problems.iter().try_for_each(check)?;

@@ -1,0 +1,63 @@
+//! Conditions on the faces of a body.
+
+use super::formula::Formula;
+use super::violation::Violation;
+use std::fmt::Debug;
+
+/// A condition on a face of the body, to which the motion is held point by point.
+pub trait Condition: Debug + Send + Sync {
+    /// Holds the motion at `point` to the condition.
+    ///
+    /// # Errors
+    /// The first violation.
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
+}
+
+/// A point of a face at a time of the run, and what can be demanded of the motion there. These
+/// demands are few, since a residual needs a size of the whole motion that it is compared with;
+/// conditions are made of them.
+pub trait FacePoint {
+    /// Number of space dimensions.
+    fn dimension(&self) -> usize;
+
+    /// Axis of the normal.
+    fn axis(&self) -> usize;
+
+    /// A formula of the coordinates and t, here and now.
+    fn value(&self, formula: &Formula) -> f64;
+
+    /// `J F^-T n`, the present area per reference area. Where strains are small it is n.
+    fn present_area(&self) -> [f64; 3];
+
+    /// `u_i = 0`, of a face that is `what`.
+    ///
+    /// # Errors
+    /// The violation.
+    fn held(&self, i: usize, what: &str) -> Result<(), Violation>;
+
+    /// `(u_t)_i = given` (m/s).
+    ///
+    /// # Errors
+    /// The violation.
+    fn velocity(&self, i: usize, given: f64) -> Result<(), Violation>;
+
+    /// `(P n)_i = given` (Pa), on a face that is `what`.
+    ///
+    /// # Errors
+    /// The violation.
+    fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
+
+    /// u . n = 0 and no pull; along the face a traction of the `coefficient` times the pressure
+    /// against the velocity, and at most as much where the face rests.
+    ///
+    /// # Errors
+    /// The first violation.
+    fn friction(&self, coefficient: f64) -> Result<(), Violation>;
+
+    /// x lies one period further along the axis than on the opposite face, and grad u is the same:
+    /// then P is, and nothing tells where the seam is.
+    ///
+    /// # Errors
+    /// The first violation.
+    fn continues_on_opposite_face(&self) -> Result<(), Violation>;
+}
