@@ -83,11 +83,11 @@ fn heat<const D: usize>(
     let mut forcing = HeatForcing::new(&problem, particles.x0.iter().map(Vector::as_slice));
     let number = || -> ScalarField<D> { Box::new(|x, t| x[0] * t) };
     let heat = Heat::new((0.01, 1.0), particles, |x| (x[0], Vector::zeros()));
-    let convection = Thermal::Convection { coefficient: 0.1, ambient: number() };
+    let convection = Thermal::Inflow(Box::new(|x, t, value| 0.1 * (x[0] * t - value)));
     let conditions = [
         ((0, Side::Low), Thermal::Temperature(number())),
         ((0, Side::High), convection),
-        ((D - 1, Side::Low), Thermal::Flux(number())),
+        ((D - 1, Side::Low), Thermal::Inflow(Box::new(|x, t, _| x[0] * t))),
     ];
     let face = |(at, condition)| ThermalBoundary::new((grid, basis), particles, at, condition);
     heat.with_faces(conditions.map(face).into())

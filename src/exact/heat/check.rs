@@ -1,7 +1,8 @@
 //! Every condition that a heat problem puts on its temperature.
 
+use super::condition::HeatFacePoint;
 use super::field::TemperatureDerivatives;
-use super::problem::{Conduction, HeatFace, ThermalCondition};
+use super::problem::{Conduction, HeatFace};
 use super::{equation, weak};
 use crate::exact::check::differences::{DIFFERENCE_TOLERANCE, away_from_kinks};
 use crate::exact::check::pointwise::{Event, POINTS, drawn, greatest, largest};
@@ -103,57 +104,79 @@ fn boundary(problem: &Conduction) -> Result<(), Violation> {
         for _ in 0..POINTS {
             let label = random.on_face(&problem.from, &problem.to, face.axis, face.high);
             let event = Event { label, t: problem.moment(&mut random) };
-            on_face(problem, face, &event, &sizes)?;
+            let (motion, now) = problem.now(&event.label, event.t);
+            let inflow = inflow_at(problem, face, &motion, &now);
+            let point = HeatedPoint { problem, face, event, now, inflow, sizes: &sizes };
+            face.condition.check(&point)?;
         }
     }
     Ok(())
 }
 
-fn on_face(
+/// A point of a face, with the motion and the temperature there.
+struct HeatedPoint<'a> {
+    problem: &'a Conduction,
+    face: &'a HeatFace,
+    event: Event,
+    now: TemperatureDerivatives,
+    /// Heat that enters (W/m^(D-1)).
+    inflow: f64,
+    sizes: &'a HeatMagnitudes,
+}
+
+impl HeatedPoint<'_> {
+    fn condition(&self, what: &str) -> String {
+        format!("boundary condition: {} {what}", self.face.name)
+    }
+}
+
+impl HeatFacePoint for HeatedPoint<'_> {
+    fn value(&self, formula: &Formula) -> f64 {
+        at(formula, &self.event)
+    }
+
+    fn temperature(&self) -> f64 {
+        self.now.value
+    }
+
+    fn largest_temperature(&self) -> f64 {
+        self.sizes.value
+    }
+
+    fn has_temperature(&self, given: f64) -> Result<(), Violation> {
+        let allowed = self.problem.tolerance * self.sizes.value.max(given.abs());
+        let name = self.condition("has a given temperature");
+        self.event.judge(allowed, name, (given, self.now.value), "K")
+    }
+
+    fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation> {
+        let allowed = self.problem.tolerance * greatest([self.sizes.inflow, size].into_iter());
+        self.event.judge(allowed, self.condition(what), (given, self.inflow), "W/m2")
+    }
+
+    fn continues_on_opposite_face(&self) -> Result<(), Violation> {
+        let Self { problem, face, event, now, inflow, sizes } = self;
+        let mut opposite = event.label.clone();
+        opposite[face.axis] =
+            if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
+        let (there, warm) = problem.now(&opposite, event.t);
+        let title = self.condition("is periodic, the temperature");
+        event.judge(problem.tolerance * sizes.value, title, (warm.value, now.value), "K")?;
+        let across = inflow_at(problem, face, &there, &warm);
+        let title = self.condition("is periodic, the flow of heat");
+        event.judge(problem.tolerance * sizes.inflow, title, (across, *inflow), "W/m2")
+    }
+}
+
+/// Heat that flows along the outward normal of `face` from outside (W/m^(D-1)).
+fn inflow_at(
     problem: &Conduction,
     face: &HeatFace,
-    event: &Event,
-    sizes: &HeatMagnitudes,
-) -> Result<(), Violation> {
-    let (motion, now) = problem.now(&event.label, event.t);
+    motion: &Derivatives,
+    now: &TemperatureDerivatives,
+) -> f64 {
     let normal = if face.high { 1.0 } else { -1.0 };
-    let inflow = normal * problem.inflow(&motion, &now)[face.axis];
-    let name = |what: &str| format!("boundary condition: {} {what}", face.name);
-    let (tolerance, unit) = (problem.tolerance, "W/m2");
-    match &face.condition {
-        ThermalCondition::Insulated => {
-            let name = name("is insulated, heat that enters");
-            event.judge(tolerance * sizes.inflow, name, (0.0, inflow), unit)
-        }
-        ThermalCondition::Temperature(formula) => {
-            let given = at(formula, event);
-            let allowed = tolerance * sizes.value.max(given.abs());
-            event.judge(allowed, name("has a given temperature"), (given, now.value), "K")
-        }
-        ThermalCondition::Flux(formula) => {
-            let given = at(formula, event);
-            let allowed = tolerance * sizes.inflow.max(given.abs());
-            event.judge(allowed, name("has a given flux"), (given, inflow), unit)
-        }
-        ThermalCondition::Convection { coefficient, ambient } => {
-            let ambient = at(ambient, event);
-            let given = coefficient * (ambient - now.value);
-            let size = coefficient * sizes.value.max(ambient.abs());
-            let name = name("is cooled by convection, heat that enters");
-            event.judge(tolerance * sizes.inflow.max(size), name, (given, inflow), unit)
-        }
-        ThermalCondition::Periodic => {
-            let mut opposite = event.label.clone();
-            opposite[face.axis] =
-                if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
-            let (there, warm) = problem.now(&opposite, event.t);
-            let title = name("is periodic, the temperature");
-            event.judge(tolerance * sizes.value, title, (warm.value, now.value), "K")?;
-            let across = normal * problem.inflow(&there, &warm)[face.axis];
-            let title = name("is periodic, the flow of heat");
-            event.judge(tolerance * sizes.inflow, title, (across, inflow), unit)
-        }
-    }
+    normal * problem.inflow(motion, now)[face.axis]
 }
 
 /// T_t and Div Q, once by automatic differentiation and once by central differences.

@@ -1,6 +1,7 @@
 //! The truth about heat: a temperature given by a formula, held against the heat equation.
 
 mod check;
+mod condition;
 mod equation;
 mod field;
 mod forcing;
@@ -9,6 +10,7 @@ mod problem;
 mod tests;
 mod weak;
 
+pub use condition::{HeatFacePoint, ThermalCondition};
 pub use field::{Temperature, TemperatureDerivatives};
 pub use forcing::HeatForcing;
-pub use problem::{Conduction, HeatFace, ThermalCondition};
+pub use problem::{Conduction, HeatFace};

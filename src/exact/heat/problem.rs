@@ -1,31 +1,13 @@
 //! The heat problem that a temperature is held to.
 
+use super::condition::ThermalCondition;
 use super::equation::{divergence, slope};
 use super::field::{Temperature, TemperatureDerivatives};
 use crate::exact::formula::Formula;
 use crate::exact::motion::{Derivatives, Motion, variables};
 use crate::exact::random::Random;
 use crate::exact::truth::Truth;
-
-/// Thermal condition on a face of the body; formulas are of the coordinates and t.
-#[derive(Debug, Clone)]
-pub enum ThermalCondition {
-    /// No heat flows.
-    Insulated,
-    /// The temperature (K).
-    Temperature(Formula),
-    /// Heat that enters, per reference area (W/m^(D-1)).
-    Flux(Formula),
-    /// `coefficient (ambient - T)` enters.
-    Convection {
-        /// W/(K m^(D-1)).
-        coefficient: f64,
-        /// K.
-        ambient: Formula,
-    },
-    /// It is one and the same with the opposite face.
-    Periodic,
-}
+use std::sync::Arc;
 
 /// One face of a box-shaped body.
 #[derive(Debug, Clone)]
@@ -37,7 +19,7 @@ pub struct HeatFace {
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
     /// Its condition.
-    pub condition: ThermalCondition,
+    pub condition: Arc<dyn ThermalCondition>,
 }
 
 /// An initial-boundary-value problem of heat in a box, `rho0 c T_t = Div (k J C^-1 Grad T) + rho0

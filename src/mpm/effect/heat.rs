@@ -233,7 +233,7 @@ mod tests {
         let (kernel, grid, mut particles) = plate(basis);
         let start = |x: &Vector<2>| (libm::sin(9.0 * x[0]) * x[1], Vector::zeros());
         let heat = Heat::new((0.1, 2.0), &mut particles, start);
-        let flux = Thermal::Flux(Box::new(|_, _| 7.0));
+        let flux = Thermal::Inflow(Box::new(|_, _, _| 7.0));
         let face = ThermalBoundary::new((&grid, basis), &particles, (0, Side::High), flux);
         let source: HeatSource<2> = Box::new(|_, _, into| into.fill(5.0));
         let mut heat = heat.with_faces(vec![face]).with_source(source);

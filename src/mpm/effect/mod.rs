@@ -31,5 +31,5 @@ pub use set_force::SetForce;
 pub(super) use strain::strain;
 pub use surface::Placement;
 pub use thermal_expansion::ThermalExpansion;
-pub use thermal_face::{ScalarField, Thermal, ThermalBoundary};
+pub use thermal_face::{HeatInflow, ScalarField, Thermal, ThermalBoundary};
 pub use traction::{Traction, TractionField};

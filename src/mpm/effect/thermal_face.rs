@@ -20,19 +20,16 @@ use crate::subject::Column;
 /// A number as a function of place and time (s).
 pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// Condition on a face that is not insulated.
+/// Heat that enters (W/m^(D-1)) as a function of place, time (s) and the temperature (K) there.
+pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
+
+/// Condition on a face that is not insulated. Of the conditions on a field of second order in space
+/// there are two kinds: its value is given, or its flux is, which may depend on the value.
 pub enum Thermal<const D: usize> {
-    /// A temperature (K).
+    /// A temperature (K): Dirichlet's condition.
     Temperature(ScalarField<D>),
-    /// Heat that enters (W/m^(D-1)).
-    Flux(ScalarField<D>),
-    /// `coefficient (ambient - T)` enters: Newton's law of cooling, Robin's condition.
-    Convection {
-        /// W/(K m^(D-1)).
-        coefficient: f64,
-        /// K.
-        ambient: ScalarField<D>,
-    },
+    /// Heat that enters: Neumann's condition, or Robin's.
+    Inflow(HeatInflow<D>),
 }
 
 /// A face of the grid at which the body ends.
@@ -109,19 +106,12 @@ impl<const D: usize> ThermalBoundary<D> {
         grid: &Grid<D>,
         (temperature, flow): (&[f64], &mut [f64]),
     ) -> u64 {
-        if matches!(self.condition, Thermal::Temperature(_)) {
-            return 0;
-        }
+        // A face whose temperature is given has neither a layer nor shares.
         self.gather_shares(particles, kernel, grid);
-        for (i, x) in &self.nodes {
-            let density = match &self.condition {
-                Thermal::Temperature(_) => 0.0,
-                Thermal::Flux(value) => value(x, t),
-                Thermal::Convection { coefficient, ambient } => {
-                    coefficient * (ambient(x, t) - temperature[*i])
-                }
-            };
-            flow[*i] += self.share[*i] * density;
+        if let Thermal::Inflow(density) = &self.condition {
+            for (i, x) in &self.nodes {
+                flow[*i] += self.share[*i] * density(x, t, temperature[*i]);
+            }
         }
         self.layer.len() as u64 * kernel.support()
     }

@@ -1,7 +1,10 @@
 //! Conduction of heat in a scene.
 
+use crate::dimension::in_every_dimension;
 use crate::exact::formula::Formula;
-use crate::exact::heat::HeatFace;
+use crate::exact::heat::{HeatFace, ThermalCondition};
+use crate::mpm::Thermal;
+use std::sync::Arc;
 
 /// Conduction of heat, with every number computed.
 #[derive(Debug, Clone)]
@@ -15,5 +18,48 @@ pub struct SceneHeat {
     /// Initial temperature (K), a formula of the coordinates and t; not stated, that of the truth.
     pub initial: Option<Formula>,
     /// Every face of the body.
-    pub faces: Vec<HeatFace>,
+    pub(crate) faces: Vec<ThermalFace>,
+}
+
+/// One face of a body in which heat flows.
+#[derive(Debug, Clone)]
+pub(crate) struct ThermalFace {
+    pub(crate) name: &'static str,
+    pub(crate) axis: usize,
+    pub(crate) high: bool,
+    pub(crate) condition: Arc<dyn HeatCondition>,
+}
+
+impl ThermalFace {
+    /// The face of the truth.
+    pub(crate) fn exact(&self) -> HeatFace {
+        let Self { name, axis, high, condition } = self;
+        HeatFace { name, axis: *axis, high: *high, condition: condition.clone() }
+    }
+}
+
+/// A thermal condition of a scene as one of the solver.
+pub(crate) trait BuildThermal<const D: usize> {
+    /// The condition; none where no heat enters.
+    fn build(&self) -> Option<Thermal<D>> {
+        None
+    }
+}
+
+in_every_dimension! {
+    /// A thermal condition of a scene as one of the solver in any dimension.
+    BuildThermals: BuildThermal
+}
+
+/// Thermal condition on one face of the body, with every number computed: the contract of the
+/// family, whose members stand in `suite/compile/boundary/thermal`.
+pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
+    /// Value of its row in reports; none of a face that is no end.
+    fn row(&self) -> Option<String>;
+}
+
+/// `condition` for the solver in D dimensions.
+pub(crate) fn build<const D: usize>(condition: &Arc<dyn HeatCondition>) -> Option<Thermal<D>> {
+    let condition: Arc<dyn BuildThermals> = condition.clone();
+    condition.in_dimension::<D>()?.build()
 }

@@ -43,6 +43,11 @@ pub(crate) struct FaceEntry<'a> {
 }
 
 impl FaceEntry<'_> {
+    /// A formula of the coordinates and t, at `path`.
+    pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
+        self.evaluator.formula(path, text, &coordinates_and_time(self.dimension))
+    }
+
     /// One formula of the coordinates and t for each component, at its place.
     pub(crate) fn vector(&self, texts: &[NumberText]) -> Result<Vec<Formula>, Diagnostic> {
         let variables = coordinates_and_time(self.dimension);

@@ -11,6 +11,7 @@ mod friction;
 mod periodic;
 mod registry;
 mod roller;
+pub(crate) mod thermal;
 mod velocity;
 
 pub(crate) use at_rest::FaceAtRest;

@@ -2,11 +2,12 @@
 
 use super::contract::{LoadEntry, LoadWords};
 use super::fields::scalar;
-use super::thermal_face::{self, ThermalSpec};
+use super::thermal_face;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives};
 use crate::exact::{Round, Term};
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
+use crate::suite::compile::boundary::thermal::ThermalSpec;
 use crate::suite::model::heat::SceneHeat;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
@@ -73,9 +74,10 @@ impl SceneLoad for SceneHeat {
         let mut texts = vec![format!("conductivity {k} W/(m K), capacity {c} J/(kg K)")];
         texts.extend(self.source.iter().map(|source| format!("source {} W/kg", source.source())));
         texts.extend(self.initial.iter().map(|initial| format!("from {} K on", initial.source())));
-        let faces = self.faces.iter().filter_map(|face| {
-            Some((format!("heat {}", face.name), thermal_face::described(&face.condition)?))
-        });
+        let faces = self
+            .faces
+            .iter()
+            .filter_map(|face| Some((format!("heat {}", face.name), face.condition.row()?)));
         [("heat".to_owned(), texts.join(", "))].into_iter().chain(faces).collect()
     }
 

@@ -8,6 +8,7 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::Scene;
+use crate::suite::model::heat::ThermalFace;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 
 /// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
@@ -51,7 +52,7 @@ pub(crate) fn problem(
         capacity: heat.capacity,
         source: heat.source.clone(),
         initial: heat.initial.clone(),
-        faces: heat.faces.clone(),
+        faces: heat.faces.iter().map(ThermalFace::exact).collect(),
         temperature: Temperature::new(formula, dimension),
         motion,
         manufactured,
