@@ -32,6 +32,18 @@ fn without_a_mistake_the_samples_are_sound() {
     &[("mu: 0.860333589019380", "mu: 0.860334"), ("temperature: \"Ta", "temperature: ▸\"Ta")],
     &["right is cooled by convection", "this is not a solution"]
 )]
+#[case::that_an_end_does_not_have(
+    &[(RIGHT, "boundary: {right: {temperature: Ta}}"), ("temperature: \"Ta", "temperature: ▸\"Ta")],
+    &["right has a given temperature", "K (off by "]
+)]
+#[case::that_lets_heat_out_of_an_insulated_end(
+    &[(RIGHT, "boundary: {right: insulated}"), ("temperature: \"Ta", "temperature: ▸\"Ta")],
+    &["right is insulated, heat that enters", "W/m2 (off by "]
+)]
+#[case::of_a_ring_that_jumps(
+    &[(RIGHT, "boundary: {}"), ("  material", "  boundary: {left: periodic, right: periodic}\n  material"), ("temperature: \"Ta", "temperature: ▸\"Ta")],
+    &["left is periodic, the temperature", "K (off by "]
+)]
 #[case::another_diffusivity(
     &[("c: 4 ", "c: 5 "), ("kappa: \"k/(rho*c)\"", "kappa: \"k/(rho*4)\""), ("temperature: \"Ta", "temperature: ▸\"Ta")],
     &["heat equation, rho0 c T_t = Div(k Grad T) + rho0 s", "W/kg"]
