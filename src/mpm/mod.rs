@@ -52,10 +52,11 @@ pub use grid::Grid;
 pub use heat_solver::HeatSolver;
 pub use kernel::contract::Kernel;
 pub use kernel::counting::{Counted, Tally};
-pub use kernel::kernel;
 pub use kernel::moments::Moments;
 pub use kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
 pub use kernel::scalar_contract::Scalars;
+pub use kernel::settings::LoopSettings;
+pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
     Hencky, J2, LinearElastic, Material, MaterialParameter, MaterialPlan, MaterialProperties,

@@ -14,4 +14,5 @@ mod figure;
 mod formula;
 mod judge;
 mod motions;
+mod mpm;
 mod pitfalls;

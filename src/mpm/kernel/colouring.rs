@@ -8,6 +8,7 @@
 //! The cuts depend on the particles only, not on the number of threads, and so do the bits. A small
 //! scene, or one whose particles are in no spatial order, is one block.
 
+use super::settings::LoopSettings;
 use crate::mpm::algebra::Matrix;
 use crate::mpm::basis::{Basis, Domain};
 use crate::mpm::grid::Grid;
@@ -17,14 +18,8 @@ use crate::mpm::simd::BATCH;
 use crate::mpm::threads::RowChunks;
 use std::ops::Range;
 
-/// Fewest particles of a scene that is cut into blocks: smaller ones stay in the cache as they are.
-const MIN_PARTICLES: usize = 1 << 17;
-
-/// Fewest particles of a block: the nodes shared with its neighbours must be few in comparison.
-const MIN_BLOCK: usize = 1 << 13;
-
-/// Chunks of such a block, the units in which layers are looked up.
-pub(in crate::mpm) const CHUNKS: usize = 8;
+/// Chunks of the smallest block, the units in which layers are looked up.
+const CHUNKS: usize = 8;
 
 /// Independent minima and maxima in one loop over positions.
 const TOGETHER: usize = 8;
@@ -50,22 +45,9 @@ struct Span {
 /// The blocks of a scene by colour; a single block is even.
 #[derive(Debug)]
 pub(in crate::mpm) struct Blocks {
-    /// Fewest particles of a scene with several blocks, and of a block.
-    pub(in crate::mpm) fewest: usize,
-    pub(in crate::mpm) least: usize,
+    settings: LoopSettings,
     spans: Vec<Span>,
     pub(in crate::mpm) colours: [Vec<ParticleBlock>; 2],
-}
-
-impl Default for Blocks {
-    fn default() -> Self {
-        Self {
-            fewest: MIN_PARTICLES,
-            least: MIN_BLOCK,
-            spans: Vec::new(),
-            colours: Default::default(),
-        }
-    }
 }
 
 impl Span {
@@ -134,9 +116,13 @@ impl Span {
 }
 
 impl Blocks {
+    pub(in crate::mpm) fn new(settings: LoopSettings) -> Self {
+        Self { settings, spans: Vec::new(), colours: Default::default() }
+    }
+
     /// Particles of a chunk, a multiple of a batch.
     fn chunk(&self) -> usize {
-        (self.least / CHUNKS).next_multiple_of(BATCH)
+        (self.settings.min_block / CHUNKS).next_multiple_of(BATCH)
     }
 
     /// Cuts the particles into blocks, if there are enough and they are in spatial order.
@@ -145,9 +131,9 @@ impl Blocks {
         grid: &Grid<D>,
         particles: &Particles<D>,
     ) {
-        let (total, least, chunk) = (particles.len(), self.least, self.chunk());
-        let is_large = total >= self.fewest;
-        let enough = |count: &usize| is_large && count * least <= total;
+        let LoopSettings { min_particles, min_block, .. } = self.settings;
+        let (total, chunk) = (particles.len(), self.chunk());
+        let enough = |count: &usize| total >= min_particles && count * min_block <= total;
         if COUNTS.iter().any(enough) {
             self.spans.resize(total.div_ceil(chunk), Span::NONE);
             RowChunks { length: 1, few: CHUNKS }.each(&mut self.spans, &|k, span| {
@@ -184,5 +170,60 @@ impl Blocks {
                 .push(ParticleBlock { particles: from * chunk..particles.min(to * chunk), layers });
             is_apart && is_in_order
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::algebra::Vector;
+    use crate::mpm::basis::{BasisName, with_basis};
+    use crate::mpm::particles::Block;
+    use rstest::rstest;
+
+    /// A body in a grid that is long along its last axis, its particles a little displaced.
+    fn scene<B: Basis, const D: usize>(periodic: bool) -> (Grid<D>, Particles<D>) {
+        let h = 0.25;
+        let cells = std::array::from_fn(|axis| match (axis + 1 == D, D) {
+            (true, 1) => 600,
+            (true, _) => 60,
+            (false, 2) => 9,
+            (false, _) => 3,
+        });
+        let counts = cells.map(|cells| B::count(cells, periodic));
+        let grid = Grid::new(Vector::zeros(), h, cells, [periodic; D], counts);
+        let to = Vector::from_fn(|axis, _| h * cells[axis] as f64);
+        let block = Block { from: Vector::zeros(), to, density: 2.0 };
+        let mut particles = Particles::fill(&block, h, 2);
+        particles.track_domains();
+        for p in 0..particles.len() {
+            particles.x[p] +=
+                Vector::from_fn(|i, _| 0.2 * h * libm::sin((7 * p + 3 * i + 1) as f64));
+            particles.domain[p] *= 1.1;
+        }
+        (grid, particles)
+    }
+
+    fn is_cut<B: Basis, const D: usize>(periodic: bool) {
+        let settings = LoopSettings { min_particles: 0, min_block: 128, ..LoopSettings::default() };
+        let (mut blocks, (grid, particles)) = (Blocks::new(settings), scene::<B, D>(periodic));
+        blocks.cut::<B, D>(&grid, &particles);
+        let has_seam = periodic && B::DOMAIN != Domain::Point;
+        assert_eq!(
+            blocks.colours[1].len() >= 2,
+            !has_seam,
+            "domains beyond a periodic end have nodes at both ends of the field"
+        );
+    }
+
+    #[rstest]
+    fn a_long_body_is_cut(#[values(false, true)] periodic: bool) {
+        for &name in BasisName::ALL {
+            with_basis!(name, B => {
+                is_cut::<B, 1>(periodic);
+                is_cut::<B, 2>(periodic);
+                is_cut::<B, 3>(periodic);
+            });
+        }
     }
 }

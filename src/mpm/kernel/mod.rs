@@ -15,8 +15,9 @@
 //!              2. odd block k, after even blocks k and k + 1 (colouring.rs, parallel.rs)
 //! ```
 //!
-//! `reference.rs` has the same sums as textbook loops. Sums run over particles and nodes in a fixed
-//! order, so that results have the same bits on any processor and number of threads.
+//! `tests/it/mpm/kernel/textbook.rs` has the same sums as textbook loops. Sums run over particles
+//! and nodes in a fixed order, so that results have the same bits on any processor and number of
+//! threads.
 
 pub(crate) mod contract;
 pub(crate) mod counting;
@@ -24,20 +25,15 @@ pub(crate) mod counting_scalars;
 pub(crate) mod moments;
 pub(crate) mod request;
 pub(crate) mod scalar_contract;
+pub(crate) mod settings;
 
 mod batch;
 mod colouring;
 mod g2p;
 mod inertia;
-#[cfg(test)]
-mod laws;
-#[cfg(test)]
-mod laws_of_blocks;
 mod p2g;
 mod par_split;
 mod parallel;
-#[cfg(test)]
-mod reference;
 mod scalar_loops;
 mod workspace;
 
@@ -52,23 +48,29 @@ use crate::dimension::with_dimension;
 use contract::Kernel;
 use moments::{InertiaTensor, Moments};
 use request::{G2pRequest, P2gRequest, ParticleField};
+use settings::LoopSettings;
 use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Kernel of the basis with this name.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
-    let kernel = kernel_in_dimension(D, basis).downcast::<Box<dyn Kernel<D>>>();
+    kernel_with(basis, LoopSettings::default())
+}
+
+/// The same, with loops that run otherwise.
+pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
+    let kernel = kernel_in_dimension(D, basis, settings).downcast::<Box<dyn Kernel<D>>>();
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
 }
 
 /// A `Box<dyn Kernel<D>>`. Not generic, so that the loops are compiled in this crate, once, and not
 /// again in each crate that asks for one.
-fn kernel_in_dimension(dimension: usize, basis: BasisName) -> Box<dyn Any> {
-    fn boxed<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
-        with_basis!(basis, B => Box::new(Loops::<B>::default()))
+fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
+    fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
+        with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))
     }
-    with_dimension!(dimension, D => Box::new(boxed::<D>(basis)))
+    with_dimension!(dimension, D => Box::new(boxed::<D>(basis, settings)))
 }
 
 /// Kernel of basis `B`.
@@ -78,13 +80,11 @@ struct Loops<B> {
     basis: PhantomData<B>,
 }
 
-impl<B> Default for Loops<B> {
-    fn default() -> Self {
-        Self { workspace: Mutex::default(), basis: PhantomData }
-    }
-}
-
 impl<B> Loops<B> {
+    fn new(settings: LoopSettings) -> Self {
+        Self { workspace: Mutex::new(Workspace::new(settings)), basis: PhantomData }
+    }
+
     fn workspace(&self) -> MutexGuard<'_, Workspace> {
         // After a panic: the next pass overwrites all contents.
         self.workspace.lock().unwrap_or_else(PoisonError::into_inner)

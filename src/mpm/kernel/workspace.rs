@@ -6,20 +6,23 @@ use super::p2g::{Scatter, has_one_field};
 use super::par_split::par_split;
 use super::parallel::{Target, two_colour_schedule};
 use super::request::{G2pRequest, P2gRequest};
+use super::settings::LoopSettings;
 use crate::mpm::algebra::Vector;
 use crate::mpm::basis::Basis;
 use crate::mpm::grid::Grid;
 use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedField};
 use crate::mpm::particles::Particles;
 use crate::mpm::simd;
+use fearless_simd::Level;
 use std::marker::PhantomData;
 
 /// Memory of a pass besides particles and grid.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
+    level: Level,
     /// Two packed fields of nodes.
     fields: [PackedField; 2],
-    pub(in crate::mpm) blocks: Blocks,
+    blocks: Blocks,
 }
 
 /// Views of the wanted fields, in the shape of `grid`, empty for the others.
@@ -36,7 +39,7 @@ fn views<'a, const D: usize>(
 }
 
 /// Packs velocities and, if wanted, accelerations.
-pub(in crate::mpm) fn pack<const D: usize>(
+fn pack<const D: usize>(
     [first, second]: &mut [PackedField; 2],
     grid: &Grid<D>,
     velocity: &[Vector<D>],
@@ -50,6 +53,10 @@ pub(in crate::mpm) fn pack<const D: usize>(
 }
 
 impl Workspace {
+    pub(in crate::mpm) fn new(settings: LoopSettings) -> Self {
+        Self { level: settings.level, fields: Default::default(), blocks: Blocks::new(settings) }
+    }
+
     /// P2G of all parts of `request` into `columns`.
     pub(in crate::mpm) fn scatter<B: Basis, const D: usize>(
         &mut self,
@@ -58,21 +65,16 @@ impl Workspace {
         grid: &Grid<D>,
         mut columns: Columns<'_, D>,
     ) {
-        let Self { fields, blocks } = self;
+        let Self { level, fields, blocks } = self;
         blocks.cut::<B, D>(grid, particles);
         columns.is_one_field = has_one_field(particles, request);
         let wants_inertia = request.mass || request.momentum.is_some();
         let wanted = [wants_inertia, request.force.is_some() && !columns.is_one_field];
         let add = |block: &ParticleBlock, fields: [FieldViewMut<'_>; 2]| {
             let range = block.particles.clone();
-            simd::run(Scatter::<D, B> {
-                grid,
-                particles,
-                range,
-                request,
-                fields,
-                basis: PhantomData,
-            });
+            let basis = PhantomData;
+            let pass = Scatter::<D, B> { grid, particles, range, request, fields, basis };
+            simd::run(*level, pass);
         };
         // Sums beyond a periodic end must be folded back before anything is unpacked.
         let (at_once, after) = if grid.periodic.contains(&true) {
@@ -103,18 +105,13 @@ impl Workspace {
         field: &[Vector<D>],
         request: G2pRequest<'_, D>,
     ) {
-        let fields = &mut self.fields;
+        let Self { level, fields, .. } = self;
         pack(fields, grid, field, request.change.is_some());
         let fields = fields.each_ref().map(PackedField::view);
         par_split(0..particles.len(), request, &|range, request| {
-            simd::run(Gather::<D, B> {
-                grid,
-                particles,
-                range,
-                request,
-                fields,
-                basis: PhantomData,
-            });
+            let basis = PhantomData;
+            let pass = Gather::<D, B> { grid, particles, range, request, fields, basis };
+            simd::run(*level, pass);
         });
     }
 }

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Each lane does the same IEEE operations at every level, with products and sums never fused, so
-//! results have the same bits on every processor (held by tests in `kernel/laws.rs`).
+//! results have the same bits on every processor (held by tests in `tests/it/mpm/kernel`).
 
 mod batch;
 mod f64x4;
@@ -36,13 +36,8 @@ pub(in crate::mpm) trait SimdPass: Sized {
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs `pass` at the best level of this processor.
-pub(in crate::mpm) fn run(pass: impl SimdPass) {
-    run_at(Level::new(), pass);
-}
-
 /// Runs `pass` at `level`.
-pub(in crate::mpm) fn run_at<P: SimdPass>(level: Level, pass: P) {
+pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
         use fearless_simd::Simd as _;
@@ -63,13 +58,4 @@ pub(in crate::mpm) fn run_at<P: SimdPass>(level: Level, pass: P) {
     }
     let _ = level;
     pass.run(Plain);
-}
-
-/// Levels below the best one of this processor, down to plain arrays.
-#[cfg(test)]
-pub(in crate::mpm) fn lower_levels() -> Vec<Level> {
-    let mut levels = vec![Level::baseline()];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    levels.extend(Level::new().as_avx2().map(Level::Avx2));
-    levels
 }

@@ -1,23 +1,18 @@
 //! Laws of the loops, for every basis in 1-D, 2-D and 3-D: a pass of several parts has the bits of
 //! passes of one part each, all processor levels have the same bits, and the sums are those of the
-//! textbook loops ([`reference`]).
+//! textbook loops ([`textbook`]).
 
-use super::contract::Kernel;
-use super::g2p::Gather;
-use super::p2g::Scatter;
-use super::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
-use super::workspace::pack;
-use super::{Loops, reference};
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::basis::{Basis, BasisName, with_basis};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedField};
-use crate::mpm::particles::{Block, Particles};
-use crate::mpm::simd::{lower_levels, run_at};
+mod blocks;
+mod textbook;
+
+use crate::common::in_dimension;
 use approx::assert_relative_eq;
 use fearless_simd::Level;
+use mpm_verify::mpm::{
+    Affine, BasisName, Block, Divergence, G2pRequest, Grid, Kernel, LoopSettings, Matrix,
+    P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
+};
 use rstest::rstest;
-use std::marker::PhantomData;
 
 const CELLS: usize = 4;
 
@@ -57,9 +52,8 @@ fn nodes<const D: usize>(grid: &Grid<D>) -> Vec<u64> {
     bits(grid.mass.iter().chain(grid.velocity.iter().flatten()).chain(grid.force.iter().flatten()))
 }
 
-fn p2g_of_several_parts_is_that_of_each<B: Basis, const D: usize>(periodic: bool) {
-    let kernel = Loops::<B>::default();
-    let (grid, particles) = scene::<D>(&kernel, periodic);
+fn p2g_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) {
+    let (grid, particles) = scene(kernel, periodic);
     let slopes = slopes(&particles);
     for affine in [None, Some(Affine::Slope(&slopes)), Some(Affine::Moment(&slopes))] {
         for divergence in [Divergence::Gradient, Divergence::Fit] {
@@ -79,9 +73,8 @@ fn p2g_of_several_parts_is_that_of_each<B: Basis, const D: usize>(periodic: bool
     }
 }
 
-fn g2p_of_several_parts_is_that_of_each<B: Basis, const D: usize>(periodic: bool) {
-    let kernel = Loops::<B>::default();
-    let (grid, particles) = scene::<D>(&kernel, periodic);
+fn g2p_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) {
+    let (grid, particles) = scene(kernel, periodic);
     let (mut v, mut advected) = (particles.v.clone(), particles.v.clone());
     let (mut moment, mut gradient) = (particles.sigma.clone(), particles.sigma.clone());
     let request = G2pRequest {
@@ -120,9 +113,8 @@ fn alone<const D: usize>(particles: &Particles<D>, p: usize) -> Particles<D> {
 
 /// The result of a particle does not depend on its neighbours in memory; a particle outside the
 /// grid has no nodes.
-fn particles_are_independent<B: Basis, const D: usize>(periodic: bool) {
-    let kernel = Loops::<B>::default();
-    let (grid, mut particles) = scene::<D>(&kernel, periodic);
+fn particles_are_independent<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) {
+    let (grid, mut particles) = scene(kernel, periodic);
     particles.x[3] = Vector::from_element(f64::NAN);
     let request = |particles: &Particles<D>| {
         let (mut v, mut moment) = (particles.v.clone(), particles.sigma.clone());
@@ -149,62 +141,47 @@ fn particles_are_independent<B: Basis, const D: usize>(periodic: bool) {
     assert_relative_eq!(mapped.mass.iter().sum::<f64>(), inside, max_relative = 1e-13);
 }
 
-/// The best level of this processor, lower ones, and plain arrays have the same bits.
-fn levels_agree<B: Basis, const D: usize>(periodic: bool) {
-    let kernel = Loops::<B>::default();
-    let (mut grid, particles) = scene::<D>(&kernel, periodic);
-    let (slopes, start) = (slopes(&particles), grid.clone());
+/// Levels below the best one of this processor, down to plain arrays.
+fn lower_levels() -> Vec<Level> {
+    let mut levels = vec![Level::baseline()];
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    levels.extend(Level::new().as_avx2().map(Level::Avx2));
+    levels
+}
+
+/// Bits of all that a pass of P2G and one of G2P write.
+fn passes<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    (grid, particles): (&Grid<D>, &Particles<D>),
+) -> [Vec<u64>; 2] {
+    let (mut mapped, slopes) = (grid.clone(), slopes(particles));
     let momentum = Some(ParticleField { v: &particles.v, affine: Some(Affine::Moment(&slopes)) });
     let request = P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) };
-    kernel.p2g(&particles, &request, &mut grid);
-    let mut workspace = [PackedField::default(), PackedField::default()];
-    let mut fields = workspace.each_mut().map(|field| field.shaped(&start));
-    fields.iter_mut().for_each(FieldViewMut::clear);
-    let (request, range, basis) = (&request, 0..particles.len(), PhantomData);
-    let pass =
-        Scatter::<D, B> { grid: &start, particles: &particles, range, request, fields, basis };
-    run_at(Level::baseline(), pass);
-    for field in &mut workspace {
-        field.fold(&start);
-    }
-    let mut plain = start.clone();
-    let columns = Columns {
-        mass: Some(&mut plain.mass),
-        momentum: Some(&mut plain.velocity),
-        force: Some(&mut plain.force),
-        is_one_field: D == 1,
-        ..Columns::default()
+    kernel.p2g(particles, &request, &mut mapped);
+    let (mut v, mut sigma) = (particles.v.clone(), particles.sigma.clone());
+    let mut gradient = sigma.clone();
+    let request = G2pRequest {
+        change: Some(0.25),
+        mix: Some((0.75, 0.25)),
+        value: Some(&mut v),
+        moment: Some(&mut sigma),
+        gradient: Some(&mut gradient),
+        advected: None,
     };
-    columns.unpack_all(&start, &workspace.each_mut().map(|field| field.shaped(&start)));
-    assert_eq!(nodes(&grid), nodes(&plain));
+    kernel.g2p_all(grid, particles, request);
+    let matrices = sigma.iter().chain(&gradient).flatten();
+    [nodes(&mapped), bits(v.iter().flatten().chain(matrices))]
+}
 
-    let take = |run: &dyn Fn(G2pRequest<'_, D>)| {
-        let (mut v, mut sigma) = (particles.v.clone(), particles.sigma.clone());
-        let mut gradient = sigma.clone();
-        run(G2pRequest {
-            change: Some(0.25),
-            mix: Some((0.75, 0.25)),
-            value: Some(&mut v),
-            moment: Some(&mut sigma),
-            gradient: Some(&mut gradient),
-            advected: None,
-        });
-        bits(v.iter().flatten().chain(sigma.iter().flatten()).chain(gradient.iter().flatten()))
-    };
-    let best = take(&|request| kernel.g2p_all(&start, &particles, request));
-    let mut workspace = [PackedField::default(), PackedField::default()];
-    pack(&mut workspace, &start, &start.velocity, true);
-    let fields = workspace.each_ref().map(PackedField::view);
-    let gather = |level: Level| {
-        take(&|request| {
-            let (range, basis) = (0..particles.len(), PhantomData);
-            let (grid, particles) = (&start, &particles);
-            let pass = Gather::<D, B> { grid, particles, range, request, fields, basis };
-            run_at(level, pass);
-        })
-    };
+/// The best level of this processor, lower ones, and plain arrays have the same bits.
+fn levels_agree<const D: usize>(basis: BasisName, periodic: bool) {
+    let best = kernel::<D>(basis);
+    let (grid, particles) = scene(best.as_ref(), periodic);
+    let scene = (&grid, &particles);
+    let best = passes(best.as_ref(), scene);
     for level in lower_levels() {
-        assert_eq!(best, gather(level), "{level:?}");
+        let lower = kernel_with(basis, LoopSettings { level, ..LoopSettings::default() });
+        assert!(passes(lower.as_ref(), scene) == best, "{basis:?} at {level:?}");
     }
 }
 
@@ -224,14 +201,13 @@ fn agree<'a>(
     }
 }
 
-fn fast_loops_are_the_textbook_loops<B: Basis, const D: usize>(periodic: bool) {
-    let kernel = Loops::<B>::default();
-    let (mut grid, particles) = scene::<D>(&kernel, periodic);
+fn fast_loops_are_the_textbook_loops<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) {
+    let (mut grid, particles) = scene(kernel, periodic);
     let (start, slopes) = (grid.clone(), slopes(&particles));
     let momentum = Some(ParticleField { v: &particles.v, affine: Some(Affine::Slope(&slopes)) });
     let request = P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) };
     kernel.p2g(&particles, &request, &mut grid);
-    let nodes = reference::p2g::<B, D>(&particles, &slopes, &start);
+    let nodes = textbook::p2g(kernel, &particles, &slopes, &start);
     agree("mass", &grid.mass, &nodes.mass);
     agree("momentum", grid.velocity.iter().flatten(), nodes.momentum.iter().flatten());
     agree("force", grid.force.iter().flatten(), nodes.force.iter().flatten());
@@ -241,27 +217,27 @@ fn fast_loops_are_the_textbook_loops<B: Basis, const D: usize>(periodic: bool) {
     kernel.g2p(&start, &start.velocity, &particles, (0.0, 1.0), &mut v);
     kernel.g2p_moment(&start, &start.velocity, &particles, &mut moment);
     kernel.g2p_gradient(&start, &start.velocity, &particles, &mut gradient);
-    let sums = reference::g2p::<B, D>(&start, &start.velocity, &particles);
+    let sums = textbook::g2p(kernel, &start, &start.velocity, &particles);
     agree("velocity", v.iter().flatten(), sums.velocity.iter().flatten());
     agree("moment", moment.iter().flatten(), sums.moment.iter().flatten());
     agree("gradient", gradient.iter().flatten(), sums.gradient.iter().flatten());
 }
 
-fn obey<B: Basis, const D: usize>(periodic: bool) {
-    p2g_of_several_parts_is_that_of_each::<B, D>(periodic);
-    g2p_of_several_parts_is_that_of_each::<B, D>(periodic);
-    particles_are_independent::<B, D>(periodic);
-    levels_agree::<B, D>(periodic);
-    fast_loops_are_the_textbook_loops::<B, D>(periodic);
+fn obey<const D: usize>(periodic: bool) {
+    for &basis in BasisName::ALL {
+        let kernel = kernel::<D>(basis);
+        p2g_of_several_parts_is_that_of_each(kernel.as_ref(), periodic);
+        g2p_of_several_parts_is_that_of_each(kernel.as_ref(), periodic);
+        particles_are_independent(kernel.as_ref(), periodic);
+        levels_agree::<D>(basis, periodic);
+        fast_loops_are_the_textbook_loops(kernel.as_ref(), periodic);
+    }
 }
 
 #[rstest]
-fn the_loops_of_every_basis_obey_their_laws(#[values(false, true)] periodic: bool) {
-    for &name in BasisName::ALL {
-        with_basis!(name, B => {
-            obey::<B, 1>(periodic);
-            obey::<B, 2>(periodic);
-            obey::<B, 3>(periodic);
-        });
-    }
+fn the_loops_of_every_basis_obey_their_laws(
+    #[values(false, true)] periodic: bool,
+    #[values(1, 2, 3)] dimension: usize,
+) {
+    in_dimension!(dimension, obey(periodic));
 }

@@ -1,0 +1,3 @@
+//! Parts of the solver, by their public interfaces.
+
+mod kernel;
