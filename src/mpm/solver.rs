@@ -43,7 +43,7 @@ impl<const D: usize> Solver<D> {
         if effects.iter().any(|effect| effect.reads_deformation()) {
             particles.track_deformation();
         }
-        let min_j = initial::complete(particles, kernel.as_ref(), material.as_mut())?;
+        let min_j = initial::complete(particles, kernel.domain(), material.as_mut())?;
         for effect in effects {
             effect.start(material.as_mut(), particles);
         }

@@ -26,8 +26,12 @@ impl<const D: usize> Solver<D> {
     /// the map to the grid, where the particles are now. Walls do not matter: they hold nodes, and
     /// this part gives nothing to any.
     pub fn null_space_energy(&self) -> f64 {
-        let (kernel, particles) = (self.setup.kernel.as_ref(), &self.setup.particles);
-        0.5 * square(particles, &null_part(kernel, &self.setup.grid, particles))
+        0.5 * square(&self.setup.particles, &self.null_space_velocity())
+    }
+
+    /// That part of the velocities (m/s).
+    pub fn null_space_velocity(&self) -> Vec<Vector<D>> {
+        null_part(self.setup.kernel.as_ref(), &self.setup.grid, &self.setup.particles)
     }
 }
 
@@ -91,87 +95,4 @@ fn seen<const D: usize>(masses: &[f64], momentum: &[Vector<D>]) -> f64 {
 /// Twice the kinetic energy (J) of particles with these velocities.
 fn square<const D: usize>(particles: &Particles<D>, v: &[Vector<D>]) -> f64 {
     particles.mass.iter().zip(v).map(|(m, v)| m * v.norm_squared()).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mpm::kernel::kernel;
-    use crate::mpm::{BasisName, Block};
-    use approx::assert_relative_eq;
-    use rstest::rstest;
-
-    const CELLS: usize = 4;
-
-    /// A body that fills a periodic grid, with `per_axis` particles in a cell and velocities `v`.
-    fn body<const D: usize>(
-        basis: BasisName,
-        per_axis: usize,
-        v: impl Fn(usize, &Vector<D>) -> Vector<D>,
-    ) -> (Box<dyn Kernel<D>>, Grid<D>, Particles<D>) {
-        let kernel = kernel::<D>(basis);
-        let grid = kernel.grid(Vector::zeros(), 1.0, [CELLS; D], [true; D]);
-        let to = Vector::from_element(CELLS as f64);
-        let block = Block { from: Vector::zeros(), to, density: 2.0 };
-        let mut particles = Particles::fill(&block, 1.0, per_axis);
-        particles.track_domains();
-        // No symmetry: places differ from cell to cell.
-        for (p, x) in particles.x.iter_mut().enumerate() {
-            *x += Vector::from_element(if per_axis > 1 { 0.1 * libm::sin(p as f64) } else { 0.0 });
-            particles.v[p] = v(p, x);
-        }
-        (kernel, grid, particles)
-    }
-
-    fn share<const D: usize>(found: &[Vector<D>], particles: &Particles<D>) -> f64 {
-        square(particles, found) / square(particles, &particles.v)
-    }
-
-    /// One particle in the middle of each cell, and signs that alternate (Brackbill 1988).
-    #[test]
-    fn what_alternates_in_the_middle_of_cells_is_all_in_the_null_space() {
-        let sign = |p: usize, _: &Vector<1>| Vector::<1>::new([1.0, -1.0][p % 2]);
-        let (kernel, grid, particles) = body(BasisName::Linear, 1, sign);
-        let found = null_part(kernel.as_ref(), &grid, &particles);
-        assert_relative_eq!(share(&found, &particles), 1.0, max_relative = 1e-14);
-    }
-
-    fn of_any_velocity<const D: usize>() {
-        for &basis in BasisName::ALL {
-            let any = |p: usize, _: &Vector<D>| {
-                Vector::from_fn(|i, _| libm::sin(((p * D + i) * (p * D + i)) as f64))
-            };
-            let (kernel, grid, mut particles) = body(basis, 2, any);
-            let found = null_part(kernel.as_ref(), &grid, &particles);
-            let lost = share(&found, &particles);
-            assert!((0.1..0.95).contains(&lost), "{basis:?}: {lost}");
-            // It gives no node any momentum,
-            let mut nodal = vec![Vector::zeros(); grid.nodes()];
-            let shown = ParticleField { v: &found, affine: None };
-            kernel.p2g_momentum(&particles, shown, &grid, &mut nodal);
-            let masses = masses(kernel.as_ref(), &grid, &particles);
-            assert!(seen(&masses, &nodal) < 1e-24 * square(&particles, &particles.v), "{basis:?}");
-            // and the rest has no such part.
-            for (v, found) in particles.v.iter_mut().zip(&found) {
-                *v -= found;
-            }
-            let again = null_part(kernel.as_ref(), &grid, &particles);
-            assert!(share(&again, &particles) < 1e-18, "{basis:?}: {}", share(&again, &particles));
-        }
-    }
-
-    #[rstest]
-    #[case::line(of_any_velocity::<1>)]
-    #[case::plane(of_any_velocity::<2>)]
-    fn a_velocity_is_what_the_grid_can_show_and_a_part_in_the_null_space(#[case] of: fn()) {
-        of();
-    }
-
-    #[test]
-    fn what_is_no_number_stays_none() {
-        let any = |p: usize, _: &Vector<1>| Vector::<1>::new(if p == 3 { f64::NAN } else { 1.0 });
-        let (kernel, grid, particles) = body(BasisName::Linear, 2, any);
-        let found = null_part(kernel.as_ref(), &grid, &particles);
-        assert!(square(&particles, &found).is_nan());
-    }
 }

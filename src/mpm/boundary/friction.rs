@@ -109,8 +109,6 @@ impl<const D: usize> Boundary<D> for Friction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::BasisName;
-    use crate::mpm::kernel::kernel;
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -118,7 +116,7 @@ mod tests {
 
     /// One node of the wall after an advance from v with a, and both afterwards.
     fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
-        let grid = kernel::<2>(BasisName::Linear).grid(Vector::zeros(), 1.0, [1; 2], [false; 2]);
+        let grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         let mut wall = Friction::face(&grid, 1, side, 0.25);
         let node = wall.nodes[0].0;
         let (mut velocity, mut acceleration) = ([Vector::zeros(); 4], [Vector::zeros(); 4]);

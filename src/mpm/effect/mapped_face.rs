@@ -52,36 +52,8 @@ impl MappedFace {
 
 #[cfg(test)]
 mod tests {
-    use crate::mpm::kernel::kernel;
-    use crate::mpm::{BasisName, Effect, Placement, Quadrilateral, Side, Traction, Vector};
+    use crate::mpm::{Quadrilateral, Vector};
     use approx::assert_relative_eq;
-    use rstest::rstest;
-
-    /// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: whatever
-    /// the map starts with, force and moment about the origin are those of the side.
-    #[rstest]
-    fn a_side_carries_its_whole_load_where_it_is(
-        #[values(0, 1, 2, 3)] first: usize,
-        #[values(BasisName::Linear, BasisName::Cpdi, BasisName::QuadraticBSpline)] basis: BasisName,
-        #[values(Placement::Particles, Placement::Surface)] placement: Placement,
-    ) {
-        let corners = [[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]];
-        let corners = std::array::from_fn(|i| Vector::from(corners[(first + i) % 4]));
-        let panel = Quadrilateral::new(corners).unwrap();
-        let mut particles = panel.fill::<2>(1.0, 4.0, 2);
-        particles.track_domains();
-        let kernel = kernel::<2>(basis);
-        let mut grid = kernel.grid(Vector::from([-8.0, -8.0]), 4.0, [20, 24], [false; 2]);
-        let shear = Box::new(|_: &Vector<2>, _| Vector::from([0.0, 2.0]));
-        let mut pull = Traction::at(&particles, 0, Side::High, placement, shear);
-        pull.add_force(0.0, &particles, kernel.as_ref(), &mut grid);
-        let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
-        assert_relative_eq!(total, Vector::<2>::new(0.0, 32.0), epsilon = 1e-11);
-        let moment = |i: usize| grid.force[i][1] * basis.place(&grid, i)[0];
-        let moment: f64 = (0..grid.nodes()).map(moment).sum();
-        let depth = if placement == Placement::Surface { 0.0 } else { 0.5 * particles.spacing[0] };
-        assert_relative_eq!(moment, 32.0 * (48.0 - depth), max_relative = 1e-12);
-    }
 
     /// The sides of a panel that are upright or level, whatever the map calls them.
     #[test]

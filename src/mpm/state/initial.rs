@@ -4,25 +4,24 @@
 //! material, and domains from F by the basis, as they would have had the body been brought there.
 
 use crate::mpm::basis::Domain;
-use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::material::Material;
 use crate::mpm::particles::Particles;
 use crate::subject::{Failure, Site};
 
-/// Adds the columns that `kernel` and `material` read and completes the state; returns the
-/// smallest J.
+/// Adds the columns that a basis of such a `domain` and `material` read and completes the state;
+/// returns the smallest J.
 ///
 /// # Errors
 /// [`Failure::NotOfDeformation`] if a deformed body has a law without a stress of F,
 /// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
 pub(in crate::mpm) fn complete<const D: usize>(
     particles: &mut Particles<D>,
-    kernel: &dyn Kernel<D>,
+    domain: Domain,
     material: &mut dyn Material<D>,
 ) -> Result<f64, Failure> {
     particles.all_finite()?;
     let deformed = particles.is_deformed();
-    if kernel.domain() == Domain::Follows {
+    if domain == Domain::Follows {
         particles.track_domains();
     }
     if material.reads_deformation() {
@@ -50,8 +49,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::kernel::kernel;
-    use crate::mpm::{BasisName, Block, LinearElastic, Matrix, NeoHookean, Vector};
+    use crate::mpm::{Block, LinearElastic, Matrix, NeoHookean, Vector};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -66,12 +64,11 @@ mod tests {
 
     #[rstest]
     fn stress_volume_and_domains_are_those_of_the_deformed_body(
-        #[values(BasisName::Linear, BasisName::ContiguousGimp)] basis: BasisName,
+        #[values(Domain::Point, Domain::Follows)] domain: Domain,
     ) {
         let f = Matrix::<2>::new(1.1, 0.2, 0.0, 0.75);
         let mut body = deformed(f);
-        let kernel = kernel::<2>(basis);
-        let min_j = complete(&mut body, kernel.as_ref(), &mut NeoHookean::new(100.0, 0.3));
+        let min_j = complete(&mut body, domain, &mut NeoHookean::new(100.0, 0.3));
         assert_relative_eq!(min_j.expect("a sound start"), 0.825, max_relative = 1e-15);
         assert_relative_eq!(body.vol[3], 0.825 * 0.25, max_relative = 1e-15);
         assert_relative_eq!(body.x[3], f * body.x0[3], max_relative = 1e-15);
@@ -80,17 +77,16 @@ mod tests {
         let normal = (lambda * libm::log(0.825) + mu * (0.75 * 0.75 - 1.0)) / 0.825;
         assert_relative_eq!(body.sigma[3][(0, 1)], shear, max_relative = 1e-13);
         assert_relative_eq!(body.sigma[3][(1, 1)], normal, max_relative = 1e-13);
-        if basis == BasisName::ContiguousGimp {
+        if domain == Domain::Follows {
             assert_relative_eq!(body.domain[3].diagonal(), Vector::<2>::new(0.275, 0.1875));
         }
     }
 
     #[test]
     fn a_start_without_a_meaning_is_refused() {
-        let kernel = kernel::<2>(BasisName::Linear);
         let mut neo = NeoHookean::new(100.0, 0.3);
         let start = |f, material: &mut dyn Material<2>| {
-            complete(&mut deformed(f), kernel.as_ref(), material).map(|_| ())
+            complete(&mut deformed(f), Domain::Point, material).map(|_| ())
         };
         let inside_out = Matrix::<2>::new(1.0, 0.0, 0.0, -0.5);
         let site = Site::Particle(0);

@@ -1,3 +1,8 @@
 //! Parts of the solver, by their public interfaces.
 
+mod gimp;
+mod heat;
 mod kernel;
+mod null_space;
+mod tls;
+mod traction;

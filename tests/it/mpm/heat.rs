@@ -1,0 +1,85 @@
+//! Conduction of heat on the grid.
+
+use approx::assert_relative_eq;
+use mpm_verify::mpm::{
+    BasisName, Block, Effect, Grid, Heat, HeatSource, Kernel, Particles, Side, Thermal,
+    ThermalBoundary, Vector, kernel,
+};
+use mpm_verify::subject::Failure;
+use rstest::rstest;
+
+const H: f64 = 0.25;
+
+fn plate(basis: BasisName) -> (Box<dyn Kernel<2>>, Grid<2>, Particles<2>) {
+    let (from, to) = (Vector::zeros(), Vector::<2>::new(1.0, 0.5));
+    let kernel = kernel::<2>(basis);
+    let mut particles = Particles::fill(&Block { from, to, density: 3.0 }, H, 2);
+    particles.track_domains();
+    let mut grid = kernel.grid(from, H, [4, 2], [false; 2]);
+    kernel.p2g_mass(&particles, &mut grid);
+    (kernel, grid, particles)
+}
+
+/// `1 + 2 x - 3 y`, up to the walls: each node has the field's value at its position.
+#[rstest]
+fn a_linear_temperature_is_shown_as_it_is(
+    #[values(
+        BasisName::Linear,
+        BasisName::UniformGimp,
+        BasisName::ContiguousGimp,
+        BasisName::Cpdi,
+        BasisName::QuadraticBSpline,
+        BasisName::CubicBSpline
+    )]
+    basis: BasisName,
+) {
+    let (kernel, grid, mut particles) = plate(basis);
+    let slope = Vector::<2>::new(2.0, -3.0);
+    let field = |x: &Vector<2>| 1.0 + slope.dot(x);
+    let mut heat = Heat::new((1.0, 1.0), &mut particles, |x| (field(x), slope));
+    heat.integrate_state((0.0, 0.0), &mut particles, kernel.as_ref(), &grid).unwrap();
+    let (temperature, slopes) = heat.fields();
+    for (node, value) in temperature.iter().enumerate() {
+        let place = basis.place(&grid, node);
+        assert_relative_eq!(*value, field(&place), max_relative = 1e-12, epsilon = 1e-12);
+    }
+    for found in slopes {
+        assert_relative_eq!(*found, slope, max_relative = 1e-12);
+    }
+}
+
+/// The heat that the particles gain is what entered: 7 W/m through an edge of 0.5 m, and 5 W/kg
+/// in 1.5 kg.
+#[rstest]
+fn no_heat_is_lost(
+    #[values(BasisName::Linear, BasisName::Cpdi, BasisName::CubicBSpline)] basis: BasisName,
+) {
+    let (kernel, grid, mut particles) = plate(basis);
+    let start = |x: &Vector<2>| (libm::sin(9.0 * x[0]) * x[1], Vector::zeros());
+    let heat = Heat::new((0.1, 2.0), &mut particles, start);
+    let flux = Thermal::Inflow(Box::new(|_, _, _| 7.0));
+    let face = ThermalBoundary::new((&grid, basis), &particles, (0, Side::High), flux);
+    let source: HeatSource<2> = Box::new(|_, _, into| into.fill(5.0));
+    let mut heat = heat.with_faces(vec![face]).with_source(source);
+    let content = |particles: &Particles<2>| -> f64 {
+        let all = particles.mass.iter().zip(&particles.temperature);
+        all.map(|(m, value)| 2.0 * m * value).sum()
+    };
+    let before = content(&particles);
+    for step in 0..5 {
+        let now = (0.01 * f64::from(step), 0.01);
+        heat.integrate_state(now, &mut particles, kernel.as_ref(), &grid).unwrap();
+    }
+    let gained = content(&particles) - before;
+    assert_relative_eq!(gained, 0.05 * (7.0 * 0.5 + 5.0 * 1.5), max_relative = 1e-12);
+}
+
+#[test]
+fn a_temperature_that_is_no_number_is_named() {
+    let (kernel, grid, mut particles) = plate(BasisName::Linear);
+    let source: HeatSource<2> = Box::new(|_, _, into| into[3] = f64::INFINITY);
+    let start = |_: &Vector<2>| (0.0, Vector::zeros());
+    let mut heat = Heat::new((1.0, 1.0), &mut particles, start).with_source(source);
+    let found = heat.integrate_state((0.0, 0.1), &mut particles, kernel.as_ref(), &grid);
+    assert!(matches!(found, Err(Failure::NonFinite { quantity: "temperature", .. })));
+}

@@ -1,0 +1,83 @@
+//! Tractions on faces, by the forces of nodes.
+
+use approx::assert_relative_eq;
+use mpm_verify::mpm::{
+    BasisName, Block, Effect, Matrix, Particles, Placement, Quadrilateral, Side, Traction, Vector,
+    kernel,
+};
+use rstest::rstest;
+
+fn plate() -> Particles<2> {
+    let (from, to) = (Vector::<2>::new(0.0, 0.0), Vector::<2>::new(1.0, 2.0));
+    Particles::fill(&Block { from, to, density: 1.0 }, 0.25, 2)
+}
+
+#[test]
+fn the_whole_force_reaches_the_grid() {
+    let particles = plate();
+    let kernel = kernel::<2>(BasisName::Linear);
+    let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
+    let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
+    let mut pull = Traction::on(&particles, 0, Side::High, value);
+    assert_eq!(pull.add_force(2.0, &particles, kernel.as_ref(), &mut grid), 16 * 4);
+    let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
+    assert_relative_eq!(total, Vector::<2>::new(12.0, 1.0), max_relative = 1e-14);
+}
+
+/// A shear traction `Y` along the right face of a plate, which has been stretched to twice its
+/// length: force 2, moment about the origin `2 int Y dY = 4`, for the face is at x = 2.
+#[rstest]
+fn at_the_surface_the_moment_is_right_too(
+    #[values(
+        BasisName::Linear,
+        BasisName::ContiguousGimp,
+        BasisName::Cpdi,
+        BasisName::QuadraticBSpline
+    )]
+    basis: BasisName,
+    #[values(Placement::Particles, Placement::Surface)] placement: Placement,
+) {
+    let mut particles = plate();
+    let labels = particles.x0.clone();
+    let f = Matrix::<2>::new(2.0, 0.0, 0.0, 1.0);
+    let origin = Vector::<2>::new(0.1, 0.1);
+    particles.deform(|p| (origin + (f - Matrix::identity()) * labels[p], f));
+    particles.track_domains();
+    let kernel = kernel::<2>(basis);
+    let mut grid = kernel.grid(Vector::zeros(), 0.25, [12, 12], [false; 2]);
+    let shear = Box::new(|x: &Vector<2>, _| Vector::<2>::new(0.0, x[1]));
+    let mut pull = Traction::at(&particles, 0, Side::High, placement, shear);
+    pull.add_force(0.0, &particles, kernel.as_ref(), &mut grid);
+    let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
+    assert_relative_eq!(total, Vector::<2>::new(0.0, 2.0), epsilon = 1e-13);
+    let moment = |i: usize| grid.force[i][1] * (basis.place(&grid, i)[0] - origin[0]);
+    let moment: f64 = (0..grid.nodes()).map(moment).sum();
+    let arm = if placement == Placement::Surface { 2.0 } else { 2.0 - 2.0 * 0.0625 };
+    assert_relative_eq!(moment, 2.0 * arm, max_relative = 1e-13);
+}
+
+/// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: whatever
+/// the map starts with, force and moment about the origin are those of the side.
+#[rstest]
+fn a_side_carries_its_whole_load_where_it_is(
+    #[values(0, 1, 2, 3)] first: usize,
+    #[values(BasisName::Linear, BasisName::Cpdi, BasisName::QuadraticBSpline)] basis: BasisName,
+    #[values(Placement::Particles, Placement::Surface)] placement: Placement,
+) {
+    let corners = [[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]];
+    let corners = std::array::from_fn(|i| Vector::from(corners[(first + i) % 4]));
+    let panel = Quadrilateral::new(corners).unwrap();
+    let mut particles = panel.fill::<2>(1.0, 4.0, 2);
+    particles.track_domains();
+    let kernel = kernel::<2>(basis);
+    let mut grid = kernel.grid(Vector::from([-8.0, -8.0]), 4.0, [20, 24], [false; 2]);
+    let shear = Box::new(|_: &Vector<2>, _| Vector::from([0.0, 2.0]));
+    let mut pull = Traction::at(&particles, 0, Side::High, placement, shear);
+    pull.add_force(0.0, &particles, kernel.as_ref(), &mut grid);
+    let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
+    assert_relative_eq!(total, Vector::<2>::new(0.0, 32.0), epsilon = 1e-11);
+    let moment = |i: usize| grid.force[i][1] * basis.place(&grid, i)[0];
+    let moment: f64 = (0..grid.nodes()).map(moment).sum();
+    let depth = if placement == Placement::Surface { 0.0 } else { 0.5 * particles.spacing[0] };
+    assert_relative_eq!(moment, 32.0 * (48.0 - depth), max_relative = 1e-12);
+}
