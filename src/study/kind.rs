@@ -45,8 +45,20 @@ pub(crate) trait CaseRunner: Send + Sync {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
+/// Makes the store of checkpoints of each run.
+pub type CheckpointStores<'a> = &'a (dyn Fn() -> Box<dyn CheckpointStore + 'a> + Sync);
+
+/// Where results and checkpoints are kept.
+#[derive(Clone, Copy)]
+pub(crate) enum Storage<'a> {
+    Nowhere,
+    Cache(&'a ResultCache),
+    /// Checkpoints only.
+    Stores(CheckpointStores<'a>),
+}
+
 /// All that runs of a suite depend on besides its plan.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     /// Name of the suite.
     pub(crate) suite: &'a str,
@@ -54,8 +66,8 @@ pub(crate) struct RunContext<'a> {
     pub(crate) fingerprint: u64,
     /// Levels that run.
     pub(crate) extent: Extent,
-    /// Results of earlier runs.
-    pub(crate) cache: Option<&'a ResultCache>,
+    /// Results and checkpoints of earlier runs.
+    pub(crate) storage: Storage<'a>,
 }
 
 impl RunContext<'_> {
@@ -66,9 +78,10 @@ impl RunContext<'_> {
         name: &str,
         run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
     ) -> Result<T, String> {
-        match self.cache {
-            Some(cache) => cache.level(key, name, run),
-            None => run(&mut NoCheckpoints),
+        match self.storage {
+            Storage::Nowhere => run(&mut NoCheckpoints),
+            Storage::Cache(cache) => cache.level(key, name, run),
+            Storage::Stores(make) => run(make().as_mut()),
         }
     }
 }

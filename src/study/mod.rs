@@ -21,5 +21,5 @@ pub(crate) mod runner;
 pub(crate) mod stability;
 
 pub use cache::results::ResultCache;
-pub use kind::{Progress, profile, statement};
+pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use runner::Runner;

@@ -1,7 +1,7 @@
 //! Running a suite, of whatever kind of study.
 
 use super::cache::results::ResultCache;
-use super::kind::{CaseRunner, Progress, RunContext, statement, study};
+use super::kind::{CaseRunner, CheckpointStores, Progress, RunContext, Storage, statement, study};
 use crate::suite::model::Suite;
 use crate::suite::model::refine_plan::Extent;
 use crate::verify::{CaseOutcome, SuiteOutcome};
@@ -22,18 +22,24 @@ impl<'a> Runner<'a> {
 
     /// A runner of so many levels.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
-        Self::with(suite, extent, None)
+        Self::with(suite, extent, Storage::Nowhere)
     }
 
     /// Stores finished levels in a cache, and takes them from it.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
-        Self::with(self.suite, self.extent, cache)
+        Self::with(self.suite, self.extent, cache.map_or(Storage::Nowhere, Storage::Cache))
     }
 
-    fn with(suite: &'a Suite, extent: Extent, cache: Option<&'a ResultCache>) -> Self {
+    /// Keeps checkpoints of running levels in stores of the caller's, and no results.
+    #[must_use]
+    pub fn checkpointing(self, stores: CheckpointStores<'a>) -> Self {
+        Self::with(self.suite, self.extent, Storage::Stores(stores))
+    }
+
+    fn with(suite: &'a Suite, extent: Extent, storage: Storage<'a>) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
-        let context = RunContext { suite: name, fingerprint, extent, cache };
+        let context = RunContext { suite: name, fingerprint, extent, storage };
         Self { suite, extent, cases: study(suite).runner(context) }
     }
 

@@ -16,3 +16,4 @@ mod judge;
 mod motions;
 mod mpm;
 mod pitfalls;
+mod study;

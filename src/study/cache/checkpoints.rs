@@ -118,69 +118,6 @@ fn state(mut bytes: Vec<u8>, key: &str) -> Result<Vec<u8>, &'static str> {
     Ok(bytes.split_off(head.len()))
 }
 
-/// A run that is interrupted, for tests.
-#[cfg(test)]
-#[derive(Default)]
-pub(crate) struct Interruption {
-    /// The step whose state is stored, and the steps that there have been.
-    at: u64,
-    asked: u64,
-    state: Option<Vec<u8>>,
-    reported: Vec<Option<u64>>,
-}
-
-#[cfg(test)]
-impl CheckpointStore for Interruption {
-    fn left(&mut self) -> Option<Vec<u8>> {
-        self.state.clone()
-    }
-
-    fn taken(&mut self, steps: Option<u64>) {
-        self.reported.push(steps);
-    }
-
-    fn is_due(&mut self) -> bool {
-        self.asked += 1;
-        self.asked == self.at
-    }
-
-    fn keep(&mut self, state: &[u8]) {
-        self.state = Some(state.to_vec());
-    }
-}
-
-#[cfg(test)]
-impl Interruption {
-    /// Checks that a run of so many steps gives the same result whether it is interrupted or not.
-    /// Returns the result and the state that was left.
-    pub(crate) fn holds(
-        steps: u64,
-        run: impl Fn(&mut dyn CheckpointStore) -> String,
-        what: &str,
-    ) -> (String, Vec<u8>) {
-        let at = (steps / 3).max(1);
-        let mut first = Self { at, ..Self::default() };
-        let whole = run(&mut first);
-        assert_eq!(first.reported, [], "{what}: nothing was left");
-        let state = first.state.expect(what);
-        let mut second = Self { state: Some(state.clone()), ..Self::default() };
-        assert_eq!(run(&mut second), whole, "{what}");
-        assert_eq!(second.reported, [Some(at)], "{what}");
-        (whole, state)
-    }
-
-    /// A run for which no state of its own is left shows the same.
-    pub(crate) fn is_refused(
-        state: Vec<u8>,
-        run: impl Fn(&mut dyn CheckpointStore) -> String,
-        whole: &str,
-    ) {
-        let mut third = Self { state: Some(state), ..Self::default() };
-        assert_eq!(run(&mut third), whole);
-        assert_eq!(third.reported, [None], "no such state");
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -188,32 +188,3 @@ fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     }
     subject.set_state(&state);
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::study::cache::checkpoints::Interruption;
-    use crate::suite::{Suite, embedded};
-    use crate::verify::NoCheckpoints;
-    use rstest::rstest;
-
-    /// Runs that come to their end, and runs that fail by name; steps of two lengths.
-    #[rstest]
-    #[case("extreme-compression")]
-    #[case("varying-step")]
-    fn an_interrupted_run_shows_what_a_whole_one_does(#[case] name: &str) {
-        let suite = Suite::load(&embedded::source(name).unwrap().unwrap()).unwrap();
-        let plan: &StabilityPlan = suite.plan().unwrap();
-        let context =
-            RunContext { suite: name, fingerprint: 0, extent: Extent::Usual, cache: None };
-        let case_run = CaseRun { plan, case: &plan.cases[0], context };
-        for value in plan.values.first().into_iter().chain(plan.values.last()) {
-            let mut values = vec![(plan.swept.as_str(), *value)];
-            values.extend(plan.sought.iter().map(|(name, from, _)| (name.as_str(), *from)));
-            let run =
-                |keeper: &mut dyn CheckpointStore| case_run.run_keeping(&values, keeper).unwrap();
-            let steps = run(&mut NoCheckpoints).steps;
-            Interruption::holds(steps, |keeper| format!("{:?}", run(keeper)), &plan.swept);
-        }
-    }
-}

@@ -1,0 +1,3 @@
+//! Studies, run through their runner.
+
+mod interrupted;
