@@ -58,27 +58,46 @@ fn is_whole<B: Basis, const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
     B::DOMAIN == Domain::Point || (0..D).all(|axis| inside.contains(&grid.local(x, axis)))
 }
 
+/// Functions of one node at the particle.
+struct Node<const D: usize> {
+    node: usize,
+    weight: f64,
+    gradient: Vector<D>,
+    offset: Vector<D>,
+}
+
+/// What is visited of the only particle. All laws share one copy of this loop, which is long.
+#[inline(never)]
+fn visited<B: Basis, const D: usize>(grid: &Grid<D>, particles: &Particles<D>) -> Vec<Node<D>> {
+    let mut nodes = Vec::new();
+    B::visit(grid, particles, 0, |i| {
+        let (node, weight, gradient, offset) = (i.node, i.weight, *i.gradient, i.offset);
+        nodes.push(Node { node, weight, gradient, offset });
+    });
+    nodes
+}
+
 fn hold<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
     for x in points(&grid) {
         let particles = particle(&grid, x);
-        let (mut sum, mut slope, mut visits) = (0.0, Vector::<D>::zeros(), 0);
+        let (mut sum, mut slope) = (0.0, Vector::<D>::zeros());
         let mut mean = Vector::<D>::zeros();
         let (mut position, mut identity) = (Vector::<D>::zeros(), Matrix::<D>::zeros());
-        B::visit(&grid, &particles, 0, |i| {
+        let nodes = visited::<B, D>(&grid, &particles);
+        for i in &nodes {
             assert!(i.weight >= 0.0, "no negative weight");
             sum += i.weight;
             slope += i.gradient;
             mean += i.offset * i.weight;
-            visits += 1;
             let node = Vector::from_fn(|axis, _| {
                 let index = grid.index_on_axis(i.node, axis);
                 grid.origin[axis] + grid.h * B::abscissa(index, CELLS, periodic)
             });
             position += node * i.weight;
-            identity += dyad(&node, i.gradient);
-        });
-        assert!(visits <= B::support(D), "the work counter counts all that is visited");
+            identity += dyad(&node, &i.gradient);
+        }
+        assert!(nodes.len() as u64 <= B::support(D), "the work counter counts all that is visited");
         assert_abs_diff_eq!(sum, 1.0, epsilon = 1e-14);
         assert_abs_diff_eq!(slope.norm(), 0.0, epsilon = 1e-12);
         if B::ONE_PATCH {
@@ -102,21 +121,17 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
     let eps = 1e-6;
     let field = |x: Vector<D>, node: usize| {
-        let mut value = 0.0;
-        let particles = particle(&grid, x);
-        B::visit(&grid, &particles, 0, |i| value += if i.node == node { i.weight } else { 0.0 });
-        value
+        let nodes = visited::<B, D>(&grid, &particle(&grid, x));
+        nodes.iter().filter(|i| i.node == node).map(|i| i.weight).sum::<f64>()
     };
     for along in [0.4, 1.55, 2.1, 3.6] {
         let x = Vector::<D>::from_fn(|a, _| grid.origin[a] + grid.h * (along - 0.02 * a as f64));
-        let mut seen = Vec::new();
-        B::visit(&grid, &particle(&grid, x), 0, |i| seen.push((i.node, *i.gradient)));
-        for (i, grad) in seen {
+        for Node { node, gradient, .. } in visited::<B, D>(&grid, &particle(&grid, x)) {
             for axis in 0..D {
                 let mut step = Vector::zeros();
                 step[axis] = eps;
-                let difference = (field(x + step, i) - field(x - step, i)) / (2.0 * eps);
-                assert_abs_diff_eq!(difference, grad[axis], epsilon = 1e-6);
+                let difference = (field(x + step, node) - field(x - step, node)) / (2.0 * eps);
+                assert_abs_diff_eq!(difference, gradient[axis], epsilon = 1e-6);
             }
         }
     }
@@ -182,11 +197,10 @@ fn values_by_hand(#[case] name: &str, #[case] at: f64, #[case] expected: &[f64])
         let counts = [B::count(cells, name != BasisName::QuadraticBSpline || at > 0.0)];
         let periodic = [name != BasisName::QuadraticBSpline || at > 0.0];
         let grid = Grid::<1>::new(Vector::zeros(), 1.0, [cells], periodic, counts);
-        let mut weights = Vec::new();
-        B::visit(&grid, &particle(&grid, Vector::<1>::new(at)), 0, |i| weights.push(i.weight));
-        assert_eq!(weights.len(), expected.len());
-        for (weight, expected) in weights.iter().zip(expected) {
-            assert_abs_diff_eq!(*weight, *expected, epsilon = 1e-15);
+        let nodes = visited::<B, 1>(&grid, &particle(&grid, Vector::<1>::new(at)));
+        assert_eq!(nodes.len(), expected.len());
+        for (node, expected) in nodes.iter().zip(expected) {
+            assert_abs_diff_eq!(node.weight, *expected, epsilon = 1e-15);
         }
     });
 }
