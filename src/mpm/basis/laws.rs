@@ -66,7 +66,7 @@ struct Node<const D: usize> {
     offset: Vector<D>,
 }
 
-/// What is visited of the only particle. All laws share one copy of this loop, which is long.
+/// Nodes of the only particle. All laws share one copy of this loop, which is long.
 #[inline(never)]
 fn visited<B: Basis, const D: usize>(grid: &Grid<D>, particles: &Particles<D>) -> Vec<Node<D>> {
     let mut nodes = Vec::new();
