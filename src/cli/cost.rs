@@ -5,7 +5,7 @@ use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, select};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::report;
-use mpm_verify::study::cost::{Over, bid, price, variants};
+use mpm_verify::study::cost::{Over, best_candidate, price, variants};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
 use mpm_verify::verify::{BestCandidate, TimedSuite};
 use std::fs;
@@ -23,7 +23,7 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
     let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
     let found = match args.budget {
-        Some(budget) => bids(&suites, budget, args),
+        Some(budget) => best_candidates(&suites, budget, args),
         None => prices(&suites, args),
     };
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
@@ -33,14 +33,14 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
 }
 
 /// The most accurate setting of each suite within the budget.
-fn bids(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
+fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
     let mut found: Vec<(String, BestCandidate)> = Vec::new();
     let mut code = PASSED;
     for suite in suites {
-        match bid(suite, budget) {
+        match best_candidate(suite, budget) {
             Ok(one) => {
                 if !args.json {
-                    output::print(&format!("{}\n", report::bid(&suite.name, &one)));
+                    output::print(&format!("{}\n", report::best_candidate(&suite.name, &one)));
                 }
                 found.push((suite.name.clone(), one));
             }

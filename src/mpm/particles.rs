@@ -215,7 +215,7 @@ impl<const D: usize> Particles<D> {
         let all = [
             Column::of_particles("X", &self.x0),
             Column::of_particles("x", &self.x),
-            Column::of_particles("x moved", &self.current_position),
+            Column::of_particles("current x", &self.current_position),
             Column::of_particles("v", &self.v),
             Column::of_particles("mass", &self.mass),
             Column::of_particles("V0", &self.vol0),

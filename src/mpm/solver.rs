@@ -85,7 +85,7 @@ impl<const D: usize> Solver<D> {
 
     /// The effects, and all columns for particles and nodes.
     pub fn profile(&self) -> Profile {
-        let advected = Column::of_particles("carried", &self.advected);
+        let advected = Column::of_particles("advected x", &self.advected);
         self.setup.profile([self.cell_tracker.columns(), advected])
     }
 

@@ -24,4 +24,4 @@ pub use text::cost::cost;
 pub use text::drift;
 pub use text::profile::{difference, profile};
 pub use text::report::{case, summary, text};
-pub use text::timed_suite::{bid, timed};
+pub use text::timed_suite::{best_candidate, timed};

@@ -48,7 +48,7 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Warnings before anything runs, about steps longer than the longest predicted to be safe.
+    /// Warnings before anything runs, about steps longer than the predicted stable time step.
     pub fn warnings(&self) -> Vec<String> {
         let named = |warning| format!("{}::{warning}", self.suite.name);
         self.cases.warnings().into_iter().map(named).collect()

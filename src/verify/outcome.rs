@@ -185,7 +185,7 @@ impl CaseOutcome {
 }
 
 impl LevelOutcome {
-    /// Whether its step is longer than any that is known to be safe.
+    /// Whether its step is longer than the stable time step, where that is known.
     pub fn is_too_long(&self) -> bool {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }

@@ -176,6 +176,21 @@ fn old_words_stay_away() {
 }
 
 #[test]
+fn old_words_of_reports_stay_away() {
+    let mut texts = source::texts("src", ".rs");
+    texts.extend(source::texts("tests/it", ".rs"));
+    texts.extend([".snap", ".yaml"].iter().flat_map(|end| source::texts("verification", end)));
+    let documents = source::texts("", ".md").into_iter();
+    // The list of changes says what they were.
+    texts.extend(documents.filter(|(file, _)| file != "CHANGELOG.md"));
+    hold(
+        "reports, suites and documents have the words of the field (tests/architecture/words.rs)",
+        "a colleague reads them without a glossary",
+        &words::old_phrases(&texts),
+    );
+}
+
+#[test]
 fn no_two_types_have_one_name() {
     hold(
         "no two files of src/ define a type of the same name",

@@ -27,6 +27,15 @@ fn an_old_word_is_found(#[case] code: &str, #[case] expected: &[&str]) {
 }
 
 #[rstest]
+#[case::a_column("let column = (\"carried\", 8);", 1)]
+#[case::a_key("\n| `unrest` |\n", 1)]
+#[case::in_prose("a stress carried through cells, a safely chosen step", 0)]
+#[case::a_longer_word("an unsafe_step of unrestricted size", 0)]
+fn an_old_word_of_reports_is_found(#[case] text: &str, #[case] count: usize) {
+    assert_eq!(words::old_phrases(&owned(&[("docs/a.md", text)])).len(), count);
+}
+
+#[rstest]
 fn an_old_name_of_a_file_is_found() {
     let files = ["src/mpm/spots.rs", "src/pricing/mod.rs", "src/mpm/spotsy.rs"].map(str::to_owned);
     assert_eq!(places(&words::old_files(&files)), ["src/mpm/spots.rs:1", "src/pricing/mod.rs:1"]);

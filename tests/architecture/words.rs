@@ -63,6 +63,13 @@ pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("g2p_velocity", "g2p"),
     ("safe_step", "stable_time_step"),
     ("unrest", "residual_speed"),
+    ("bid", "best_candidate"),
+    ("bids", "best_candidates"),
+    ("spot", "point"),
+    ("spots", "points, quadrature_points"),
+    ("meeting", "interface"),
+    ("carried", "advected"),
+    ("touches", "states"),
     ("census", "counters"),
     ("yardstick", "error_scale"),
     ("yardsticks", "error_scales"),
@@ -74,6 +81,34 @@ pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("pricing", "cost"),
     ("FOUR", "LANES"),
     ("Four", "F64x4"),
+];
+
+/// Words that reports and documents had, in any text; those in quotes are heads, keys and columns.
+pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
+    ("\"carried\"", "advected x"),
+    ("\"x moved\"", "current x"),
+    ("\"meeting\"", "interface node"),
+    ("\"spots\"", "quadrature point"),
+    ("\"touch\"", "contact state"),
+    ("\"driven\"", "prescribed"),
+    ("\"seen\"", "mapped v"),
+    ("\"bid\"", "best_candidate"),
+    ("\"front\":", "pareto_front"),
+    ("unrest", "residual_speed"),
+    ("safe_step", "stable_time_step"),
+    ("dt/safe", "dt/stable"),
+    ("safe step", "stable time step"),
+    ("safe steps", "stable time steps"),
+    ("longest safe", "stable"),
+    ("a particle  ", "particle memory"),
+    ("a node  ", "node memory"),
+    ("in full also", "--full adds"),
+    ("g2p slope", "g2p scalar gradient"),
+    ("p2g flow", "p2g scalar flux"),
+    ("p2g amount", "p2g scalar source"),
+    ("leaves at", "critical eigenvalue"),
+    ("speed at rest over", "residual speed over"),
+    ("never beyond them", "interpolated, never extrapolated"),
 ];
 
 /// Names that files and folders had, each with the one in its place.
@@ -134,6 +169,27 @@ pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
         found.collect()
     };
     sources.iter().flat_map(of_source).collect()
+}
+
+/// Texts with an old word of reports, as a whole word.
+pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
+    let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    let has = |line: &str, phrase: &str| {
+        line.match_indices(phrase).any(|(at, _)| {
+            let (before, after) = (&line[..at], &line[at + phrase.len()..]);
+            !is_word(before.chars().next_back()) && !is_word(after.chars().next())
+        })
+    };
+    let of_text = |(file, text): &Text| -> Vec<Breach> {
+        let lines = text.lines().enumerate();
+        let of_line = |(at, line): (usize, &str)| {
+            let (phrase, better) = OLD_PHRASES.iter().find(|(phrase, _)| has(line, phrase))?;
+            let what = format!("has the old words `{}`: say `{better}`", phrase.trim_end());
+            Some(Breach { file: file.clone(), line: at + 1, what })
+        };
+        lines.filter_map(of_line).collect()
+    };
+    texts.iter().flat_map(of_text).collect()
 }
 
 /// Files and folders with an old name.

@@ -123,12 +123,15 @@ impl Scene {
         }
     }
 
-    /// The longest safe step of whatever state is a number in the range asked for, or a failure.
+    /// The stable time step of whatever state is a number in the range asked for, or a failure.
     fn predicts<const D: usize>(&self, what: &str, particles: Particles<D>) {
         const LONGEST: f64 = 0.1;
         let Ok(solver) = self.solver(particles) else { return };
-        if let Ok(safe) = solver.stable_time_step(LONGEST, 3) {
-            assert!((0.0..=LONGEST).contains(&safe), "{what}: safe step {safe} of {self:?}");
+        if let Ok(stable) = solver.stable_time_step(LONGEST, 3) {
+            assert!(
+                (0.0..=LONGEST).contains(&stable),
+                "{what}: stable time step {stable} of {self:?}"
+            );
         }
     }
 

@@ -172,7 +172,7 @@ fn bodies_hold_their_memory<const D: usize>(scheme: SchemeName) {
         };
         let mut bodies = Bodies::new((0..3).map(body).collect(), friction).unwrap();
         holds_its_memory(&format!("{D}-D {scheme:?} {friction:?}"), &mut bodies, DT);
-        assert!(bodies.meeting() > 0, "the bodies do not meet");
+        assert!(bodies.interface_nodes() > 0, "the bodies do not meet");
     }
 }
 

@@ -141,7 +141,7 @@ fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
         ("sigma", 32),
         ("grad v", 32),
         ("cell", 16),
-        ("carried", 16),
+        ("advected x", 16),
     ];
     assert_eq!(named(Holder::Particle), of_particles);
     let of_nodes = [("mass", 8), ("velocity", 16), ("force", 16), ("acceleration", 16)];
@@ -154,8 +154,14 @@ fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
         "G2P(stress, position)",
     ];
     assert_eq!(empty.passes, passes);
-    let visits =
-        ["p2g mass", "p2g momentum", "p2g internal force", "g2p", "g2p gradient", "g2p position"];
+    let visits = [
+        "p2g mass",
+        "p2g momentum",
+        "p2g internal force",
+        "g2p velocity",
+        "g2p gradient",
+        "g2p position",
+    ];
     assert_eq!(empty.visits, visits.map(|name| (name, 36)));
 }
 

@@ -70,15 +70,15 @@ impl SpaceTimePatch {
         let d = self.centre.len() - 1;
         let per_axis = [0, 64, 20, 10][d];
         let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
-        let spot = |k: usize| {
-            let points = axes.iter().scan(k, |k, axis| {
+        let point = |k: usize| {
+            let of_axes = axes.iter().scan(k, |k, axis| {
                 let point = axis[*k % per_axis];
                 *k /= per_axis;
                 Some(point)
             });
-            points.collect()
+            of_axes.collect()
         };
-        ((0..per_axis.pow(d as u32)).map(spot).collect(), self.axis(d, per_axis))
+        ((0..per_axis.pow(d as u32)).map(point).collect(), self.axis(d, per_axis))
     }
 
     /// Equally spaced points on the axis `a`, time being the last one.
@@ -180,18 +180,18 @@ fn balance(problem: &Problem, patch: &SpaceTimePatch) -> Result<(), Violation> {
 /// The balance of every component, by the midpoint rule on a raster of the patch.
 fn sums(problem: &Problem, patch: &SpaceTimePatch) -> [Sums; 3] {
     let d = problem.dimension();
-    let (spots, times) = patch.raster();
-    let labels: Vec<Vec<f64>> = spots.iter().map(|s| s.iter().map(|p| p.at).collect()).collect();
+    let (points, times) = patch.raster();
+    let labels: Vec<Vec<f64>> = points.iter().map(|x| x.iter().map(|p| p.at).collect()).collect();
     let mut places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
     let (mut all, mut now) = ([Sums::default(); 3], Derivatives::default());
     for time in &times {
         places.set_time(time.at);
         let loaded = problem.loaded(time.at);
-        for (place, spot) in spots.iter().enumerate() {
+        for (place, point) in points.iter().enumerate() {
             places.derivatives(place, &mut now);
-            let mut points = [*time; 4];
-            points[..d].copy_from_slice(spot);
-            let (phi, slope) = bump(&points[..=d]);
+            let mut event = [*time; 4];
+            event[..d].copy_from_slice(point);
+            let (phi, slope) = bump(&event[..=d]);
             let piola = problem.piola(&labels[place], time.at, &now);
             let force = problem.force(&labels[place], loaded, &now);
             for (i, sums) in all[..d].iter_mut().enumerate() {

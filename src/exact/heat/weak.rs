@@ -29,13 +29,13 @@ fn on_patch(problem: &Conduction, patch: &SpaceTimePatch) -> Result<(), Violatio
 /// The balance by the midpoint rule on a raster of the patch.
 fn sums(problem: &Conduction, patch: &SpaceTimePatch) -> Sums {
     let d = problem.dimension();
-    let (spots, times) = patch.raster();
+    let (points, times) = patch.raster();
     let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
     let mut all = Sums::default();
-    for (time, spot) in times.iter().flat_map(|time| spots.iter().map(move |spot| (time, spot))) {
-        let label: Vec<f64> = spot.iter().map(|point| point.at).collect();
+    for (time, point) in times.iter().flat_map(|t| points.iter().map(move |point| (t, point))) {
+        let label: Vec<f64> = point.iter().map(|on_axis| on_axis.at).collect();
         let (motion, now) = problem.now(&label, time.at);
-        let (phi, slope) = bump(&[&spot[..], &[*time]].concat());
+        let (phi, slope) = bump(&[&point[..], &[*time]].concat());
         // A constant temperature stores nothing: without it the terms are those that matter.
         let stored = problem.density * problem.capacity * (now.value - middle) * slope[d];
         let inflow = problem.inflow(&motion, &now);

@@ -60,14 +60,14 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
     value[0] = 1.0;
     for degree in 1..=p {
         lower = value;
-        let mut carried = 0.0;
+        let mut saved = 0.0;
         for r in 0..degree {
             let (left, right) = (around[p + r - degree], around[p + r]);
             let share = lower[r] / (right - left);
-            value[r] = carried + (right - s) * share;
-            carried = (s - left) * share;
+            value[r] = saved + (right - s) * share;
+            saved = (s - left) * share;
         }
-        value[degree] = carried;
+        value[degree] = saved;
     }
     // N' = p N_(i,p-1)/(t_(i+p) - t_i) - p N_(i+1,p-1)/(t_(i+p+1) - t_(i+1))
     let term = array::<K, _>(0.0, |r| match r {

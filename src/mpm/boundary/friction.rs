@@ -42,8 +42,8 @@ impl Friction {
     }
 
     fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
-        for &(i, touch) in &self.nodes {
-            match touch {
+        for &(i, state) in &self.nodes {
+            match state {
                 ContactState::Separated => {}
                 ContactState::Slip => field[i][self.axis] = 0.0,
                 ContactState::Stick => field[i] = Vector::zeros(),
@@ -54,11 +54,11 @@ impl Friction {
 
 impl<const D: usize> Boundary<D> for Friction {
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_nodes("touch", &self.nodes)]
+        vec![Column::of_nodes("contact state", &self.nodes)]
     }
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.nodes.iter_mut().for_each(|(_, touch)| checkpoint.visit(touch));
+        self.nodes.iter_mut().for_each(|(_, state)| checkpoint.visit(state));
     }
 
     fn reads_velocity(&self) -> bool {
@@ -80,22 +80,22 @@ impl<const D: usize> Boundary<D> for Friction {
         advance: &Advance,
     ) {
         let (axis, dt) = (self.axis, advance.dt);
-        for (i, touch) in &mut self.nodes {
+        for (i, state) in &mut self.nodes {
             let (v, a) = (&mut velocity[*i], &mut acceleration[*i]);
             let mut along = *v + *a * dt;
             let pressed = -self.inwards * along[axis];
             if !(pressed > 0.0) {
-                *touch = ContactState::Separated;
+                *state = ContactState::Separated;
                 continue;
             }
             along[axis] = 0.0;
             (v[axis], a[axis]) = (0.0, 0.0);
             let (speed, most) = (along.norm(), self.coefficient * pressed);
             if speed <= most {
-                *touch = ContactState::Stick;
+                *state = ContactState::Stick;
                 (*v, *a) = (Vector::zeros(), Vector::zeros());
             } else {
-                *touch = ContactState::Slip;
+                *state = ContactState::Slip;
                 *a -= along * (most / (speed * dt));
             }
         }

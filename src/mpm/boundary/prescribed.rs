@@ -48,7 +48,7 @@ pub(in crate::mpm) fn continued<const D: usize>(
 
 impl<const D: usize> Boundary<D> for Prescribed<D> {
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_nodes("driven", &self.nodes)]
+        vec![Column::of_nodes("prescribed", &self.nodes)]
     }
 
     fn hold_velocity(&self, velocity: &mut [Vector<D>], t: f64) {

@@ -30,7 +30,7 @@ impl<const D: usize> Effect<D> for PrescribedVelocity<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_particles("driven", &self.members)]
+        vec![Column::of_particles("prescribed", &self.members)]
     }
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {

@@ -35,7 +35,7 @@ impl<const D: usize> Effect<D> for SetForce<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_particles("share", &self.shares)]
+        vec![Column::of_particles("force share", &self.shares)]
     }
 
     fn add_force(

@@ -63,7 +63,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
         match &self.law {
             ExpansionLaw::OfDeformation { elastic } => vec![Column::of_particles("Fe", elastic)],
             ExpansionLaw::InRateForm { before, .. } => {
-                vec![Column::of_particles("T before", before)]
+                vec![Column::of_particles("previous T", before)]
             }
         }
     }

@@ -74,7 +74,7 @@ impl<const D: usize> ThermalBoundary<D> {
         [
             Column::of_particles("face layer", &self.layer),
             Column::of_nodes("face nodes", &self.nodes),
-            Column::of_nodes("face share", &self.share),
+            Column::of_nodes("face area", &self.share),
         ]
     }
 

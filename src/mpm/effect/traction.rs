@@ -53,7 +53,7 @@ impl<const D: usize> Effect<D> for Traction<D> {
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_particles("layer", &self.surface.layer)]
+        vec![Column::of_particles("surface layer", &self.surface.layer)]
     }
 
     fn reads_deformation(&self) -> bool {

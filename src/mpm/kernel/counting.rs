@@ -19,21 +19,21 @@ const NAMES: [&str; 18] = [
     "p2g mass",
     "p2g momentum",
     "p2g internal force",
-    "p2g affine force",
+    "p2g force by fit",
     "p2g point force",
     "p2g point moment",
-    "g2p",
+    "g2p velocity",
     "g2p gradient",
     "g2p moment",
-    "moments",
+    "weight moments",
     "mass matrix",
     "g2p position",
     "p2g mass gradient",
     "p2g scalar",
-    "p2g flow",
-    "p2g amount",
+    "p2g scalar flux",
+    "p2g scalar source",
     "g2p scalar",
-    "g2p slope",
+    "g2p scalar gradient",
 ];
 
 impl Tally {
@@ -110,7 +110,7 @@ impl<const D: usize> Kernel<D> for Counted<D> {
         keep_and_factor: (f64, f64),
         value: &mut [Vector<D>],
     ) {
-        self.tally.add("g2p", particles.len());
+        self.tally.add("g2p velocity", particles.len());
         self.kernel.g2p(grid, field, particles, keep_and_factor, value);
     }
 
@@ -137,7 +137,7 @@ impl<const D: usize> Kernel<D> for Counted<D> {
     }
 
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
-        self.tally.add("moments", particles.len());
+        self.tally.add("weight moments", particles.len());
         self.kernel.moments(grid, particles, moments);
     }
 

@@ -25,7 +25,7 @@ impl<const D: usize> Scalars<D> for Counted<D> {
         grid: &Grid<D>,
         column: &mut [f64],
     ) {
-        self.tally.add("p2g flow", particles.len());
+        self.tally.add("p2g scalar flux", particles.len());
         self.kernel.p2g_flow(particles, slope_and_factor, grid, column);
     }
 
@@ -37,7 +37,7 @@ impl<const D: usize> Scalars<D> for Counted<D> {
         grid: &Grid<D>,
         column: &mut [f64],
     ) {
-        self.tally.add("p2g amount", 1);
+        self.tally.add("p2g scalar source", 1);
         self.kernel.p2g_amount(particles, p, amount, grid, column);
     }
 
@@ -60,7 +60,7 @@ impl<const D: usize> Scalars<D> for Counted<D> {
         particles: &Particles<D>,
         slope: &mut [Vector<D>],
     ) {
-        self.tally.add("g2p slope", particles.len());
+        self.tally.add("g2p scalar gradient", particles.len());
         self.kernel.g2p_slope(grid, field, particles, slope);
     }
 }

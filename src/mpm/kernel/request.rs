@@ -74,8 +74,8 @@ impl<const D: usize> P2gRequest<'_, D> {
             ("p2g mass", self.mass),
             ("p2g momentum", self.momentum.is_some()),
             ("p2g internal force", self.force == Some(Divergence::Gradient)),
-            ("p2g affine force", self.force == Some(Divergence::Fit)),
-            ("moments", has_moments),
+            ("p2g force by fit", self.force == Some(Divergence::Fit)),
+            ("weight moments", has_moments),
         ])
     }
 }
@@ -105,8 +105,8 @@ impl<const D: usize> G2pRequest<'_, D> {
     /// Names of the parts, as reports list them.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         named_parts([
-            ("g2p", self.change.is_some()),
-            ("g2p", self.mix.is_some()),
+            ("g2p velocity", self.change.is_some()),
+            ("g2p velocity", self.mix.is_some()),
             ("g2p moment", self.moment.is_some()),
             ("g2p gradient", self.gradient.is_some()),
             ("g2p position", self.advected.is_some()),

@@ -37,7 +37,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     /// Every two bodies.
     pairs: Vec<[usize; 2]>,
     /// For each node and every two bodies: the contact state after the last impulse.
-    touches: Vec<ContactState>,
+    states: Vec<ContactState>,
     /// For each body: velocities as they were mapped (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
 }
@@ -52,7 +52,7 @@ impl<const D: usize> Contact<D> {
         let nodes = bodies.first().map_or(0, |body| body.grid().nodes());
         Self {
             friction,
-            touches: vec![ContactState::Separated; nodes * pairs.len()],
+            states: vec![ContactState::Separated; nodes * pairs.len()],
             pairs,
             interface: InterfaceNodes::of(bodies),
             outwards: bodies.iter().map(column).collect(),
@@ -71,15 +71,15 @@ impl<const D: usize> Contact<D> {
 
     /// Impulses against approach after `dt` (s), as accelerations of nodes.
     fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
-        self.touches.fill(ContactState::Separated);
+        self.states.fill(ContactState::Separated);
         for k in 0..self.interface.nodes().len() {
             let i = self.interface.nodes()[k];
             for pair in 0..self.pairs.len() {
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
                 let [a, b] = self.pairs[pair].map(|k| &bodies[k].setup.grid);
                 let advanced = |grid: &Grid<D>| grid.velocity[i] + grid.acceleration[i] * dt;
-                let (touch, change) = self.law(&(advanced(a) - advanced(b)), &meet.normal);
-                self.touches[i * self.pairs.len() + pair] = touch;
+                let (state, change) = self.law(&(advanced(a) - advanced(b)), &meet.normal);
+                self.states[i * self.pairs.len() + pair] = state;
                 let impulse = change * meet.mass;
                 for (k, impulse) in self.pairs[pair].into_iter().zip([impulse, -impulse]) {
                     let grid = &mut bodies[k].setup.grid;
@@ -108,10 +108,10 @@ impl<const D: usize> Contact<D> {
     fn hold(&self, bodies: &mut [Solver<D>]) {
         for &i in self.interface.nodes() {
             for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
-                let touch = self.touches[i * self.pairs.len() + pair];
+                let state = self.states[i * self.pairs.len() + pair];
                 let Some(meet) = self.meet_at(bodies, i, pair) else { continue };
                 let relative = bodies[a].setup.grid.velocity[i] - bodies[b].setup.grid.velocity[i];
-                let change = match touch {
+                let change = match state {
                     ContactState::Separated => continue,
                     ContactState::Slip => meet.normal * -relative.dot(&meet.normal),
                     ContactState::Stick => -relative,
@@ -158,8 +158,8 @@ impl<const D: usize> Coupling<D> for Contact<D> {
             Column { entries, ..Column::of_nodes::<Vector<D>>(name, &[]) }
         };
         vec![
-            Column::of_nodes("meeting", self.interface.nodes()),
-            Column::of_nodes("touch", &self.touches),
+            Column::of_nodes("interface node", self.interface.nodes()),
+            Column::of_nodes("contact state", &self.states),
             all("normal", &self.outwards),
             all("mapped velocity", &self.mapped),
         ]
@@ -167,7 +167,7 @@ impl<const D: usize> Coupling<D> for Contact<D> {
 
     /// The contact states of the last impulses, which velocities that strain follow.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.touches[..]);
+        checkpoint.visit(&mut self.states[..]);
     }
 
     fn reads_velocity(&self) -> bool {

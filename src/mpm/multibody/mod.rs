@@ -68,7 +68,7 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Number of nodes at which bodies have met in this step.
-    pub fn meeting(&self) -> usize {
+    pub fn interface_nodes(&self) -> usize {
         self.coupling.as_ref().map_or(0, |coupling| coupling.nodes().len())
     }
 

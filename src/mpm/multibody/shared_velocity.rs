@@ -44,7 +44,7 @@ impl<const D: usize> Coupling<D> for SharedVelocity {
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_nodes("meeting", self.0.nodes())]
+        vec![Column::of_nodes("interface node", self.0.nodes())]
     }
 
     fn reads_velocity(&self) -> bool {

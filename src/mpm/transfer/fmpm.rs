@@ -18,8 +18,8 @@ use crate::subject::Column;
 #[derive(Debug, Clone)]
 pub struct Fmpm<const D: usize> {
     order: u32,
-    seen: Vec<Vector<D>>,
-    rest: Vec<Vector<D>>,
+    mapped_back: Vec<Vector<D>>,
+    remainder: Vec<Vector<D>>,
     nodal: Vec<Vector<D>>,
 }
 
@@ -29,7 +29,7 @@ impl<const D: usize> Fmpm<D> {
 
     /// FMPM(k) with k = `order`.
     pub fn new(order: u32) -> Self {
-        Self { order, seen: Vec::new(), rest: Vec::new(), nodal: Vec::new() }
+        Self { order, mapped_back: Vec::new(), remainder: Vec::new(), nodal: Vec::new() }
     }
 }
 
@@ -39,16 +39,16 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
-        self.seen.resize(particles.len(), Vector::zeros());
-        self.rest.resize(grid.nodes(), Vector::zeros());
+        self.mapped_back.resize(particles.len(), Vector::zeros());
+        self.remainder.resize(grid.nodes(), Vector::zeros());
         self.nodal.resize(grid.nodes(), Vector::zeros());
     }
 
     fn columns(&self) -> Vec<Column> {
         vec![
-            Column::of_particles("seen", &self.seen),
-            Column::of_nodes("rest", &self.rest),
-            Column::of_nodes("work", &self.nodal),
+            Column::of_particles("mapped v", &self.mapped_back),
+            Column::of_nodes("remainder", &self.remainder),
+            Column::of_nodes("scratch", &self.nodal),
         ]
     }
 
@@ -60,20 +60,20 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         boundary: &[Box<dyn Boundary<D>>],
         field: &mut [Vector<D>],
     ) -> u64 {
-        self.rest.copy_from_slice(field);
+        self.remainder.copy_from_slice(field);
         for _ in 1..self.order {
-            kernel.g2p(grid, &self.rest, particles, (0.0, 1.0), &mut self.seen);
-            let field_of_particles = ParticleField { v: &self.seen, affine: None };
+            kernel.g2p(grid, &self.remainder, particles, (0.0, 1.0), &mut self.mapped_back);
+            let field_of_particles = ParticleField { v: &self.mapped_back, affine: None };
             kernel.p2g_momentum(particles, field_of_particles, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
-            for (rest, mapped) in self.rest.iter_mut().zip(&self.nodal) {
-                *rest -= mapped;
+            for (remainder, mapped) in self.remainder.iter_mut().zip(&self.nodal) {
+                *remainder -= mapped;
             }
             for condition in boundary {
-                condition.clear(&mut self.rest);
+                condition.clear(&mut self.remainder);
             }
-            for (value, rest) in field.iter_mut().zip(&self.rest) {
-                *value += rest;
+            for (value, remainder) in field.iter_mut().zip(&self.remainder) {
+                *value += remainder;
             }
         }
         2 * u64::from(self.order - 1)

@@ -18,7 +18,7 @@ use crate::subject::Column;
 #[derive(Debug, Clone)]
 pub struct Xpic<const D: usize> {
     order: u32,
-    rest: Vec<Vector<D>>,
+    remainder: Vec<Vector<D>>,
     nodal: Vec<Vector<D>>,
 }
 
@@ -28,7 +28,7 @@ impl<const D: usize> Xpic<D> {
 
     /// XPIC(m) with m = `order`.
     pub fn new(order: u32) -> Self {
-        Self { order, rest: Vec::new(), nodal: Vec::new() }
+        Self { order, remainder: Vec::new(), nodal: Vec::new() }
     }
 }
 
@@ -38,12 +38,15 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
-        self.rest.resize(particles.len(), Vector::zeros());
+        self.remainder.resize(particles.len(), Vector::zeros());
         self.nodal.resize(grid.nodes(), Vector::zeros());
     }
 
     fn columns(&self) -> Vec<Column> {
-        vec![Column::of_particles("rest", &self.rest), Column::of_nodes("work", &self.nodal)]
+        vec![
+            Column::of_particles("remainder", &self.remainder),
+            Column::of_nodes("scratch", &self.nodal),
+        ]
     }
 
     fn filter(
@@ -52,15 +55,15 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
         grid: &Grid<D>,
         particles: &mut Particles<D>,
     ) -> u64 {
-        self.rest.copy_from_slice(&particles.v);
+        self.remainder.copy_from_slice(&particles.v);
         for _ in 0..self.order {
-            let field = ParticleField { v: &self.rest, affine: None };
+            let field = ParticleField { v: &self.remainder, affine: None };
             kernel.p2g_momentum(particles, field, grid, &mut self.nodal);
             grid.divide_by_mass(&mut self.nodal);
-            kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.rest);
+            kernel.g2p(grid, &self.nodal, particles, (1.0, -1.0), &mut self.remainder);
         }
-        for (v, rest) in particles.v.iter_mut().zip(&self.rest) {
-            *v -= rest;
+        for (v, remainder) in particles.v.iter_mut().zip(&self.remainder) {
+            *v -= remainder;
         }
         2 * u64::from(self.order)
     }

@@ -27,11 +27,16 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
         MethodColumn::new("not reached", "not_reached", "why the finest target is not", |row| {
             Cell::plain(row.obstacle().map(End::words))
         }),
-        MethodColumn::new("front", "front", "levels that no other one beats", |row| {
-            let (count, all) = (row.front.len(), row.method.samples.len());
-            let text = (count > 0).then(|| format!("{count} of {all}"));
-            Cell { json: row.front.clone().into(), ..Cell::text(text) }
-        }),
+        MethodColumn::new(
+            "Pareto front",
+            "pareto_front",
+            "levels that no other one beats",
+            |row| {
+                let (count, all) = (row.front.len(), row.method.samples.len());
+                let text = (count > 0).then(|| format!("{count} of {all}"));
+                Cell { json: row.front.clone().into(), ..Cell::text(text) }
+            },
+        ),
     ]);
     columns
 }
@@ -145,10 +150,10 @@ pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
         })
     };
     [
-        column(0, ("a transfer", "transfer")),
-        column(1, ("a particle", "particle")),
-        column(2, ("a node", "node")),
-        column(3, ("a step", "step")),
+        column(0, ("per transfer", "transfer")),
+        column(1, ("per particle", "particle")),
+        column(2, ("per node", "node")),
+        column(3, ("per step", "step")),
     ]
 }
 

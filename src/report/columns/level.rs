@@ -149,18 +149,18 @@ fn counters<'a>() -> Vec<LevelColumn<'a>> {
         }),
         LevelColumn::new(
             "speed/c",
-            "unrest",
+            "residual_speed",
             "of a body that comes to rest: largest speed towards the end over the wave speed",
             |row| row.unless_failed(row.level.run.residual_speed),
         ),
         LevelColumn::new(
-            "dt/safe",
-            "safe_step",
-            "time step over the longest safe one; in JSON the latter (s)",
+            "dt/stable",
+            "stable_time_step",
+            "time step over the stable one; in JSON the latter (s)",
             |row| {
-                let safe = row.level.stable_time_step;
-                let ratio = Cell::number(safe.map(|safe| row.level.dt / safe), decimals(3));
-                Cell { json: safe.map_or(Value::Null, number), ..ratio }
+                let stable = row.level.stable_time_step;
+                let ratio = Cell::number(stable.map(|stable| row.level.dt / stable), decimals(3));
+                Cell { json: stable.map_or(Value::Null, number), ..ratio }
             },
         ),
     ]

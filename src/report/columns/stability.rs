@@ -56,7 +56,7 @@ pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColu
             "where the spectral radius of a step leaves one",
             |row| limit_cell(predicted(row).map(|prediction| prediction.limit)),
         ),
-        RowColumn::text("leaves at", "eigenvalue that leaves the unit circle", |row| {
+        RowColumn::text("critical eigenvalue", "eigenvalue that leaves the unit circle", |row| {
             predicted(row).and_then(|prediction| leaves(&prediction))
         }),
         RowColumn::new(

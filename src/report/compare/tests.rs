@@ -233,7 +233,7 @@ fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> ReportDocument {
     let method = |name: &str, work: [Option<f64>; 2]| {
         let reached =
             work.map(|work| work.map(|work| json!({"work": work, "at_most": false, "times": 1.0})));
-        json!({"case": name, "reached": reached, "best": 1e-4, "front": true})
+        json!({"case": name, "reached": reached, "best": 1e-4, "pareto_front": true})
     };
     let cost = json!([{"problem": "exact", "size": 1.0, "work": "transfers", "targets": [1e-2, 1e-3],
         "methods": [method("linear", first), method("cubic", second)]}]);

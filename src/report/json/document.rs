@@ -21,20 +21,21 @@
 //!         "errors": {"rms": 1e-4, "l1": 1e-4, "l2": 1e-4, "linf": 1e-4, "max_rms": 1e-4},
 //!         "judged": 1e-4, "drift": {"mass": 0.0, "momentum": 1e-16, "angular_momentum": 0.0,
 //!             "kinetic_energy": 1e-4, "kinetic_energy_gain": 0.0, "energy": 1e-6},
-//!         "energy_rate": [-1e-8, -2e-8, 0.0], "unrest": null, "safe_step": null, "order": null,
+//!         "energy_rate": [-1e-8, -2e-8, 0.0], "residual_speed": null,
+//!         "stable_time_step": null, "order": null,
 //!         "failure": null}],
 //!     "forces": null, "stability": null}],
 //!   "cost": [{"problem": "until t = 0.5 s, against the exact solution", "size": 0.05,
 //!     "work": "transfers", "targets": [0.01, 0.001, 0.0001], "methods": [{"case": "...",
 //!       "reached": [{"work": 130000.0, "at_most": false, "times": 1.0}, null, null],
-//!       "best": 5e-3, "not_reached": "floor", "front": [0, 1],
+//!       "best": 5e-3, "not_reached": "floor", "pareto_front": [0, 1],
 //!       "exponent": {"value": -1.0, "low": -1.1, "high": -0.9, "theory": -1.0,
 //!         "agrees": true}}]}]}]}
 //! ```
 //!
 //! `cost` ranks the methods of each problem of the suite, the cheapest first: errors are over
 //! `size`, `reached` has the work at each of the `targets` and how many `times` the least that is,
-//! `front` the levels that no other one beats, and `exponent` is k in work ~ error^k.
+//! `pareto_front` the levels that no other one beats, and `exponent` is k in work ~ error^k.
 //!
 //! `null` stands where a thing does not exist; numbers that are not finite are the strings `"nan"`,
 //! `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
@@ -44,13 +45,12 @@
 //! (each with `at`, or `above` or `below` the range) and the runs that `confirmed` it. `axis` is
 //! what was refined (`space`, `time`, `particles`) and `spacing` that of this axis; where particles
 //! are, there is no formal order. `energy_rate` is d ln E/dt (1/s), and both ends of its 95 %
-//! interval; of a law without an energy the drift of `energy` is `"nan"`. `safe_step` is the
-//! longest safe time step (s), where a rule chose the step or a stated one is longer. `profile` is
-//! what one step takes on the coarsest level, from a subject that says (MPM): its `passes` in their
-//! order, the particles that each part of them `visits`, and the `columns` of memory, with the
-//! `bytes` of one entry. `floor` is what became of the finest level's error with another spacing
-//! halved, where that was tried; its `cause` is one of the axes, or `none`, or null where it could
-//! not be told.
+//! interval; of a law without an energy the drift of `energy` is `"nan"`. `stable_time_step` (s) is
+//! there where a rule chose the step or a stated one is longer. `profile` is what one step takes on
+//! the coarsest level, from a subject that says (MPM): its `passes` in their order, the particles
+//! that each part of them `visits`, and the `columns` of memory, with the `bytes` of one entry.
+//! `floor` is what became of the finest level's error with another spacing halved, where that was
+//! tried; its `cause` is one of the axes, or `none`, or null where it could not be told.
 //! Keys may be added; none is renamed or removed without a new major version. `docs/columns.md`
 //! lists those of rows.
 

@@ -9,12 +9,12 @@
 //!     "levels": [{"cells": 5, "dt": 1e-3, "ppc": 4, "error": 1e-2, "transfers": 120000,
 //!       "particle_updates": 10000, "steps": 500, "bytes": 720000, "failure": null,
 //!       "seconds": {"median": 2e-3, "low": 2e-3, "high": 2e-3, "repeats": 25}}]}],
-//!   "cost": [{"work": "seconds", ...}, {"work": "transfers", ...}], "bid": null}]}
+//!   "cost": [{"work": "seconds", ...}, {"work": "transfers", ...}], "best_candidate": null}]}
 //! ```
 //!
 //! `error` is over the size of the solution, `bytes` the particle data that the steps have passed
-//! over at least: those of a particle times particle updates. `cost` is that of reports. `bid` is
-//! what came of a budget; then there is nothing else.
+//! over at least: those of a particle times particle updates. `cost` is that of reports.
+//! `best_candidate` is what came of a budget; then there is nothing else.
 
 use super::cost::rankings;
 use super::number::number;
@@ -24,10 +24,11 @@ use crate::report::columns::timed_level::{json_columns, rows, timing};
 use crate::verify::{BestCandidate, CaseOutcome, Machine, TimedSuite};
 use serde_json::{Value, json};
 
-/// The document, indented, with a newline at its end. A suite has either been priced or bid for.
-pub fn timed_json(timed: &[TimedSuite], bids: &[(String, BestCandidate)]) -> String {
-    let suites = timed.iter().map(suite).chain(bids.iter().map(|(name, found)| {
-        json!({"suite": name, "machine": null, "cases": [], "cost": [], "bid": bid(found)})
+/// The document, indented, with a newline at its end. A suite has either been timed or searched for
+/// its best candidate.
+pub fn timed_json(timed: &[TimedSuite], best: &[(String, BestCandidate)]) -> String {
+    let suites = timed.iter().map(suite).chain(best.iter().map(|(name, found)| {
+        json!({"suite": name, "machine": null, "cases": [], "cost": [], "best_candidate": candidate(found)})
     }));
     format!("{:#}\n", json!({ "suites": suites.collect::<Vec<_>>() }))
 }
@@ -44,7 +45,7 @@ fn suite(timed: &TimedSuite) -> Value {
         "machine": machine(&timed.machine),
         "cases": cases.map(|(index, one)| case(timed, index, one)).collect::<Vec<_>>(),
         "cost": cost,
-        "bid": null,
+        "best_candidate": null,
     })
 }
 
@@ -67,20 +68,20 @@ fn case(timed: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
     })
 }
 
-fn bid(bid: &BestCandidate) -> Value {
+fn candidate(best: &BestCandidate) -> Value {
     let pair = |[predicted, measured]: [f64; 2]| json!({"predicted": number(predicted), "measured": number(measured)});
     json!({
-        "budget": number(bid.budget),
-        "case": bid.case,
-        "cells": bid.cells,
-        "dt": number(bid.dt),
-        "ppc": bid.ppc,
-        "seconds": pair(bid.seconds),
-        "error": pair(bid.error),
-        "beyond": bid.beyond,
-        "limit": bid.limit,
-        "failure": bid.failure,
-        "model": json_object(&model(), &bid.model),
-        "fitted": bid.fitted,
+        "budget": number(best.budget),
+        "case": best.case,
+        "cells": best.cells,
+        "dt": number(best.dt),
+        "ppc": best.ppc,
+        "seconds": pair(best.seconds),
+        "error": pair(best.error),
+        "beyond": best.beyond,
+        "limit": best.limit,
+        "failure": best.failure,
+        "model": json_object(&model(), &best.model),
+        "fitted": best.fitted,
     })
 }

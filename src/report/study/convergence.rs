@@ -53,7 +53,7 @@ fn tables(lines: &mut Vec<String>, study: &Convergence) {
         .collect();
     if !too_long.is_empty() {
         lines.push(String::new());
-        let text = "steps are longer than any that is known to be safe";
+        let text = "steps are longer than the stable time step";
         row(lines, "warning", &format!("{}: {text}", too_long.join(", ")));
     }
     let failure = |level: &LevelOutcome| Some((level.name(study.axis), level.run.failure.clone()?));

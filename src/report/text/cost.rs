@@ -20,7 +20,8 @@ pub(crate) fn by_transfers(outcome: &SuiteOutcome) -> Vec<Ranking> {
 pub fn cost(ranking: &Ranking, work: &str) -> String {
     let mut lines = vec![format!("== cost, {} ==", ranking.problem)];
     lines.push(format!("  {:18}{}", "error", relative(ranking)));
-    lines.push(format!("  {:18}{work}, between neighbouring levels, never beyond them", "work"));
+    let how = "interpolated between neighbouring levels, never extrapolated";
+    lines.push(format!("  {:18}{work}, {how}", "work"));
     lines.push(String::new());
     // Targets that no method reaches have no column.
     let work = Table::new(&columns::methods(ranking), &ranking.rows).without_empty_columns();
@@ -37,7 +38,7 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
 /// The size that errors are divided by.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
-        return "as judged, over the scale of the suite".to_owned();
+        return "as judged, relative to the scale of the suite".to_owned();
     }
-    format!("over {}, the largest exact value", short(ranking.size))
+    format!("relative to {}, the largest exact value", short(ranking.size))
 }

@@ -10,8 +10,8 @@ pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
         ("effects", effects),
         ("a step", profile.passes.join(", ")),
         ("particle visits", visits(profile)),
-        ("a particle", memory(profile, Holder::Particle)),
-        ("a node", memory(profile, Holder::Node)),
+        ("particle memory", memory(profile, Holder::Particle)),
+        ("node memory", memory(profile, Holder::Node)),
     ]
 }
 
@@ -70,7 +70,7 @@ mod tests {
                 Column::of_nodes("mass", &[0.0; 9]),
             ],
             passes: vec!["P2G(mass)".to_owned(), "G2P(stress)".to_owned()],
-            visits: vec![("p2g mass", 20), ("g2p", 40), ("p2g point force", 4)],
+            visits: vec![("p2g mass", 20), ("g2p velocity", 40), ("p2g point force", 4)],
         }
     }
 
@@ -80,10 +80,10 @@ mod tests {
         let text = |key| &rows.iter().find(|(name, _)| *name == key).expect("a row").1;
         assert_eq!(text("effects"), "gravity, traction");
         assert_eq!(text("a step"), "P2G(mass), G2P(stress)");
-        let visits = "p2g mass, g2p x 2, p2g point force at 4 of 20 particles";
+        let visits = "p2g mass, g2p velocity x 2, p2g point force at 4 of 20 particles";
         assert_eq!(text("particle visits"), visits);
-        assert_eq!(text("a particle"), "8 B: v 8; layer 4 at 4 of 20");
-        assert_eq!(text("a node"), "8 B: mass 8");
+        assert_eq!(text("particle memory"), "8 B: v 8; layer 4 at 4 of 20");
+        assert_eq!(text("node memory"), "8 B: mass 8");
     }
 
     #[test]

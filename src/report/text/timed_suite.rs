@@ -78,21 +78,21 @@ fn models(timed: &TimedSuite) -> Option<Vec<String>> {
 }
 
 /// The best setting within a budget.
-pub fn bid(suite: &str, bid: &BestCandidate) -> String {
-    let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = bid;
+pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
+    let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = best;
     let mut text = format!("{suite}: the most accurate setting predicted within {budget} s\n\n");
     text += &row("case", case);
     let ppc = ppc.map_or(String::new(), |ppc| format!(", {ppc} particles per cell"));
-    let beyond = if bid.beyond { ", finer than all levels of the suite" } else { "" };
+    let beyond = if best.beyond { ", finer than all levels of the suite" } else { "" };
     text += &row("setting", &format!("{cells} cells, dt = {} s{ppc}{beyond}", short(*dt)));
     let rows = [("seconds", *seconds), ("error", *error)];
     text += &format!("\n{}\n", lines(&Table::new(&predictions(), rows).lines()));
     text += &row("share of budget", &format!("{:.0} %", 100.0 * seconds[1] / budget));
-    text += &row("model", &model(&bid.model, bid.fitted));
-    if let Some(limit) = bid.limit {
+    text += &row("model", &model(&best.model, best.fitted));
+    if let Some(limit) = best.limit {
         text += &row("nothing finer", limit);
     }
-    if let Some(failure) = &bid.failure {
+    if let Some(failure) = &best.failure {
         text += &row("failure", failure);
     }
     text

@@ -1,4 +1,4 @@
-//! The longest safe time step of each level, and the step by rule that is a share of it.
+//! The stable time step of each level, and the step by rule that is a share of it.
 //!
 //! The prediction is that of [`crate::mpm::Solver::stable_time_step`], from the solver's own stages
 //! and the state at the start, and no more than `h/(c + |v|)`: a wave, and a particle, crosses no
@@ -26,7 +26,7 @@ const FEW: u32 = 6;
 /// overestimate the limit by up to one half.
 const NEAR: f64 = 0.6;
 
-/// A level with the step that is taken on it, and the longest safe one (s) where that is known.
+/// A level with the step that is taken on it, and the stable time step (s) where that is known.
 type Stepped = (LevelPlan, Option<f64>);
 
 /// The steps of the levels of each case, each looked for once.
@@ -81,14 +81,14 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     Clock::new(case.until, level.dt, plan.instants).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the longest safe one.
+/// Warning about a step that is longer than the stable time step.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<String> {
     let (dt, limit) = (taken(plan, case, level), limit?);
     (dt > limit).then(|| {
         let (cells, times) = (level.cells, dt / limit);
         format!(
             "{}, {cells} cells: dt = {dt:.4e} s is {times:.2} times the longest \
-             safe step, {limit:.4e} s",
+             stable time step, {limit:.4e} s",
             case.name
         )
     })

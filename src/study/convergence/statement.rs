@@ -71,7 +71,7 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
     let dt = steps.join(", ");
     let dt = plan.rule.map_or(format!("{dt} s"), |share| {
         let share = shown(share);
-        format!("{share} of the longest safe step, case by case and level by level")
+        format!("{share} of the stable time step, case by case and level by level")
     });
     push(rows, "dt", &format!("{dt}, shortened to divide the time between instants"));
     push(rows, "instants", &format!("{instants}"));
@@ -84,7 +84,7 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
         Axis::Time => format!("dt = {} s", further_steps.join(", ")),
         Axis::Particles => format!("{} particles per cell", ppc(further)),
     };
-    push(rows, "in full also", &full);
+    push(rows, "--full adds", &full);
 }
 
 /// Rows of one case.

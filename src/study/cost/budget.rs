@@ -28,7 +28,7 @@ const REPEATS: usize = 3;
 ///
 /// # Errors
 /// One line that says why nothing can be chosen.
-pub fn bid(suite: &Suite, budget: f64) -> Result<BestCandidate, String> {
+pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, String> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return Err("the suite refines nothing".to_owned());
     };

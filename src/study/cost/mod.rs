@@ -10,7 +10,7 @@ pub(crate) mod machine;
 pub(crate) mod measure;
 pub(crate) mod variants;
 
-pub use budget::bid;
+pub use budget::best_candidate;
 pub use goal::{Goal, goals};
 pub use measure::price;
 pub use variants::{Over, variants};

@@ -27,18 +27,16 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
         );
     }
     let ppc = setup.level.ppc.unwrap_or(0);
-    push(
-        "cells",
-        format!("{} of size {} m, {ppc} particles each", setup.level.cells, shown(setup.level.h)),
-    );
+    push("cells", format!("{} of size {} m", setup.level.cells, shown(setup.level.h)));
+    push("particles", format!("{ppc} per cell"));
     let full = if setup.full_steps == setup.steps {
         String::new()
     } else {
-        format!(", in full {}", setup.full_steps)
+        format!(", {} with --full", setup.full_steps)
     };
     push("run", format!("{} steps{full}", setup.steps));
     if let Some(share) = setup.rule {
-        push("dt", format!("{} of the longest safe step", shown(share)));
+        push("dt", format!("{} of the stable time step", shown(share)));
     }
     if let (Some(first), Some(last)) = (setup.dt.first(), setup.dt.last()) {
         let turns = setup.dt.len() / 2;
@@ -47,7 +45,7 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
         }
     }
     if setup.frozen {
-        push("particles", "frozen: no step moves a particle or its domain".to_owned());
+        push("configuration", "frozen: no step moves a particle or its domain".to_owned());
     }
     if setup.perturb > 0.0 {
         push("start", format!("random, of size {:e} in every number of the state", setup.perturb));

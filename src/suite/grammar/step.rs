@@ -10,7 +10,7 @@ use std::fmt;
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
-    /// The share of the longest safe step.
+    /// The share of the stable time step.
     Courant(NumberText),
     /// A share that leaves room for what happens on the way.
     Auto,

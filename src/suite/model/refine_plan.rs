@@ -13,7 +13,7 @@ pub struct RefinePlan {
     pub usual: usize,
     /// The time steps as the suite states them: one formula of h, or one for each level.
     pub steps: Vec<String>,
-    /// The share of the longest safe step that each run takes, where a rule says so; the steps of
+    /// The share of the stable time step that each run takes, where a rule says so; the steps of
     /// the levels are then those without a look at the particles.
     pub rule: Option<f64>,
 }

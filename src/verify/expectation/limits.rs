@@ -143,8 +143,8 @@ impl Limits {
         let figures = [
             ("largest error", self.error_below, most, false),
             ("smallest error", self.error_above, least, true),
-            ("error at the observed place (m)", self.observed_within, observed, false),
-            ("speed at rest over the wave speed", self.rest_below, residual_speed, false),
+            ("error at the observed point (m)", self.observed_within, observed, false),
+            ("residual speed over the wave speed", self.rest_below, residual_speed, false),
         ];
         let check = |(what, limit, got, least): (_, Option<f64>, _, _)| {
             Some(Check { what, limit: limit?, got, least })
@@ -206,7 +206,7 @@ mod tests {
     #[case::far_off(Measured { observed: Some(2e-3), ..measured() }, 1)]
     #[case::observed_nan(Measured { observed: Some(NAN), ..measured() }, 1)]
     #[case::still_moving(Measured { residual_speed: Some(2e-6), ..measured() }, 1)]
-    #[case::unrest_nan(Measured { residual_speed: Some(NAN), ..measured() }, 1)]
+    #[case::residual_speed_nan(Measured { residual_speed: Some(NAN), ..measured() }, 1)]
     #[case::not_observed(Measured { observed: None, ..measured() }, 1)]
     #[case::failed(Measured { drift: Some(ConservationError::NONE), ..measured() }, 2)]
     #[case::no_totals(Measured { drift: None, ..measured() }, 2)]

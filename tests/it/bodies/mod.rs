@@ -21,7 +21,7 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
 }
 
 /// Those that bodies can have that meet.
-fn meeting(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
+fn coupled_methods(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| {
         !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)
     })
@@ -77,7 +77,7 @@ fn one_body_with_contact_is_its_solver_bit_for_bit(
 
 /// Two bodies that no node sees both of.
 fn do_not_know_each_other<const D: usize>(scheme: SchemeName) {
-    for method in meeting(D) {
+    for method in coupled_methods(D) {
         let setups = || [[0.6, 1.6], [5.6, 6.4]].map(|ends| part::<D>(method, scheme, ends));
         let [one, other] = setups().map(|setup| ran(Solver::new(setup).unwrap(), 10));
         for friction in [None, Some(0.3)] {
@@ -98,7 +98,7 @@ fn bodies_far_apart_are_two_solvers_bit_for_bit(
 
 /// A body cut in two, with one velocity field.
 fn halves_are_the_whole<const D: usize>(scheme: SchemeName, start: Start) {
-    for method in meeting(D) {
+    for method in coupled_methods(D) {
         let of = |ends: [f64; 2]| Setup { start, ..part::<D>(method, scheme, ends) };
         let whole = ran(Solver::new(of([2.5, 4.5])).unwrap(), 30);
         let bodies = Bodies::new(vec![of([2.5, 3.5]), of([3.5, 4.5])], None).unwrap();
@@ -142,7 +142,7 @@ fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) 
 }
 
 fn momentum_is_kept<const D: usize>(scheme: SchemeName) {
-    for method in meeting(D) {
+    for method in coupled_methods(D) {
         for friction in [None, Some(0.0), Some(0.4)] {
             let mut bodies = Bodies::new(crash::<D>(method, scheme), friction).unwrap();
             let what = format!("{D}-D {method:?} {scheme:?} {friction:?}");
@@ -151,7 +151,7 @@ fn momentum_is_kept<const D: usize>(scheme: SchemeName) {
             let mut met = 0;
             for _ in 0..60 {
                 bodies.step(DT).unwrap();
-                met += bodies.meeting();
+                met += bodies.interface_nodes();
             }
             assert!(met > 0, "{what}: the bodies never met");
             let after = bodies.totals().unwrap();
@@ -202,7 +202,7 @@ fn friction_is_a_share_of_the_pressure_and_none_without(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(0.0, 0.3)] friction: f64,
 ) {
-    for method in meeting(2) {
+    for method in coupled_methods(2) {
         let [along, across] = pressed(method, scheme, friction);
         assert!(across > 1e-5, "{method:?}: the layers push each other: {across:.1e}");
         let off = (along + friction * across).abs() / across;

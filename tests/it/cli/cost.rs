@@ -25,8 +25,8 @@ fn the_report_has_levels_a_model_and_both_rankings() {
         "  machine           ",
         "ns/transfer",
         "cost model, ns",
-        "work              seconds, between neighbouring levels",
-        "work              particle-node transfers, between",
+        "work              seconds, interpolated between neighbouring levels",
+        "work              particle-node transfers, interpolated between",
         "work ~ error^k",
     ] {
         assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
@@ -119,16 +119,16 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "--budget", "30ms"]);
-    let bid = &document["suites"][0]["bid"];
+    let best = &document["suites"][0]["best_candidate"];
     let pair = |key: &str| {
-        ["predicted", "measured"].map(|which| bid[key][which].as_f64().expect("a number"))
+        ["predicted", "measured"].map(|which| best[key][which].as_f64().expect("a number"))
     };
     let ([predicted, measured], errors) = (pair("seconds"), pair("error"));
-    assert!(predicted <= 0.03 && measured > 0.0, "{bid}");
-    assert!(errors.iter().all(|error| *error > 0.0), "{bid}");
+    assert!(predicted <= 0.03 && measured > 0.0, "{best}");
+    assert!(errors.iter().all(|error| *error > 0.0), "{best}");
     // Four levels of which the finest has 12 cells take a fraction of this.
-    assert!(bid["cells"].as_u64() > Some(12) && bid["beyond"] == true, "{bid}");
-    assert_eq!(bid["failure"], Value::Null);
+    assert!(best["cells"].as_u64() > Some(12) && best["beyond"] == true, "{best}");
+    assert_eq!(best["failure"], Value::Null);
     let text = folder.call(&["cost", "bar.yaml", "--budget", "30ms"]).out;
     for words in ["predicted within 0.03 s", "predicted  measured", "share of budget", "model  "] {
         assert!(text.contains(words), "no `{words}` in\n{text}");

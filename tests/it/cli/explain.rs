@@ -49,7 +49,7 @@ fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
         "effects           body_force, force\n",
         "a step            P2G(mass, force), acceleration, G2P(particle velocity), P2G(momentum), ",
         "particle visits   p2g mass, p2g momentum, p2g internal force, p2g point force at 24 of 16",
-        "share 16 at 8 of 16\n",
+        "force share 16 at 8 of 16\n",
         "without           `force` these lines change:\n",
         "    becomes         body_force\n",
     ] {

@@ -38,8 +38,8 @@ const LEVEL: [&str; 19] = [
     "judged",
     "drift",
     "energy_rate",
-    "unrest",
-    "safe_step",
+    "residual_speed",
+    "stable_time_step",
     "order",
     "failure",
 ];
@@ -195,7 +195,7 @@ fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
     let methods = list(&cost["methods"]);
     assert_eq!(methods.len(), 2);
     for method in methods {
-        has(method, &["case", "reached", "best", "not_reached", "front", "exponent"]);
+        has(method, &["case", "reached", "best", "not_reached", "pareto_front", "exponent"]);
         has(&method["exponent"], &["value", "low", "high", "theory", "agrees"]);
         assert_eq!(list(&method["reached"]).len(), 3);
         let best = method["best"].as_f64().expect("an error");

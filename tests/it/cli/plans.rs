@@ -114,7 +114,7 @@ fn reports_speak_of_the_axis_that_is_refined() {
     for words in [
         "cells             8 on every level",
         "dt                0.001, 0.0005, 0.00025 s, shortened",
-        "in full also      dt = 0.000125 s",
+        "--full adds       dt = 0.000125 s",
         "  dt        rms",
         "dt  cells  ppc  particles",
         "1.000e-03, 5.000e-04, 2.500e-04",

@@ -11,7 +11,7 @@ fn bar(dt: &str) -> String {
 }
 
 #[test]
-fn a_step_that_is_not_safe_warns_and_is_taken_all_the_same() {
+fn a_step_beyond_the_stable_one_warns_and_is_taken_all_the_same() {
     // c = 10 m/s: 0.02 s is 0.8 h/c on the coarsest grid and 2.4 h/c on the finest.
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
     let folder = Folder::new();
@@ -24,14 +24,14 @@ fn a_step_that_is_not_safe_warns_and_is_taken_all_the_same() {
     assert!(warnings[0].starts_with(first), "{warnings:?}");
     let document: Value = serde_json::from_str(&found.out).expect("one document");
     let level = &document["suites"][0]["cases"][0]["levels"][3];
-    assert!(level["dt"].as_f64() > level["safe_step"].as_f64());
+    assert!(level["dt"].as_f64() > level["stable_time_step"].as_f64());
     assert!(level["failure"].is_string());
     let text = folder.call(&["run", "bar.yaml"]).out;
     assert!(text.contains("6 cells, 8 cells, 12 cells: steps are longer"), "{text}");
 }
 
 #[test]
-fn the_share_is_of_the_same_safe_step() {
+fn the_share_is_of_the_same_stable_time_step() {
     let steps = |rule: &str| -> Vec<f64> {
         let folder = Folder::new();
         let text = bar(&format!("dt: {rule}, instants: 1")).replace("until: 0.05", "until: 100");
@@ -42,7 +42,7 @@ fn the_share_is_of_the_same_safe_step() {
         let levels =
             document["suites"][0]["cases"][0]["levels"].as_array().expect("a list").clone();
         let share = |level: &Value| {
-            level["dt"].as_f64().expect("dt") / level["safe_step"].as_f64().expect("safe")
+            level["dt"].as_f64().expect("dt") / level["stable_time_step"].as_f64().expect("s")
         };
         levels.iter().map(share).collect()
     };

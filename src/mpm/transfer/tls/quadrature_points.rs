@@ -50,11 +50,11 @@ impl<const D: usize> QuadraturePoints<D> {
     /// Columns, with entries for points, particles and cells.
     pub(in crate::mpm) fn columns(&self) -> [Column; 5] {
         [
-            Column::of_particles("spots", &self.all),
-            Column::of_particles("x in the grid", &self.x),
+            Column::of_particles("quadrature point", &self.all),
+            Column::of_particles("wrapped x", &self.x),
             Column::of_particles("cell", &self.cell),
-            Column::of_particles("order", &self.order),
-            Column::of_nodes("first", &self.first),
+            Column::of_particles("sorted particle", &self.order),
+            Column::of_nodes("first of cell", &self.first),
         ]
     }
 

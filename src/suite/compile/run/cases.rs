@@ -53,8 +53,8 @@ pub(crate) fn cases(
                 let contact = plan.scene.contact.is_some();
                 let mut known = combine(basis, transfer, mass, frame);
                 if plan.scene.bodies.len() > 1 {
-                    let meeting = || combine_bodies(transfer, mass, frame, start, contact);
-                    known = known.and_then(|()| meeting());
+                    let coupled = || combine_bodies(transfer, mass, frame, start, contact);
+                    known = known.and_then(|()| coupled());
                 }
                 known.map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";

@@ -1,4 +1,4 @@
-//! Time steps by rule: a share of the longest safe step.
+//! Time steps by rule: a share of the stable time step.
 
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
@@ -9,7 +9,7 @@ use crate::suite::yaml::{Diagnostic, NumberText};
 /// The share that `auto` takes.
 const AUTO: f64 = 0.5;
 
-/// The share of the longest safe step that `spec` at `path` asks for, if it is a rule.
+/// The share of the stable time step that `spec` at `path` asks for, if it is a rule.
 pub(crate) fn share(
     evaluator: &Evaluator<'_>,
     path: &Path,

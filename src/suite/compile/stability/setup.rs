@@ -32,7 +32,7 @@ pub(crate) struct RunSetup {
     pub(crate) level: LevelPlan,
     /// Lengths of the steps (s), which take turns.
     pub(crate) dt: Vec<f64>,
-    /// The share of the longest safe step that `dt` is made once particles are there, by a rule.
+    /// The share of the stable time step that `dt` is made once particles are there, by a rule.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
     /// Steps of a full run.
