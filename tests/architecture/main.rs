@@ -121,6 +121,23 @@ fn only_the_front_door_knows_the_yaml_library() {
 }
 
 #[test]
+fn unit_tests_run_no_solver() {
+    let unwanted: [&[&str]; 5] = [
+        &["kernel", "::", "<"],
+        &["kernel_with"],
+        &["Solver", "::", "new"],
+        &["Runner", "::"],
+        &["Suite", "::", "load"],
+    ];
+    hold(
+        "tests in src/ make no kernel, step no solver and load no suite: such tests are in tests/it",
+        "the loops of all bases would be compiled once more for the unit tests, for minutes; \
+         tests/it runs the library's own copy",
+        &rules::tests_with(&source::with_tests(&source::texts("src", ".rs")), &unwanted),
+    );
+}
+
+#[test]
 fn files_are_short() {
     hold(
         "a file has at most 260 lines, not counting its tests",

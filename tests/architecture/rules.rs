@@ -146,6 +146,16 @@ pub(crate) fn mentions(sources: &[Source], wanted: &[&[&str]], allowed: &str) ->
         .collect()
 }
 
+/// Unit tests that mention one of the `unwanted` runs of tokens.
+pub(crate) fn tests_with(sources: &[Source], unwanted: &[&[&str]]) -> Vec<Breach> {
+    let of_run = |source: &Source, run: &[&str]| {
+        let line = line_of(&source.tests, run)?;
+        Some(Breach::at(source, line, format!("a test mentions `{}`", run.concat())))
+    };
+    let of_source = |source| unwanted.iter().filter_map(move |run| of_run(source, run));
+    sources.iter().flat_map(of_source).collect()
+}
+
 fn line_of(code: &[Token], run: &[&str]) -> Option<usize> {
     let same = |window: &&[Token]| window.iter().zip(run).all(|(token, text)| token.text == *text);
     code.windows(run.len()).find(same).map(|window| window[0].line)

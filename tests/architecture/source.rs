@@ -17,6 +17,10 @@ pub(crate) struct Source {
     pub(crate) module: Module,
     /// Without comments, strings and whatever stands under `#[cfg(test)]`.
     pub(crate) code: Vec<Token>,
+    /// The code that stands there.
+    pub(crate) tests: Vec<Token>,
+    /// Whether all of the file is compiled for tests only.
+    pub(crate) for_tests: bool,
     /// Number of lines, without those under `#[cfg(test)]`.
     pub(crate) lines: usize,
 }
@@ -62,14 +66,24 @@ fn collect(folder: &str, files: &mut Vec<String>) {
 
 /// The sources among `files`, pairs of path and text.
 pub(crate) fn of_files(files: &[(String, String)]) -> Vec<Source> {
+    let mut sources = with_tests(files);
+    sources.retain(|source| !source.for_tests);
+    sources
+}
+
+/// The same with files that are compiled for tests only, all of whose code is tests.
+pub(crate) fn with_tests(files: &[(String, String)]) -> Vec<Source> {
     let mut for_tests = BTreeSet::new();
     let mut sources: Vec<Source> =
         files.iter().map(|(file, text)| source(file, text, &mut for_tests)).collect();
-    sources.retain(|source| {
+    for source in &mut sources {
         let above = |n| source.module[..n].to_vec();
         let for_tests = (0..=source.module.len()).any(|n| for_tests.contains(&above(n)));
-        !for_tests && !source.file.contains("/tests/")
-    });
+        source.for_tests = for_tests || source.file.contains("/tests/");
+        if source.for_tests {
+            source.tests.append(&mut source.code);
+        }
+    }
     sources.sort_by(|a, b| a.file.cmp(&b.file));
     sources
 }
@@ -77,16 +91,16 @@ pub(crate) fn of_files(files: &[(String, String)]) -> Vec<Source> {
 /// Also notes the modules that `text` declares for tests only.
 fn source(file: &str, text: &str, for_tests: &mut BTreeSet<Module>) -> Source {
     let module = module(file);
-    let (mut code, mut lines) = (tokens(text), text.lines().count());
+    let (mut code, mut tests, mut lines) = (tokens(text), Vec::new(), text.lines().count());
     while let Some(item) = test_item(&code) {
         let words: Vec<&str> = code[item.clone()].iter().map(|t| t.text.as_str()).collect();
         if let [.., "mod", name, ";"] = words[..] {
             for_tests.insert([&module[..], &[name.to_owned()]].concat());
         }
         lines -= code[item.end - 1].line - code[item.start].line + 1;
-        code.drain(item);
+        tests.extend(code.drain(item));
     }
-    Source { file: file.to_owned(), module, code, lines }
+    Source { file: file.to_owned(), module, code, tests, for_tests: false, lines }
 }
 
 fn module(file: &str) -> Module {

@@ -3,7 +3,7 @@
 use crate::graph::{Edge, cycles, edges};
 use crate::rules;
 use crate::rules::WALLS;
-use crate::source::{Source, of_files};
+use crate::source::{Source, of_files, with_tests};
 use crate::token::tokens;
 use rstest::rstest;
 
@@ -164,6 +164,22 @@ fn a_planted_platform_function_is_found(
     #[case] count: usize,
 ) {
     assert_eq!(rules::platform_calls(&sources(&[(file, code)])).len(), count);
+}
+
+#[test]
+fn tests_that_run_a_solver_are_found_in_tests_only() {
+    let step = "fn f() { Solver::new(setup); }";
+    let planted = [
+        ("src/code.rs", step.to_owned()),
+        ("src/tested.rs", format!("{step}\n#[cfg(test)]\nmod tests {{\n{step}\n}}")),
+        ("src/mpm.rs", "#[cfg(test)]\nmod laws;\nmod solver;".to_owned()),
+        ("src/mpm/laws.rs", step.to_owned()),
+        ("src/fem/tests/time.rs", format!("// Solver::new\n{step}")),
+    ];
+    let planted = with_tests(&planted.map(|(file, text)| (file.to_owned(), text)));
+    let found = rules::tests_with(&planted, &[&["Solver", "::", "new"], &["Runner"]]);
+    let found: Vec<String> = found.iter().map(|b| format!("{}:{}", b.file, b.line)).collect();
+    assert_eq!(found, ["src/fem/tests/time.rs:2", "src/mpm/laws.rs:1", "src/tested.rs:4"]);
 }
 
 #[rstest]
