@@ -59,7 +59,7 @@ fn is_whole<B: Basis, const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
 }
 
 /// Functions of one node at the particle.
-struct Node<const D: usize> {
+struct Visited<const D: usize> {
     node: usize,
     weight: f64,
     gradient: Vector<D>,
@@ -68,11 +68,11 @@ struct Node<const D: usize> {
 
 /// Nodes of the only particle. All laws share one copy of this loop, which is long.
 #[inline(never)]
-fn visited<B: Basis, const D: usize>(grid: &Grid<D>, particles: &Particles<D>) -> Vec<Node<D>> {
+fn visited<B: Basis, const D: usize>(grid: &Grid<D>, particles: &Particles<D>) -> Vec<Visited<D>> {
     let mut nodes = Vec::new();
     B::visit(grid, particles, 0, |i| {
         let (node, weight, gradient, offset) = (i.node, i.weight, *i.gradient, i.offset);
-        nodes.push(Node { node, weight, gradient, offset });
+        nodes.push(Visited { node, weight, gradient, offset });
     });
     nodes
 }
@@ -126,7 +126,7 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     };
     for along in [0.4, 1.55, 2.1, 3.6] {
         let x = Vector::<D>::from_fn(|a, _| grid.origin[a] + grid.h * (along - 0.02 * a as f64));
-        for Node { node, gradient, .. } in visited::<B, D>(&grid, &particle(&grid, x)) {
+        for Visited { node, gradient, .. } in visited::<B, D>(&grid, &particle(&grid, x)) {
             for axis in 0..D {
                 let mut step = Vector::zeros();
                 step[axis] = eps;
