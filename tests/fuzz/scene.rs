@@ -28,14 +28,16 @@ pub(crate) fn every_method() -> Vec<Method> {
     all
 }
 
-/// One of each law.
-pub(crate) const MATERIALS: [MaterialPlan; 5] = [
-    MaterialPlan::LinearElastic { young: 1.0, poisson: 0.3 },
-    MaterialPlan::NeoHookean { young: 1.0, poisson: 0.3 },
-    MaterialPlan::Hencky { young: 1.0, poisson: 0.3 },
-    MaterialPlan::J2 { young: 1.0, poisson: 0.3, r#yield: 0.1, hardening: 0.1 },
-    MaterialPlan::Newtonian { bulk: 1.0, viscosity: 0.1 },
-];
+/// One of each law of bodies that move.
+pub(crate) fn materials() -> Vec<MaterialPlan> {
+    let mut all = MaterialPlan::every(|parameter| match parameter.symbol {
+        "nu" => 0.3,
+        "Y" | "H" | "eta" => 0.1,
+        _ => 1.0,
+    });
+    all.retain(|plan| !plan.properties().is_at_rest());
+    all
+}
 
 /// Cell size (m).
 const H: f64 = 0.5;

@@ -1,7 +1,7 @@
 //! Bytes as a scene and the state of its particles. Every byte string is one; where bytes run out
 //! they are zero, which stands for what is usual.
 
-use super::scene::{MATERIALS, Scene, body, every_method};
+use super::scene::{Scene, body, every_method, materials};
 use mpm_verify::mpm::{Matrix, SchemeName, Vector};
 use mpm_verify::subject::Start;
 
@@ -58,7 +58,7 @@ pub(crate) fn step(bytes: &[u8]) {
     let scene = Scene {
         method: bytes.one_of(&every_method()),
         scheme: bytes.one_of(SchemeName::ALL),
-        material: bytes.one_of(&MATERIALS),
+        material: bytes.one_of(&materials()),
         start: bytes.one_of(Start::ALL),
         periodic: bytes.byte() % 2 == 1,
         cells: bytes.one_of(&[4, 1, 2, 3, 7]),

@@ -122,8 +122,7 @@ macro_rules! materials {
             }
 
             /// One of every registered material: what enrols them in the law tests.
-            #[cfg(test)]
-            pub(crate) fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
+            pub fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }
         }

@@ -8,27 +8,11 @@ mod scene;
 mod step_input;
 
 use crate::common::in_dimension;
-use mpm_verify::mpm::{MaterialPlan, Matrix, Particles, SchemeName, Vector};
+use mpm_verify::mpm::{Matrix, Particles, SchemeName, Vector};
 use mpm_verify::subject::{Failure, Site, Start};
 use proptest::prelude::*;
 use rstest::rstest;
-use scene::{MATERIALS, Scene, body, every_method};
-
-#[test]
-fn no_material_is_left_out() {
-    for material in MATERIALS {
-        // A new one belongs into the list above.
-        match material {
-            MaterialPlan::LinearElastic { .. }
-            | MaterialPlan::NeoHookean { .. }
-            | MaterialPlan::Hencky { .. }
-            | MaterialPlan::J2 { .. }
-            | MaterialPlan::Newtonian { .. }
-            // Not in the list: no stage of mechanics ever asks it.
-            | MaterialPlan::Rigid {} => {}
-        }
-    }
-}
+use scene::{Scene, body, every_method, materials};
 
 /// A change that makes particle 1 unusable.
 type Spoil<const D: usize> = fn(&mut Particles<D>);
@@ -117,7 +101,7 @@ fn meets_every_extreme<const D: usize>() {
     let mut turn = 0;
     for method in every_method() {
         for &scheme in SchemeName::ALL {
-            for material in MATERIALS {
+            for material in materials() {
                 for (what, spoil) in extremes::<D>() {
                     turn += 1;
                     if D > 1 && turn % [1, 1, 13, 61][D] != 0 {
@@ -145,7 +129,7 @@ fn no_extreme_makes_a_panic_or_a_silent_nan(#[values(1, 2, 3)] dimension: usize)
 fn names_the_culprit<const D: usize>(value: f64) {
     let start = Start::AtZero;
     for method in every_method() {
-        for material in MATERIALS {
+        for material in materials() {
             let scene = Scene {
                 method,
                 scheme: SchemeName::Musl,
@@ -207,7 +191,7 @@ proptest! {
         dimension in 1..=3_usize,
         method in prop::sample::select(every_method()),
         scheme in prop::sample::select(SchemeName::ALL),
-        material in prop::sample::select(MATERIALS.to_vec()),
+        material in prop::sample::select(materials()),
         start in prop::sample::select(Start::ALL),
         periodic in any::<bool>(),
         dt in prop_oneof![3 => 1e-4..1.0_f64, 1 => prop::num::f64::ANY],
