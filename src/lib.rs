@@ -88,4 +88,5 @@ pub mod report;
 pub mod suite;
 
 mod dimension;
+mod members;
 mod named;

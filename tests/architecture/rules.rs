@@ -21,10 +21,11 @@ pub(crate) struct Wall {
 pub(crate) const WALLS: &[Wall] = &[
     Wall { around: "named", may: &[], why: "every part is built on it" },
     Wall { around: "dimension", may: &[], why: "every part is built on it" },
+    Wall { around: "members", may: &[], why: "rooms on both sides of a wall read it" },
     Wall { around: "subject", may: &["named"], why: "it is the contract between judge and solver" },
     Wall {
         around: "mpm",
-        may: &["subject", "named", "dimension"],
+        may: &["subject", "named", "dimension", "members"],
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
     Wall {
@@ -34,7 +35,7 @@ pub(crate) const WALLS: &[Wall] = &[
     },
     Wall {
         around: "exact",
-        may: &["subject", "named", "dimension"],
+        may: &["subject", "named", "dimension", "members"],
         why: "a truth that is made with a solver can only agree with it",
     },
     Wall {

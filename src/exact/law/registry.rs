@@ -1,33 +1,38 @@
 //! Registration: one line makes a law the truth's law of a material.
 
-/// Declares the family of laws. A line
-///
-/// `"hencky" => hencky::HenckyLaw("young", "poisson"),`
-///
-/// names a material as suites do, its law, and the keys of the parameters in the order in which
-/// `HenckyLaw::new` takes them.
+/// Declares the family of laws, from the lines of [`each_material`](crate::members) that have one.
 macro_rules! laws {
-    ($($material:literal => $file:ident::$law:ident($($parameter:literal),*),)+) => {
-        $(pub use $file::$law;)+
+    (@new $law:ident, $value:ident, {
+        $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
+    }) => {
+        $law::new($($value($crate::members::key(stringify!($field)))?),*)
+    };
+    ($($material:literal => $solver_file:ident::$solver:ident $parameters:tt
+        $(, truth $file:ident::$law:ident)?;)+
+    ) => {
+        $($(
+            mod $file;
+            pub use $file::$law;
+        )?)+
 
         /// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b`, by its constitutive law.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Equation {
-            $(
+            $($(
                 #[doc = concat!("Of a `", $material, "` body.")]
                 $law($law),
-            )+
+            )?)+
         }
 
-        $(impl From<$law> for Equation {
+        $($(impl From<$law> for Equation {
             fn from(law: $law) -> Self {
                 Self::$law(law)
             }
-        })+
+        })?)+
 
         impl Equation {
             /// Names of all laws, as suites spell them.
-            pub const NAMES: &[&'static str] = &[$($law::NAME),+];
+            pub const NAMES: &[&'static str] = &[$($($law::NAME,)?)+];
 
             /// The equation of a body of a material, from the material's name and the values of
             /// its parameters by key; none if the truth knows no law of it.
@@ -36,7 +41,9 @@ macro_rules! laws {
                 parameter: impl Fn(&str) -> Option<f64>,
             ) -> Option<Self> {
                 Some(match material {
-                    $($material => Self::$law($law::new($(parameter($parameter)?),*)),)+
+                    $($($material => {
+                        Self::$law($crate::exact::law::laws!(@new $law, parameter, $parameters))
+                    })?)+
                     _ => return None,
                 })
             }
@@ -44,14 +51,14 @@ macro_rules! laws {
             /// Name of the law, as suites spell it.
             pub fn name(&self) -> &'static str {
                 match self {
-                    $(Self::$law(_) => $law::NAME,)+
+                    $($(Self::$law(_) => $law::NAME,)?)+
                 }
             }
 
             /// The equation as reports write it.
             pub fn text(&self) -> &'static str {
                 match self {
-                    $(Self::$law(_) => $law::EQUATION,)+
+                    $($(Self::$law(_) => $law::EQUATION,)?)+
                 }
             }
 
@@ -59,28 +66,28 @@ macro_rules! laws {
             /// reverses.
             pub(super) fn has_history(&self) -> bool {
                 match self {
-                    $(Self::$law(_) => $law::HAS_HISTORY,)+
+                    $($(Self::$law(_) => $law::HAS_HISTORY,)?)+
                 }
             }
 
             /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
-                    $(Self::$law(law) => law.piola(grad),)+
+                    $($(Self::$law(law) => law.piola(grad),)?)+
                 }
             }
 
             /// Stiffest modulus at rest (Pa): a bound for stresses of a given strain.
             pub fn modulus(&self) -> f64 {
                 match self {
-                    $(Self::$law(law) => law.modulus(),)+
+                    $($(Self::$law(law) => law.modulus(),)?)+
                 }
             }
 
             /// `3 lambda + 2 mu` (Pa) of a theory of small strains; none of a law of finite ones.
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
-                    $(Self::$law(law) => law.small_strain_modulus(),)+
+                    $($(Self::$law(law) => law.small_strain_modulus(),)?)+
                 }
             }
 
@@ -88,7 +95,7 @@ macro_rules! laws {
             /// `grad`.
             pub(super) fn flows(&self, grad: f64) -> bool {
                 match self {
-                    $(Self::$law(law) => law.flows(grad),)+
+                    $($(Self::$law(law) => law.flows(grad),)?)+
                 }
             }
 
@@ -99,7 +106,7 @@ macro_rules! laws {
             /// Why it does not, and what a suite can state instead.
             pub fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
                 match self {
-                    $(Self::$law(law) => law.admits(dimension, at_rest),)+
+                    $($(Self::$law(law) => law.admits(dimension, at_rest),)?)+
                 }
             }
         }

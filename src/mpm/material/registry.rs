@@ -1,17 +1,15 @@
 //! Registration: one line makes a material known by name, with the keys of its parameters.
 
-/// Declares the family of materials. A line
-///
-/// `"hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON },`
-///
-/// names the material, its type and its parameters in the order in which `Hencky::new` takes them.
-/// Each field is the key that suites write; `#[serde(default)]` before it makes the key optional
-/// and zero. The density, which every material has and no law reads, is added to the keys.
+/// Declares the family of materials, from the lines of [`each_material`](crate::members). The
+/// density, which every material has and no law reads, is added to the keys.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
-    },)+) => {
-        $(pub use $file::$member;)+
+    } $(, truth $law_file:ident::$law:ident)?;)+) => {
+        $(
+            mod $file;
+            pub use $file::$member;
+        )+
 
         /// A material as suites write it: its name, its parameters and its density, each
         /// an `N`, which stands for a number.
@@ -129,8 +127,3 @@ macro_rules! materials {
     };
 }
 pub(super) use materials;
-
-/// The key of a field: `yield` for `r#yield`.
-pub(super) fn key(field: &'static str) -> &'static str {
-    field.trim_start_matches("r#")
-}
