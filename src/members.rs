@@ -29,6 +29,48 @@ macro_rules! each_material {
 }
 pub(crate) use each_material;
 
+/// Calls the macro `declare` with every load and effect of a scene. A line
+///
+/// `ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec,`
+/// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
+///
+/// gives its member of `EffectName` and its name in suites; the file and the type of its words in
+/// `suite/compile/load`; the file and the type of the effect in `mpm/effect`, where it has one of
+/// its own; and the members without which it means nothing, where there are any.
+macro_rules! each_effect {
+    ($declare:ident) => {
+        $declare! {
+            /// A uniform acceleration, constant or a function of time.
+            Gravity = "gravity" => gravity::GravitySpec, effect gravity::Gravity;
+            /// A force per unit mass that depends on the particle, declared or manufactured.
+            BodyForce = "body_force" => body_force::BodyForceSpec, effect body_force::BodyForce;
+            /// Damping in proportion to mass.
+            Damping = "damping" => damping::DampingSpec, effect damping::Damping;
+            /// A share of the force out of balance, against the motion.
+            LocalDamping = "local_damping" => local_damping::LocalDampingSpec,
+                effect local_damping::LocalDamping;
+            /// A pressure against compression, for shocks.
+            ArtificialViscosity = "artificial_viscosity" => artificial_viscosity::ViscositySpec,
+                effect artificial_viscosity::ArtificialViscosity;
+            /// A traction on a face of the body, carried by the layer of particles at that face.
+            Traction = "traction" => traction::TractionSpec, effect traction::Traction;
+            /// A pressure on a face of the body, which follows the face.
+            Pressure = "pressure" => pressure::PressureSpec, effect pressure::Pressure;
+            /// A total force on a set of particles.
+            SetForce = "force" => set_force::SetForceSpec, effect set_force::SetForce;
+            /// A prescribed velocity of a set of particles.
+            PrescribedVelocity = "velocity" => set_velocity::SetVelocitySpec,
+                effect prescribed_velocity::PrescribedVelocity;
+            /// Conduction of heat, with a temperature on particles and its own fields on the grid.
+            Heat = "heat" => heat::HeatSpec, effect heat::Heat;
+            /// Strain that temperature makes.
+            ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec,
+                effect thermal_expansion::ThermalExpansion, needs [Heat];
+        }
+    };
+}
+pub(crate) use each_effect;
+
 /// The key of a field: `yield` for `r#yield`.
 pub(crate) fn key(field: &'static str) -> &'static str {
     field.trim_start_matches("r#")

@@ -15,9 +15,9 @@ pub(crate) mod grammar;
 pub(crate) mod model;
 pub mod yaml;
 
-pub use compile::load::EffectName;
 pub use grammar::{CrossingLevels, EquationName, NormName};
 pub use model::heat::SceneHeat;
+pub use model::load::EffectName;
 pub use model::method::Method;
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
 pub use model::stability::{StabilityCase, StabilityPlan};

@@ -50,7 +50,17 @@ pub(crate) const WALLS: &[Wall] = &[
     },
     Wall {
         around: "suite",
-        may: &["mpm", "fem", "exact", "verify", "report", "subject", "named", "dimension"],
+        may: &[
+            "mpm",
+            "fem",
+            "exact",
+            "verify",
+            "report",
+            "subject",
+            "named",
+            "dimension",
+            "members",
+        ],
         why: "it says what is to be run, and must be readable without what runs it",
     },
     Wall {
@@ -86,6 +96,7 @@ pub(crate) const WALLS: &[Wall] = &[
             "subject",
             "named",
             "dimension",
+            "members",
         ],
         why: "a checked value does not depend on how it was checked",
     },

@@ -8,10 +8,9 @@ use crate::mpm::MaterialPlan;
 use crate::subject::Start;
 use crate::suite::grammar::EquationName;
 use crate::suite::model::grid_size::cell_size;
-use crate::suite::model::load::{LoadTarget, SceneLoad};
+use crate::suite::model::load::{ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
-use std::sync::Arc;
 
 /// The FEM bar of `method`; also what references are made of.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {
@@ -43,7 +42,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
 
 /// Stated and manufactured forces of a bar, if it has any.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
-    let on_face = |load: &&Arc<dyn SceneLoad>| matches!(load.target(), LoadTarget::Face(_));
+    let on_face = |load: &&ListedLoad| matches!(load.target(), LoadTarget::Face(_));
     let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
     if stated.is_empty() && made.is_none() {
         return None;
@@ -63,7 +62,7 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
 }
 
 /// Adds the stated forces (m/s2) at each place; those that are uniform are computed once.
-fn add_stated(loads: &[Arc<dyn SceneLoad>], t: f64, places: &[f64], values: &mut [f64]) {
+fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t);
         for value in &mut *values {

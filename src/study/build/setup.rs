@@ -9,12 +9,11 @@ use crate::mpm::{
     BasisName, BodyForce, Effect, Grid, HeatSolver, Kernel, Particles, Setup, Vector, kernel,
 };
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
-use crate::suite::model::load::{self, BodySite, LoadTarget, SceneLoad};
+use crate::suite::model::load::{self, BodySite, ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene};
-use std::sync::Arc;
 
 /// A body at the start of a run.
 pub(crate) struct Body<'a> {
@@ -133,7 +132,7 @@ fn effects<const D: usize>(
     (grid, basis): (&Grid<D>, BasisName),
     particles: &mut Particles<D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, String> {
-    let on_set = |load: &Arc<dyn SceneLoad>| matches!(load.target(), LoadTarget::Set(_));
+    let on_set = |load: &ListedLoad| matches!(load.target(), LoadTarget::Set(_));
     let loads = &body.own.loads;
     let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
     let site = BodySite { grid, basis, heat: body.heat, particles };
@@ -144,7 +143,7 @@ fn effects<const D: usize>(
 }
 
 fn built<const D: usize>(
-    loads: &[Arc<dyn SceneLoad>],
+    loads: &[ListedLoad],
     mut site: BodySite<'_, D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, String> {
     loads.iter().map(|load| load::build(load, &mut site)).collect()

@@ -51,8 +51,6 @@ pub(crate) fn lacking(plan: &ConvergencePlan, without: Dispensable) -> Convergen
 /// Takes an effect out of a scene, with those that need it.
 fn remove(scene: &mut Scene, effect: EffectName) {
     let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
-    let gone: Vec<&str> =
-        EffectName::ALL.iter().filter(|other| goes(other)).map(|other| other.name()).collect();
-    scene.loads.retain(|load| !gone.contains(&load.name()));
+    scene.loads.retain(|load| !goes(&load.effect));
     scene.bodies.iter_mut().for_each(|body| remove(body, effect));
 }

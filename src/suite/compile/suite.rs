@@ -105,7 +105,7 @@ fn loads(
 ) -> Result<(), Diagnostic> {
     let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
     for (i, load) in spec.scene.loads.iter().enumerate() {
-        let entry = LoadEntry { evaluator, path: load.path(i), scene };
+        let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
         load.words().check(&entry, &study)?;
         if let Some(lacked) = load.words().lacked_by_fem() {
             subject_support::fem_lacks(evaluator, spec, lacked)?;

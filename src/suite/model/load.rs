@@ -5,8 +5,56 @@ use crate::dimension::in_every_dimension;
 use crate::exact::heat::Conduction;
 use crate::exact::{Condition, Term};
 use crate::fem::TimeFunction;
+use crate::members::each_effect;
 use crate::mpm::{BasisName, Effect, Grid, Particles};
+use crate::named::named;
+use std::ops::Deref;
 use std::sync::Arc;
+
+/// Declares the names of the loads and effects, from the lines of [`each_effect`](crate::members).
+macro_rules! names {
+    ($(
+        $(#[$meta:meta])*
+        $member:ident = $text:literal => $words_file:ident::$words:ident
+        $(, effect $file:ident::$effect:ident)?
+        $(, needs [$($need:ident),+])?;
+    )+) => {
+        named! {
+            /// Names of the loads and effects, as suites write them. Those on the same part of a
+            /// scene are applied in their order.
+            pub enum EffectName {
+                $($(#[$meta])* $member = $text,)+
+            }
+        }
+
+        impl EffectName {
+            /// The effects without which this one means nothing.
+            pub fn needs(self) -> &'static [Self] {
+                match self {
+                    $(Self::$member => &[$($(Self::$need),+)?],)+
+                }
+            }
+        }
+    };
+}
+
+each_effect!(names);
+
+impl EffectName {
+    /// Refuses a list of effects of which one needs another that is not there.
+    ///
+    /// # Errors
+    /// The effect that is at fault, and one line that names both.
+    pub fn combine(listed: &[Self]) -> Result<(), (Self, String)> {
+        for &effect in listed {
+            if let Some(needed) = effect.needs().iter().find(|needed| !listed.contains(needed)) {
+                let (name, needed) = (effect.name(), needed.name());
+                return Err((effect, format!("`{name}` needs `{needed}`, which is not listed")));
+            }
+        }
+        Ok(())
+    }
+}
 
 /// Part of the scene that a load acts on. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,9 +92,6 @@ in_every_dimension! {
 
 /// A load or effect that a scene lists, with every number computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Its name, as suites write it.
-    fn name(&self) -> &'static str;
-
     /// Where it acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
@@ -77,15 +122,30 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     }
 }
 
+/// A load that a scene lists, and its name.
+#[derive(Debug, Clone)]
+pub(crate) struct ListedLoad {
+    pub(crate) effect: EffectName,
+    pub(crate) load: Arc<dyn SceneLoad>,
+}
+
+impl Deref for ListedLoad {
+    type Target = dyn SceneLoad;
+
+    fn deref(&self) -> &Self::Target {
+        self.load.as_ref()
+    }
+}
+
 /// The effect of `load` in D dimensions.
 ///
 /// # Errors
 /// One line that says why there is none.
 pub(crate) fn build<const D: usize>(
-    load: &Arc<dyn SceneLoad>,
+    load: &ListedLoad,
     site: &mut BodySite<'_, D>,
 ) -> Result<Box<dyn Effect<D>>, String> {
-    let load: Arc<dyn BuildEffects> = load.clone();
+    let load: Arc<dyn BuildEffects> = load.load.clone();
     let load = load.in_dimension::<D>();
     load.ok_or_else(|| format!("there is no MPM in {D} dimensions"))?.build(site)
 }

@@ -2,7 +2,7 @@
 
 use super::boundary::BoundaryCondition;
 use super::heat::SceneHeat;
-use super::load::{LoadTarget, SceneLoad};
+use super::load::{EffectName, ListedLoad, LoadTarget};
 use crate::exact::formula::Formula;
 use crate::exact::{Region, Round, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
@@ -30,7 +30,7 @@ pub struct Scene {
     /// Sets of particles, on each of which one load acts.
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
-    pub(crate) loads: Vec<Arc<dyn SceneLoad>>,
+    pub(crate) loads: Vec<ListedLoad>,
     /// Several bodies, each a scene of its own with the grid, the faces and the loads of this one;
     /// empty where there is one. Then this is the box around all of them, with the first one's
     /// material.
@@ -73,13 +73,13 @@ impl Scene {
         if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
     }
 
-    /// Whether the scene lists the load called `name`.
-    pub(crate) fn lists(&self, name: &str) -> bool {
-        self.loads.iter().any(|load| load.name() == name)
+    /// Whether the scene lists `effect`.
+    pub(crate) fn lists(&self, effect: EffectName) -> bool {
+        self.loads.iter().any(|load| load.effect == effect)
     }
 
     /// The loads on one part of the scene.
-    pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &Arc<dyn SceneLoad>> {
+    pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &ListedLoad> {
         self.loads.iter().filter(move |load| load.target() == target)
     }
 
@@ -90,7 +90,7 @@ impl Scene {
 
     /// Terms of the loads in the equation of motion.
     pub(crate) fn terms(&self) -> Vec<Arc<dyn Term>> {
-        self.loads.iter().map(|load| load.clone() as Arc<dyn Term>).collect()
+        self.loads.iter().map(|load| load.load.clone() as Arc<dyn Term>).collect()
     }
 
     /// The name of the first set that is driven.

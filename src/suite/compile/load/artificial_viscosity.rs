@@ -18,7 +18,7 @@ pub(crate) struct ViscositySpec {
 
 impl LoadWords for ViscositySpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        entry.refuse_second("artificial_viscosity", "artificial viscosity")?;
+        entry.refuse_second("artificial viscosity")?;
         let coefficient = |key: &str, text: &NumberText| {
             let path = entry.path.then(key);
             let value = entry.evaluator.number(&path, text)?;
@@ -53,10 +53,6 @@ struct ViscosityLoad {
 impl Term for ViscosityLoad {}
 
 impl SceneLoad for ViscosityLoad {
-    fn name(&self) -> &'static str {
-        "artificial_viscosity"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         let Self { linear, quadratic, .. } = self;
         let text = format!("artificial, linear {linear}, quadratic {quadratic}");

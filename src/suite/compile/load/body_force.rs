@@ -19,7 +19,7 @@ pub(crate) struct BodyForceSpec(Vec<NumberText>);
 
 impl LoadWords for BodyForceSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        entry.refuse_second("body_force", "a body force")?;
+        entry.refuse_second("a body force")?;
         Ok(Arc::new(BodyForceLoad(entry.of_place_and_time(&entry.path, &self.0)?)))
     }
 }
@@ -39,10 +39,6 @@ impl Term for BodyForceLoad {
 }
 
 impl SceneLoad for BodyForceLoad {
-    fn name(&self) -> &'static str {
-        "body_force"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         vec![("body force".to_owned(), format!("{} m/s2", sources(&self.0)))]
     }

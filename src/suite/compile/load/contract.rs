@@ -8,7 +8,7 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
 use crate::suite::compile::scene::sets;
-use crate::suite::model::load::{LoadTarget, SceneLoad};
+use crate::suite::model::load::{EffectName, LoadTarget, SceneLoad};
 use crate::suite::model::scene::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -61,6 +61,7 @@ pub(crate) trait LoadWords {
 /// Where a load is compiled: its place in the file, and the scene with the loads before it.
 pub(crate) struct LoadEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
+    pub(crate) effect: EffectName,
     /// Of its value.
     pub(crate) path: Path,
     pub(crate) scene: &'a Scene,
@@ -72,9 +73,9 @@ impl LoadEntry<'_> {
         self.scene.dimension()
     }
 
-    /// Refuses a second load called `name`, which messages call `title`.
-    pub(crate) fn refuse_second(&self, name: &str, title: &str) -> Result<(), Diagnostic> {
-        if self.scene.lists(name) {
+    /// Refuses a second load of the same kind, which messages call `title`.
+    pub(crate) fn refuse_second(&self, title: &str) -> Result<(), Diagnostic> {
+        if self.scene.lists(self.effect) {
             return Err(self.evaluator.diagnostic(&self.path, &format!("{title} appears twice")));
         }
         Ok(())
@@ -104,17 +105,17 @@ impl LoadEntry<'_> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
     }
 
-    /// The face called `name`, which is free and takes a load called `load`.
-    pub(crate) fn free_face(&self, load: &str, name: &str) -> Result<LoadedFace, Diagnostic> {
+    /// The face called `name`, which is free and takes the load.
+    pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");
-        sets::refuse_surface_load(evaluator, &path, load, name, &scene.sets)?;
+        sets::refuse_surface_load(evaluator, &path, self.effect.name(), name, &scene.sets)?;
         let number = face(evaluator, &path, name, self.dimension(), false)?;
         let hold = &scene.faces[number].hold;
         let taken = scene.loads_on(LoadTarget::Face(number)).next();
         let has = match taken {
             _ if !hold.is_free() => hold.verb().to_owned(),
-            Some(other) => format!("has a {} already", other.name()),
+            Some(other) => format!("has a {} already", other.effect.name()),
             None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
         };
         Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
@@ -127,7 +128,7 @@ impl LoadEntry<'_> {
         match self.scene.loads_on(LoadTarget::Set(number)).next() {
             None => Ok(LoadedSet { number, region: self.scene.sets[number].clone() }),
             Some(other) => {
-                let message = format!("the set `{name}` has a {} already", other.name());
+                let message = format!("the set `{name}` has a {} already", other.effect.name());
                 Err(self.evaluator.diagnostic(&path, &message))
             }
         }

@@ -19,7 +19,7 @@ pub(crate) struct DampingSpec(NumberText);
 
 impl LoadWords for DampingSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        entry.refuse_second("damping", "damping")?;
+        entry.refuse_second("damping")?;
         Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
     }
 
@@ -57,10 +57,6 @@ impl Term for DampingLoad {
 }
 
 impl SceneLoad for DampingLoad {
-    fn name(&self) -> &'static str {
-        "damping"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         vec![("damping".to_owned(), format!("{} 1/s", self.0.source()))]
     }

@@ -16,7 +16,7 @@ pub(crate) struct GravitySpec(Vec<NumberText>);
 
 impl LoadWords for GravitySpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        entry.refuse_second("gravity", "gravity")?;
+        entry.refuse_second("gravity")?;
         Ok(Arc::new(GravityLoad(entry.of_time(&entry.path, &self.0)?)))
     }
 }
@@ -36,10 +36,6 @@ impl Term for GravityLoad {
 }
 
 impl SceneLoad for GravityLoad {
-    fn name(&self) -> &'static str {
-        "gravity"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         vec![("gravity".to_owned(), format!("{} m/s2", sources(&self.0)))]
     }

@@ -29,7 +29,7 @@ pub(crate) struct HeatSpec {
 
 impl LoadWords for HeatSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        let LoadEntry { evaluator, path, scene } = entry;
+        let LoadEntry { evaluator, path, scene, .. } = entry;
         let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");
         if let Some(kind) = scene.round.as_ref().map(Round::name).or(panel) {
             let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
@@ -65,10 +65,6 @@ impl LoadWords for HeatSpec {
 impl Term for SceneHeat {}
 
 impl SceneLoad for SceneHeat {
-    fn name(&self) -> &'static str {
-        "heat"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         let (k, c) = (self.conductivity, self.capacity);
         let mut texts = vec![format!("conductivity {k} W/(m K), capacity {c} J/(kg K)")];

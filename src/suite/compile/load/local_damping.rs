@@ -16,7 +16,7 @@ pub(crate) struct LocalDampingSpec(NumberText);
 
 impl LoadWords for LocalDampingSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        entry.refuse_second("local_damping", "local damping")?;
+        entry.refuse_second("local damping")?;
         let share = entry.evaluator.number(&entry.path, &self.0)?;
         if !(0.0..1.0).contains(&share) {
             let message = format!("the share of local damping is {}", shown(share));
@@ -54,10 +54,6 @@ impl Term for LocalDampingLoad {
 }
 
 impl SceneLoad for LocalDampingLoad {
-    fn name(&self) -> &'static str {
-        "local_damping"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         let text = format!("{} of the force out of balance", shown(self.0));
         vec![("local damping".to_owned(), text)]

@@ -22,7 +22,7 @@ pub(crate) struct PressureSpec {
 impl LoadWords for PressureSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(PressureLoad {
-            face: entry.free_face("pressure", &self.on)?,
+            face: entry.free_face(&self.on)?,
             value: entry.scalar(&entry.path.then("value"), &self.value)?,
             placement: self.at.unwrap_or_default(),
         }))
@@ -53,10 +53,6 @@ impl Condition for PressureLoad {
 }
 
 impl SceneLoad for PressureLoad {
-    fn name(&self) -> &'static str {
-        "pressure"
-    }
-
     fn target(&self) -> LoadTarget {
         LoadTarget::Face(self.face.number)
     }

@@ -1,33 +1,15 @@
-//! Registration: one line makes a load known by name, with its words and the effects it needs.
+//! Registration: one line makes a load known by name, with its words.
 
-/// Declares the family of loads. A line
-///
-/// `/// Strain that temperature makes.`
-/// `ThermalExpansion = "thermal_expansion": thermal_expansion::ExpansionSpec, needs [Heat];`
-///
-/// gives the load the name that suites write and the type of its words, which implements
-/// [`LoadWords`](super::LoadWords). `needs` lists other members, and may be left out.
+/// Declares the family of loads, from the lines of [`each_effect`](crate::members). The type of the
+/// words implements [`LoadWords`](super::LoadWords).
 macro_rules! loads {
     ($(
         $(#[$meta:meta])*
-        $member:ident = $text:literal: $file:ident::$words:ident
+        $member:ident = $text:literal => $file:ident::$words:ident
+        $(, effect $effect_file:ident::$effect:ident)?
         $(, needs [$($need:ident),+])?;
     )+) => {
-        $crate::named::named! {
-            /// Names of the loads and effects, as suites write them.
-            pub enum EffectName {
-                $($(#[$meta])* $member = $text,)+
-            }
-        }
-
-        impl EffectName {
-            /// The effects without which this one means nothing.
-            pub fn needs(self) -> &'static [Self] {
-                match self {
-                    $(Self::$member => &[$($(Self::$need),+)?],)+
-                }
-            }
-        }
+        $(mod $file;)+
 
         /// One entry of `loads`.
         #[derive(Debug, Clone, serde::Deserialize)]

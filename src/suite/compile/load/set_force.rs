@@ -52,10 +52,6 @@ impl Term for SetForceLoad {
 }
 
 impl SceneLoad for SetForceLoad {
-    fn name(&self) -> &'static str {
-        "force"
-    }
-
     fn target(&self) -> LoadTarget {
         LoadTarget::Set(self.set.number)
     }

@@ -40,10 +40,6 @@ impl Term for SetVelocityLoad {
 }
 
 impl SceneLoad for SetVelocityLoad {
-    fn name(&self) -> &'static str {
-        "velocity"
-    }
-
     fn target(&self) -> LoadTarget {
         LoadTarget::Set(self.set.number)
     }

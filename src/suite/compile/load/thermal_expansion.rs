@@ -20,7 +20,7 @@ pub(crate) struct ExpansionSpec {
 impl LoadWords for ExpansionSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         let LoadEntry { evaluator, path, .. } = entry;
-        if entry.scene.lists("thermal_expansion") {
+        if entry.scene.lists(entry.effect) {
             return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
         }
         let rate_form = rate_form(entry)?;
@@ -41,7 +41,7 @@ impl LoadWords for ExpansionSpec {
 /// # Errors
 /// A complaint about a material whose heated stress is not known in the dimension of the scene.
 fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
-    let LoadEntry { evaluator, path, scene } = entry;
+    let LoadEntry { evaluator, path, scene, .. } = entry;
     let (name, d) = (scene.material.name(), scene.dimension());
     let law = scene.material.properties();
     if !law.is_elastic() {
@@ -76,10 +76,6 @@ impl Term for ExpansionLoad {
 }
 
 impl SceneLoad for ExpansionLoad {
-    fn name(&self) -> &'static str {
-        "thermal_expansion"
-    }
-
     fn rows(&self) -> Vec<(String, String)> {
         let Expansion { coefficient, reference } = self.0;
         let text = format!("{coefficient} 1/K, none at {reference} K");

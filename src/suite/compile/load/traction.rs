@@ -22,7 +22,7 @@ pub(crate) struct TractionSpec {
 impl LoadWords for TractionSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(TractionLoad {
-            face: entry.free_face("traction", &self.on)?,
+            face: entry.free_face(&self.on)?,
             value: entry.of_place_and_time(&entry.path.then("value"), &self.value)?,
             placement: self.at.unwrap_or_default(),
         }))
@@ -52,10 +52,6 @@ impl Condition for TractionLoad {
 }
 
 impl SceneLoad for TractionLoad {
-    fn name(&self) -> &'static str {
-        "traction"
-    }
-
     fn target(&self) -> LoadTarget {
         LoadTarget::Face(self.face.number)
     }

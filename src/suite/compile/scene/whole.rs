@@ -10,10 +10,11 @@ use crate::exact::formula::Formula;
 use crate::mpm::MaterialPlan;
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::load::{EffectName, LoadEntry, LoadSpec};
+use crate::suite::compile::load::{LoadEntry, LoadSpec};
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{SceneSpec, SetSpec};
+use crate::suite::model::load::{EffectName, ListedLoad};
 use crate::suite::model::scene::FACES;
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -173,11 +174,12 @@ fn add_loads(
     scene: &mut Scene,
 ) -> Result<(), Diagnostic> {
     for (i, load) in words.iter().enumerate() {
-        let entry = LoadEntry { evaluator, path: load.path(i), scene };
-        let compiled = load.words().compile(&entry)?;
-        scene.loads.push(compiled);
+        let effect = load.effect();
+        let entry = LoadEntry { evaluator, effect, path: load.path(i), scene };
+        let load = load.words().compile(&entry)?;
+        scene.loads.push(ListedLoad { effect, load });
     }
-    scene.loads.sort_by_key(|load| (load.target(), EffectName::rank(load.name())));
+    scene.loads.sort_by_key(|load| (load.target(), load.effect));
     Ok(())
 }
 

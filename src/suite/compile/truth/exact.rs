@@ -8,7 +8,7 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::quadrilateral::refuse_truth;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
-use crate::suite::model::load::LoadTarget;
+use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
@@ -140,7 +140,7 @@ fn manufactured(
             return Err(evaluator.diagnostic_at_key(&at, &message).with_help("remove it"));
         }
     }
-    if scene.lists("body_force") {
+    if scene.lists(EffectName::BodyForce) {
         let message = "the body force follows from the motion, and the scene states one besides";
         let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
                     have the force checked";
@@ -238,7 +238,8 @@ pub(crate) fn tolerance(
 /// A face with its condition, which is that of the load on it, if there is one: it is free then.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
-    let loaded = scene.loads_on(LoadTarget::Face(number)).find_map(|load| load.clone().condition());
+    let loaded =
+        scene.loads_on(LoadTarget::Face(number)).find_map(|load| load.load.clone().condition());
     let condition = loaded.unwrap_or_else(|| hold.clone());
     Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
 }
