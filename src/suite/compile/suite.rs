@@ -3,9 +3,10 @@
 
 use super::check::{fem_support, size, subject_support};
 use super::evaluator::{DeclaredParameter, Evaluator};
-use super::load::{LoadEntry, StudyFacts};
+use super::load::{LoadEntry, LoadSpec, StudyFacts};
 use super::path::Path;
 use super::run::{cases, refine, steps};
+use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, law};
 use super::wording::shown;
@@ -44,9 +45,10 @@ fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
 
 fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     let spec: ConvergenceSpec = read(source)?;
+    let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;
-    let scene = whole::scene(&evaluator, &spec.scene)?;
+    let scene = whole::scene(&evaluator, &words)?;
     fem_support::check(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
@@ -64,7 +66,7 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     let reference = reference.transpose()?.flatten();
     let same_method_dt = steps::same_method(&evaluator, &spec, &refine, &until, instants)?;
     law::check(&evaluator, &spec, &scene)?;
-    loads(&evaluator, &spec, &scene, latest)?;
+    loads(&evaluator, &spec, &words.loads, &scene, latest)?;
     if exact.is_none() && conduction.is_none() && reference.is_none() {
         conservation_only::check(&evaluator, &spec)?;
     }
@@ -100,11 +102,12 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
 fn loads(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
+    loads: &[LoadSpec],
     scene: &Scene,
     until: f64,
 ) -> Result<(), Diagnostic> {
     let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
-    for (i, load) in spec.scene.loads.iter().enumerate() {
+    for (i, load) in loads.iter().enumerate() {
         let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
         load.words().check(&entry, &study)?;
         if let Some(lacked) = load.words().lacked_by_fem() {

@@ -1,10 +1,9 @@
 //! Keys of a scene.
 
 use crate::mpm::MaterialSpec;
-use crate::suite::compile::boundary::BoundarySpec;
-use crate::suite::compile::load::LoadSpec;
 use crate::suite::yaml::{NumberText, Ordered};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -16,14 +15,16 @@ pub(crate) struct SceneSpec {
     pub(crate) contact: Option<ContactSpec>,
     pub(crate) grid: Option<BoxSpec>,
     pub(crate) material: Option<MaterialSpec<NumberText>>,
-    #[serde(default)]
-    pub(crate) boundary: Ordered<BoundarySpec>,
+    /// The words of boundary conditions stand in their files, and are read there.
+    #[serde(rename = "boundary")]
+    pub(crate) _boundary: Option<IgnoredAny>,
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
-    #[serde(default)]
-    pub(crate) loads: Vec<LoadSpec>,
+    /// As those of loads.
+    #[serde(rename = "loads")]
+    pub(crate) _loads: Option<IgnoredAny>,
 }
 
 /// One of several bodies.

@@ -7,6 +7,7 @@ use crate::mpm::MaterialSpec;
 use crate::suite::compile::boundary::FreeFace;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec};
 use crate::suite::model::Scene;
@@ -29,7 +30,7 @@ pub(crate) struct Listed<'w> {
 pub(crate) fn listed<'w>(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &'w SceneSpec,
+    words: &'w SceneWords<'_>,
 ) -> Result<Vec<Listed<'w>>, Diagnostic> {
     if let Some(bodies) = &words.bodies {
         refuse_beside(evaluator, path, words)?;
@@ -60,7 +61,7 @@ pub(crate) fn listed<'w>(
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
 ) -> Result<(), Diagnostic> {
     let alone = [
         ("body", words.body.is_some()),

@@ -6,8 +6,9 @@ use crate::exact::Round;
 use crate::mpm::Quadrilateral;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
+use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
@@ -133,7 +134,7 @@ fn radius(evaluator: &Evaluator<'_>, path: &Path, text: &NumberText) -> Result<f
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
     round: &Round,
 ) -> Result<(), Diagnostic> {
     let kind = round.name();

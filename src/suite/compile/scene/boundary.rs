@@ -4,7 +4,7 @@ use crate::suite::compile::boundary::{FaceEntry, FreeFace};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
-use crate::suite::grammar::SceneSpec;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::model::boundary::BoundaryCondition;
 use crate::suite::model::scene::FACES;
 use crate::suite::yaml::Diagnostic;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub(crate) fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
     dimension: usize,
 ) -> Result<Vec<Arc<dyn BoundaryCondition>>, Diagnostic> {
     let path = path.then("boundary");

@@ -8,5 +8,6 @@ pub(crate) mod lengths;
 pub(crate) mod material;
 pub(crate) mod quadrilateral;
 pub(crate) mod rest;
+pub(crate) mod scene_words;
 pub(crate) mod sets;
 pub(crate) mod whole;

@@ -4,8 +4,9 @@ use super::lengths::{LONGEST, SHORTEST};
 use crate::mpm::{Quadrilateral, Vector};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::{ConvergenceSpec, QuadrilateralSpec, SceneSpec};
+use crate::suite::grammar::{ConvergenceSpec, QuadrilateralSpec};
 use crate::suite::model::scene::FACES;
 use crate::suite::yaml::Diagnostic;
 
@@ -52,7 +53,7 @@ pub(crate) fn quadrilateral(
 pub(crate) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
     panel: &Quadrilateral,
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {

@@ -8,9 +8,10 @@ use crate::suite::compile::boundary::FaceAtRest;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::LoadSpec;
 use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::truth::conduction::{self, ConductionInputs};
 use crate::suite::compile::truth::exact;
-use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec, SceneSpec};
+use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use std::sync::Arc;
 pub(crate) fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
     faces: &mut [SceneFace],
 ) -> Result<(), Diagnostic> {
     let idle = |at: &Path, message: &str| {

@@ -12,6 +12,7 @@ use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::{LoadEntry, LoadSpec};
 use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{SceneSpec, SetSpec};
 use crate::suite::model::load::{EffectName, ListedLoad};
@@ -20,7 +21,10 @@ use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Checks the scene of a suite.
-pub(crate) fn scene(evaluator: &Evaluator<'_>, words: &SceneSpec) -> Result<Scene, Diagnostic> {
+pub(crate) fn scene(
+    evaluator: &Evaluator<'_>,
+    words: &SceneWords<'_>,
+) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let listed = bodies::listed(evaluator, &path, words)?;
     let contact = bodies::contact(evaluator, &path, words)?;
@@ -39,7 +43,7 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, words: &SceneSpec) -> Result<Scen
 fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
 ) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let dimension = dimension(evaluator, &path, &words.dimension)?;
@@ -111,7 +115,7 @@ fn dimension(
 fn faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    words: &SceneWords<'_>,
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Diagnostic> {
     let holds = boundary::holds(evaluator, path, words, dimension)?;

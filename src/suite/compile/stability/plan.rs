@@ -25,7 +25,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
     // The values of the suite itself come first: they mark parameters as used.
-    let base = setup(evaluator, spec)?;
+    let base = setup(evaluator, source, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
     let mut material = base.scene.material;

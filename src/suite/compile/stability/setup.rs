@@ -8,6 +8,7 @@ use crate::suite::compile::check::size;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::run::step_rule;
+use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::scene::whole;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::StabilitySpec;
@@ -15,7 +16,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Source};
 use crate::verify::Scales;
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
@@ -59,16 +60,17 @@ impl SetupTemplate {
 
     /// The run with these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
-        setup(&self.evaluator(values)?, &self.spec)
+        setup(&self.evaluator(values)?, &self.source, &self.spec)
     }
 }
 
 /// The set-up that `spec` describes.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
+    source: &Source,
     spec: &StabilitySpec,
 ) -> Result<RunSetup, Diagnostic> {
-    let scene = whole::scene(evaluator, &spec.scene)?;
+    let scene = whole::scene(evaluator, &SceneWords::read(source, &spec.scene)?)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");

@@ -1,0 +1,49 @@
+//! The words of a scene. Those of its loads and boundary conditions stand in the files of the loads
+//! and conditions: the grammar leaves them out, and they are read here, from the same text.
+
+use crate::suite::compile::boundary::BoundarySpec;
+use crate::suite::compile::load::LoadSpec;
+use crate::suite::grammar::SceneSpec;
+use crate::suite::yaml::{Diagnostic, Ordered, Source, read};
+use serde::Deserialize;
+use std::ops::Deref;
+
+/// All words of a scene.
+pub(crate) struct SceneWords<'a> {
+    scene: &'a SceneSpec,
+    pub(crate) boundary: Ordered<BoundarySpec>,
+    pub(crate) loads: Vec<LoadSpec>,
+}
+
+/// A suite, of which only this part is read.
+#[derive(Deserialize)]
+struct SuiteOfFamilies {
+    scene: SceneOfFamilies,
+}
+
+#[derive(Deserialize)]
+struct SceneOfFamilies {
+    #[serde(default)]
+    boundary: Ordered<BoundarySpec>,
+    #[serde(default)]
+    loads: Vec<LoadSpec>,
+}
+
+impl<'a> SceneWords<'a> {
+    /// The words of the `scene` that `source` holds.
+    ///
+    /// # Errors
+    /// The first mistake in its loads and boundary conditions, with its place.
+    pub(crate) fn read(source: &Source, scene: &'a SceneSpec) -> Result<Self, Diagnostic> {
+        let SuiteOfFamilies { scene: SceneOfFamilies { boundary, loads } } = read(source)?;
+        Ok(Self { scene, boundary, loads })
+    }
+}
+
+impl Deref for SceneWords<'_> {
+    type Target = SceneSpec;
+
+    fn deref(&self) -> &SceneSpec {
+        self.scene
+    }
+}
