@@ -20,6 +20,7 @@ pub(crate) mod kind;
 pub(crate) mod runner;
 pub(crate) mod stability;
 
+pub use build::setup::effects;
 pub use cache::results::ResultCache;
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use runner::Runner;

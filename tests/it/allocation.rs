@@ -1,5 +1,6 @@
 //! The hot loop allocates nothing, and what a solver says that it keeps is what the heap holds.
 
+use crate::common::effect::add;
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use allocation_counter::measure;
 use mpm_verify::exact::formula::{Expr, Formula, Scope};
@@ -285,24 +286,19 @@ fn expansion_that_is_split_off_allocates_in_the_first_step_only() {
     holds_its_memory("split", &mut Solver::new(setup).unwrap(), DT);
 }
 
-#[test]
-fn no_effect_is_left_out_above() {
-    let tested = [
-        "gravity",
-        "damping",
-        "traction",
-        "pressure",
-        "force",
-        "velocity",
-        "body_force",
-        "local_damping",
-        "artificial_viscosity",
-        "heat",
-        "thermal_expansion",
-    ];
-    for effect in EffectName::ALL {
-        assert!(tested.contains(&effect.name()), "`{}` is not held to its memory", effect.name());
+fn every_effect_holds_its_memory<const D: usize>() {
+    let (basis, scheme) = (BasisName::ContiguousGimp, SchemeName::Musl);
+    for &name in EffectName::ALL {
+        let mut setup = free_body::<D>((basis, TransferName::Apic), scheme);
+        add(name, &mut setup, basis, 0.1);
+        let name = format!("{D}-D `{}`", name.name());
+        holds_its_memory(&name, &mut Solver::new(setup).unwrap(), DT);
     }
+}
+
+#[rstest]
+fn a_step_with_any_effect_after_the_first_allocates_nothing(#[values(1, 2, 3)] dimension: usize) {
+    in_dimension!(dimension, every_effect_holds_its_memory());
 }
 
 #[test]

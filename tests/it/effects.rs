@@ -2,67 +2,19 @@
 //! stored, and what is listed adds what the README says, verified by the suites that it names.
 
 use crate::common::columns::columns;
+use crate::common::effect::add;
 use crate::common::interrupted::goes_on;
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
-    ArtificialViscosity, BasisName, Bodies, BodyForce, Boundary, Counted, Damping, Effect, Fixed,
-    Friction, Gravity, Grid, Heat, HeatSolver, HeatSource, LocalDamping, NeoHookean, Particles,
-    Placement, Prescribed, PrescribedVelocity, Pressure, Roller, SchemeName, SetForce, Setup, Side,
-    Solver, Tally, ThermalExpansion, Traction, TransferName, Vector,
+    BasisName, Bodies, Boundary, Counted, Fixed, Friction, Grid, Heat, HeatSolver, HeatSource,
+    NeoHookean, Particles, Prescribed, Roller, SchemeName, Setup, Side, Solver, Tally,
+    ThermalExpansion, TransferName, Vector,
 };
 use mpm_verify::study;
 use mpm_verify::subject::{Column, Holder, Profile, Subject};
 use mpm_verify::suite::{ConvergencePlan, EffectName, Suite, embedded};
 use rstest::rstest;
 use std::sync::Arc;
-
-type Boxed<const D: usize> = Box<dyn Effect<D>>;
-
-/// On the cells of the free body.
-fn viscosity(size: f64) -> ArtificialViscosity {
-    let (linear, quadratic, length, speed) = (size, size, H, 1.16);
-    ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }
-}
-
-/// Adds one of every effect, as strong as `size`, after those that it needs: with 0 it changes
-/// nothing.
-fn add<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) {
-    for needed in name.needs() {
-        add(*needed, setup, size);
-    }
-    let made = effect(name, setup, size);
-    setup.effects.push(made);
-}
-
-fn effect<const D: usize>(name: EffectName, setup: &mut Setup<D>, size: f64) -> Boxed<D> {
-    if name == EffectName::Heat {
-        let start = |x: &Vector<D>| (size * x[0], Vector::zeros());
-        return Box::new(Heat::new((size, 1.0), &mut setup.particles, start));
-    }
-    let particles = &setup.particles;
-    let uniform = move |t: f64| Vector::<D>::from_element(size * (1.0 + t));
-    let members: &[usize] = if size == 0.0 { &[] } else { &[0, 1] };
-    match name {
-        EffectName::Gravity => Box::new(Gravity(Box::new(uniform))),
-        EffectName::BodyForce => Box::new(BodyForce::pointwise(move |x, t| x * (size * t))),
-        EffectName::Traction => Box::new(Traction::on(particles, 0, Side::High, Box::new(uniform))),
-        EffectName::Pressure => {
-            let (side, at) = (Side::High, Placement::Particles);
-            Box::new(Pressure::at(particles, 0, side, at, Box::new(move |_, t| size * (1.0 + t))))
-        }
-        EffectName::SetForce => Box::new(SetForce::on(particles, &[0, 1], Box::new(uniform))),
-        EffectName::PrescribedVelocity => {
-            Box::new(PrescribedVelocity::on(particles, members, Box::new(move |_, t| uniform(t))))
-        }
-        EffectName::LocalDamping => Box::new(LocalDamping(size)),
-        EffectName::ArtificialViscosity => Box::new(viscosity(size)),
-        EffectName::Damping => Box::new(Damping(Box::new(move |t| size * (1.0 + t)))),
-        EffectName::ThermalExpansion => {
-            Box::new(ThermalExpansion::in_rate_form(size, 0.0, (1.0, 0.3)))
-        }
-        EffectName::Heat => unreachable!("made above"),
-    }
-}
 
 /// Every column of the particles as bits, 0 and -0 being one: `f + 0` is where they differ.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
@@ -85,16 +37,20 @@ fn is_absent_or_null<const D: usize>(method: (BasisName, TransferName), scheme: 
     setup.particles.track_deformation();
     let with_deformation = stepped(setup);
     for &name in EffectName::ALL {
-        let one = effect(name, &mut free_body::<D>(method, scheme), 0.0);
-        let without = if one.reads_deformation() { &with_deformation } else { &plain };
         let with = |size: f64| {
             let mut setup = free_body::<D>(method, scheme);
-            add(name, &mut setup, size);
-            stepped(setup)
+            add(name, &mut setup, method.0, size);
+            let reads_deformation = setup.effects.iter().any(|effect| effect.reads_deformation());
+            (stepped(setup), reads_deformation)
         };
         let what = format!("{D}-D {method:?} {scheme:?}: `{}`", name.name());
-        assert!(&with(0.0) == without, "{what} of no strength is not the same as none");
-        assert!(&with(0.1) != without, "{what} does nothing");
+        let (null, reads_deformation) = with(0.0);
+        let without = if reads_deformation { &with_deformation } else { &plain };
+        // A velocity of zero is a velocity.
+        if name != EffectName::PrescribedVelocity {
+            assert!(&null == without, "{what} of no strength is not the same as none");
+        }
+        assert!(&with(0.1).0 != without, "{what} does nothing");
     }
 }
 
@@ -262,9 +218,10 @@ fn are_in_the_readme(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> b
 fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
     let row = |&name: &EffectName| {
         let needed = |setup: &mut Setup<2>| {
-            name.needs().iter().for_each(|needed| add(*needed, setup, 0.1));
+            name.needs().iter().for_each(|needed| add(*needed, setup, BasisName::Linear, 0.1));
         };
-        (name.name(), row(name.name(), needed, |setup| add(name, setup, 0.1)))
+        let with = |setup: &mut Setup<2>| add(name, setup, BasisName::Linear, 0.1);
+        (name.name(), row(name.name(), needed, with))
     };
     let rows: Vec<(&str, String)> = EffectName::ALL.iter().map(row).collect();
     let named = |name: &str| *EffectName::ALL.iter().find(|one| one.name() == name).unwrap();
@@ -311,14 +268,14 @@ fn every_effect_goes_on<const D: usize>(scheme: SchemeName) {
     for &name in EffectName::ALL {
         let make = || {
             let mut setup = free_body::<D>(method, scheme);
-            add(name, &mut setup, 0.1);
+            add(name, &mut setup, method.0, 0.1);
             Solver::new(setup).unwrap()
         };
         assert!(goes_on(make, DT, &format!("{D}-D {scheme:?} `{}`", name.name())));
     }
     let make = || {
         let mut setup = free_body::<D>(method, scheme);
-        add(EffectName::Heat, &mut setup, 0.1);
+        add(EffectName::Heat, &mut setup, method.0, 0.1);
         setup.effects.push(Box::new(ThermalExpansion::of_deformation(0.1, 0.0)));
         setup.material = Box::new(NeoHookean::new(1.0, 0.3));
         Solver::new(setup).unwrap()
@@ -390,9 +347,9 @@ fn the_visits_of_a_step_make_up_its_transfers() {
     for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
         let mut setup = free_body::<2>(method, SchemeName::Musl);
         for name in [EffectName::Gravity, EffectName::BodyForce, EffectName::SetForce] {
-            add(name, &mut setup, 0.1);
+            add(name, &mut setup, method.0, 0.1);
         }
-        add(EffectName::ThermalExpansion, &mut setup, 0.1);
+        add(EffectName::ThermalExpansion, &mut setup, method.0, 0.1);
         let support = setup.kernel.support();
         let (kernel, tally) = Counted::new(setup.kernel);
         setup.kernel = Box::new(kernel);

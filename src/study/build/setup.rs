@@ -13,7 +13,7 @@ use crate::suite::model::load::{self, BodySite, ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
-use crate::suite::model::{ConvergencePlan, Scene};
+use crate::suite::model::{ConvergencePlan, Scene, Suite};
 
 /// A body at the start of a run.
 pub(crate) struct Body<'a> {
@@ -70,7 +70,7 @@ pub(crate) fn setup<const D: usize>(
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
-    let effects = effects(body, (&grid, basis), &mut particles)?;
+    let effects = effects_of(body, (&grid, basis), &mut particles)?;
     Ok(Setup {
         kernel,
         transfer: transfer.build(),
@@ -84,6 +84,20 @@ pub(crate) fn setup<const D: usize>(
         scheme,
         start,
     })
+}
+
+/// The effects that the scene of `suite` lists, on `particles` and a `grid` of the caller's.
+///
+/// # Errors
+/// One line that says why there are none.
+pub fn effects<const D: usize>(
+    suite: &Suite,
+    (grid, basis): (&Grid<D>, BasisName),
+    particles: &mut Particles<D>,
+) -> Result<Vec<Box<dyn Effect<D>>>, String> {
+    let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is no convergence study")?;
+    let site = BodySite { grid, basis, heat: plan.heat_problem(), particles };
+    built(&plan.scene.loads, site)
 }
 
 /// A body at rest; `with` may wrap its kernel.
@@ -127,7 +141,7 @@ fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D
 }
 
 /// The loads of the body as effects; a manufactured force comes before those on sets.
-fn effects<const D: usize>(
+fn effects_of<const D: usize>(
     body: &Body<'_>,
     (grid, basis): (&Grid<D>, BasisName),
     particles: &mut Particles<D>,

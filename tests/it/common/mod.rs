@@ -1,6 +1,7 @@
 //! Builders of scenes: bodies in any number of dimensions, and the methods to run them with.
 
 pub(crate) mod columns;
+pub(crate) mod effect;
 pub(crate) mod interrupted;
 
 use mpm_verify::mpm::{

@@ -17,6 +17,10 @@ pub(crate) struct ViscositySpec {
 }
 
 impl LoadWords for ViscositySpec {
+    fn example(_: &str) -> String {
+        "{linear: s, quadratic: s}".to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("artificial viscosity")?;
         let coefficient = |key: &str, text: &NumberText| {

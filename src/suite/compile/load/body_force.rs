@@ -18,6 +18,10 @@ const MOST_OPERATIONS: u64 = 5000;
 pub(crate) struct BodyForceSpec(Vec<NumberText>);
 
 impl LoadWords for BodyForceSpec {
+    fn example(vector: &str) -> String {
+        vector.to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("a body force")?;
         Ok(Arc::new(BodyForceLoad(entry.of_place_and_time(&entry.path, &self.0)?)))

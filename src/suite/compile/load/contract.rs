@@ -23,6 +23,13 @@ pub(crate) struct StudyFacts {
 
 /// One entry of `loads`: what suites write for a load.
 pub(crate) trait LoadWords {
+    /// Words for a load of strength `s`, zero being none, of which `vector` is a value with a
+    /// component for each axis; on the face `right`, or the set `some`. The laws of the family
+    /// enrol it by them.
+    fn example(vector: &str) -> String
+    where
+        Self: Sized;
+
     /// The load, checked, with every number computed.
     ///
     /// # Errors

@@ -18,6 +18,10 @@ const TIMES: u32 = 1000;
 pub(crate) struct DampingSpec(NumberText);
 
 impl LoadWords for DampingSpec {
+    fn example(_: &str) -> String {
+        "s*(1 + t)".to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("damping")?;
         Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))

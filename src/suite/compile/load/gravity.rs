@@ -15,6 +15,10 @@ use std::sync::Arc;
 pub(crate) struct GravitySpec(Vec<NumberText>);
 
 impl LoadWords for GravitySpec {
+    fn example(vector: &str) -> String {
+        vector.to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("gravity")?;
         Ok(Arc::new(GravityLoad(entry.of_time(&entry.path, &self.0)?)))

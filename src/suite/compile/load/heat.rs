@@ -28,6 +28,10 @@ pub(crate) struct HeatSpec {
 }
 
 impl LoadWords for HeatSpec {
+    fn example(_: &str) -> String {
+        "{conductivity: 0.1, capacity: 1, initial: s*X}".to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         let LoadEntry { evaluator, path, scene, .. } = entry;
         let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");

@@ -15,6 +15,10 @@ use std::sync::Arc;
 pub(crate) struct LocalDampingSpec(NumberText);
 
 impl LoadWords for LocalDampingSpec {
+    fn example(_: &str) -> String {
+        "s".to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("local damping")?;
         let share = entry.evaluator.number(&entry.path, &self.0)?;

@@ -20,6 +20,10 @@ pub(crate) struct PressureSpec {
 }
 
 impl LoadWords for PressureSpec {
+    fn example(_: &str) -> String {
+        "{on: right, value: s*(1 + t)}".to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(PressureLoad {
             face: entry.free_face(&self.on)?,

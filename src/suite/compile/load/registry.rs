@@ -17,6 +17,19 @@ macro_rules! loads {
             $($(#[$meta])* #[serde(rename = $text)] $member($file::$words),)+
         }
 
+        impl EffectName {
+            /// An entry of `loads` with this effect, of strength `s`, on a body in `dimension`
+            /// dimensions: on its face `right` or its set `some`, if not on the whole body.
+            pub fn example(self, dimension: usize) -> String {
+                let vector = vec!["s*(1 + t)"; dimension].join(", ");
+                let vector = format!("[{vector}]");
+                let words = match self {
+                    $(Self::$member => $file::$words::example(&vector),)+
+                };
+                format!("{}: {words}", self.name())
+            }
+        }
+
         impl LoadSpec {
             /// The effect that the entry asks for.
             pub(crate) fn effect(&self) -> EffectName {

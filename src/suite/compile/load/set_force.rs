@@ -18,6 +18,10 @@ pub(crate) struct SetForceSpec {
 }
 
 impl LoadWords for SetForceSpec {
+    fn example(vector: &str) -> String {
+        format!("{{on: some, value: {vector}}}")
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         let (set, scene) = (entry.free_set(&self.on)?, entry.scene);
         let (from, to) = set.region.within((&scene.from, &scene.to));

@@ -18,6 +18,10 @@ pub(crate) struct SetVelocitySpec {
 }
 
 impl LoadWords for SetVelocitySpec {
+    fn example(vector: &str) -> String {
+        format!("{{on: some, value: {vector}}}")
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(SetVelocityLoad {
             set: entry.free_set(&self.on)?,

@@ -18,6 +18,10 @@ pub(crate) struct ExpansionSpec {
 }
 
 impl LoadWords for ExpansionSpec {
+    fn example(_: &str) -> String {
+        "{coefficient: 0.1, reference: 0}".to_owned()
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         let LoadEntry { evaluator, path, .. } = entry;
         if entry.scene.lists(entry.effect) {

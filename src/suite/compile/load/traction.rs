@@ -20,6 +20,10 @@ pub(crate) struct TractionSpec {
 }
 
 impl LoadWords for TractionSpec {
+    fn example(vector: &str) -> String {
+        format!("{{on: right, value: {vector}}}")
+    }
+
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(TractionLoad {
             face: entry.free_face(&self.on)?,

@@ -1,0 +1,44 @@
+//! Effects of every kind, from the examples by which their words enrol them.
+
+use super::H;
+use mpm_verify::mpm::{BasisName, Setup};
+use mpm_verify::study;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::{EffectName, Suite};
+
+/// Adds the example of an effect, as strong as `size`, to a body of [`free_body`](super::free_body)
+/// with `basis`, after those that it needs: with 0 it changes nothing.
+pub(crate) fn add<const D: usize>(
+    name: EffectName,
+    setup: &mut Setup<D>,
+    basis: BasisName,
+    size: f64,
+) {
+    let source = Source::from_text("effect.yaml", suite(name, D, size)).unwrap();
+    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let made = study::effects(&suite, (&setup.grid, basis), &mut setup.particles).unwrap();
+    setup.effects.extend(made);
+}
+
+/// A suite of the free body with the example of an effect, and of those that it needs.
+fn suite(name: EffectName, dimension: usize, size: f64) -> String {
+    let corner = |cells: f64| format!("{:?}", vec![cells * H; dimension]);
+    let (from, to) = (corner(2.03), corner(5.03));
+    let listed = name.needs().iter().chain([&name]);
+    let loads: Vec<String> =
+        listed.map(|name| format!("    - {}", name.example(dimension))).collect();
+    let loads = loads.join("\n");
+    let some = corner(2.53);
+    let set = format!("  sets: {{some: {{box: {{from: {from}, to: {some}}}}}}}\n");
+    let sets = if loads.contains("on: some") { set.as_str() } else { "" };
+    format!(
+        "suite: effect\ntitle: an effect\nsource: a test\nparameters: {{s: {size}}}\n\
+         scene:\n  dimension: {dimension}\n  body: {{box: {{from: {from}, to: {to}}}}}\n  \
+         material: {{linear_elastic: {{young: 1, poisson: 0.3, density: 1}}}}\n\
+         {sets}  loads:\n{loads}\n\
+         run: {{until: 1e-3, dt: 1e-3}}\nrefine: {{cells: 3, ppc: {}}}\n\
+         methods:\n  - mpm: {{basis: linear, transfer: flip, scheme: musl}}\n\
+         expect:\n  - drift: {{mass: 1e-13}}\n    because: no step is made\n",
+        1 << dimension
+    )
+}
