@@ -121,18 +121,11 @@ impl Change {
     }
 }
 
-/// The line that every page must have: how many files of `src/` it touches, and lines it registers.
-pub(crate) fn counted(changes: &[Change]) -> String {
+/// Files of `src/` that the changes touch, and lines that they add to those that are there.
+pub(crate) fn counted(changes: &[Change]) -> (usize, usize) {
     let ours = changes.iter().filter(|change| change.is_in_src());
     let files: BTreeSet<&str> = ours.clone().map(|change| change.file.as_str()).collect();
-    let lines: usize = ours.map(Change::registered).sum();
-    format!("Files of `src`: {}. Lines in files that are there: {lines}.", files.len())
-}
-
-/// Files of `src/` that the changes touch.
-pub(crate) fn files(changes: &[Change]) -> usize {
-    let ours = changes.iter().filter(|change| change.is_in_src());
-    ours.map(|change| change.file.as_str()).collect::<BTreeSet<_>>().len()
+    (files.len(), ours.map(Change::registered).sum())
 }
 
 /// Names of the suites that the page adds.

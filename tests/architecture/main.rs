@@ -265,6 +265,8 @@ fn exercises() -> Vec<(markdown::Document, usize)> {
 
 #[test]
 fn exercises_apply_to_the_present_sources() {
+    let table = include_str!("../../docs/exercises/README.md");
+    assert_eq!(exercises().len(), exercises::PAGES.len(), "pages that are there");
     for (page, most) in exercises() {
         let file = &page.file;
         let changes = exercises::changes(&page).unwrap_or_else(|what| panic!("{what}"));
@@ -273,9 +275,12 @@ fn exercises_apply_to_the_present_sources() {
             exercises::check(&changes, root).and_then(|()| exercises::compiled(&changes, root));
         assert!(applied.is_ok(), "{file}: {}", applied.unwrap_err());
         let text = std::fs::read_to_string(root.join(file)).expect("a page");
-        let counted = exercises::counted(&changes);
+        let (files, lines) = exercises::counted(&changes);
+        let counted = format!("Files of `src`: {files}. Lines in files that are there: {lines}.");
         assert!(text.contains(&counted), "{file} must say: {counted}");
-        let files = exercises::files(&changes);
+        let name = file.rsplit('/').next().expect("a file");
+        let row = format!("({name}) | {files} | {lines}");
+        assert!(table.contains(&row), "docs/exercises/README.md must say: {row}");
         assert!(files <= most, "{file} touches {files} files of src/, {most} are wanted");
         let suites = exercises::suites(&changes);
         assert_eq!(suites.len(), 1, "{file} adds one suite that uses the new member");

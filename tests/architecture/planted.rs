@@ -191,11 +191,7 @@ fn an_exercise_is_counted() {
                 File: src/mod.rs\n```diff\n@@\n mod z;\n+mod a;\n@@\n+a\n-b\n```\n\n\
                 File: verification/a.yaml\n```yaml\nsuite: a\n```\n";
     let changes = exercises::changes(&page(text)).expect("blocks of an exercise");
-    assert_eq!(
-        exercises::counted(&changes),
-        "Files of `src`: 2. Lines in files that are there: 2."
-    );
-    assert_eq!(exercises::files(&changes), 2);
+    assert_eq!(exercises::counted(&changes), (2, 2), "files and lines");
     assert_eq!(exercises::suites(&changes), ["a"]);
 }
 
