@@ -75,7 +75,7 @@ fn without_what_is_not_there_nothing_changes() {
 
 #[rstest]
 #[case("gravty", "did you mean `gravity`?")]
-#[case("colour", "known effects: gravity, body_force, damping,")]
+#[case("colour", "known effects: gravity, body_force,")]
 fn an_effect_that_is_not_known(#[case] name: &str, #[case] hint: &str) {
     let found = Folder::new().call(&["explain", "set-force", "--without", name]);
     assert_eq!((found.code, found.out.as_str()), (super::BAD_INPUT, ""));
