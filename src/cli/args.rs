@@ -26,6 +26,9 @@ pub(super) enum Command {
     /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
     /// memory), and what is expected
     Explain(ExplainArgs),
+    /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
+    /// 1 if one is off by more than 1 %
+    Steps(StepsArgs),
     /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(CostArgs),
@@ -49,6 +52,15 @@ pub(super) struct ExplainArgs {
     /// Say what a step would no longer take without this effect of the scene
     #[arg(long, value_name = "EFFECT")]
     pub(super) without: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StepsArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Also the finer levels that suites list under `full`
+    #[arg(long)]
+    pub(super) full: bool,
 }
 
 #[derive(Debug, Args)]

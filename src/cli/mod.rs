@@ -10,6 +10,7 @@ mod run;
 mod select;
 mod show;
 mod status;
+mod steps;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -24,6 +25,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::List(args)) => show::list(&args.targets),
         Some(Command::Check(args)) => show::check(&args.targets),
         Some(Command::Explain(args)) => explain::explain(&args),
+        Some(Command::Steps(args)) => steps::steps(&args),
         Some(Command::Cost(args)) => cost::cost(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
     };

@@ -22,5 +22,6 @@ pub(crate) mod stability;
 
 pub use build::setup::effects;
 pub use cache::results::ResultCache;
+pub use convergence::time_steps::{TimeStep, time_steps};
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use runner::Runner;

@@ -38,7 +38,7 @@ pub use cost::{
     Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Workload, pareto_front, rankings,
 };
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
-pub use error::clock::{Clock, MOST_STEPS};
+pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
 pub use error::error_scale::ErrorScale;
 pub use error::norm::Norms;
 pub(crate) use error::norm::larger;

@@ -9,3 +9,4 @@ pub(crate) mod runner;
 pub(crate) mod small_step_reference;
 pub(crate) mod stable_step;
 pub(crate) mod statement;
+pub(crate) mod time_steps;

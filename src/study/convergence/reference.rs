@@ -4,9 +4,8 @@ use crate::exact::Truth;
 use crate::fem::Bar;
 use crate::study::build::bar::{bar, reference_method};
 use crate::subject::Subject;
-use crate::suite::model::ConvergencePlan;
 use crate::suite::model::grid_size::cell_size;
-use crate::verify::Clock;
+use crate::suite::model::{Against, ConvergencePlan};
 
 /// Displacement and velocity of a fine bar, kept at every instant of the study. Only asked at
 /// instants, so nothing is interpolated in time.
@@ -28,7 +27,7 @@ impl Reference {
         let method = reference_method(fine);
         let mut bar = bar(plan, method, fine.cells)?;
         let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
-        let clock = Clock::new(until, dt, plan.instants).ok_or("dt makes no sense")?;
+        let clock = plan.clock(Against::Reference, until, dt).ok_or("dt makes no sense")?;
         let mut states = vec![state(&bar)];
         for step in 1..=clock.steps {
             bar.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;

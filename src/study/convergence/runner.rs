@@ -126,8 +126,7 @@ impl<'a> ConvergenceRunner<'a> {
         level: LevelPlan,
     ) -> Result<LevelOutcome, String> {
         let plan = self.plan;
-        let clock = Clock::new(case.until, level.dt, plan.instants)
-            .ok_or("the time step makes no sense")?;
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
         let RunContext { suite, fingerprint, .. } = self.context;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);

@@ -10,7 +10,6 @@ use crate::study::build::dispatch::subject;
 use crate::subject::{Samples, Start};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Case, ConvergencePlan};
-use crate::verify::Clock;
 use std::cmp::Ordering;
 
 /// Displacement and velocity of every label of a method at every instant.
@@ -31,7 +30,7 @@ impl FineSteps {
     pub(crate) fn compute(plan: &ConvergencePlan, case: &Case, dt: f64) -> Result<Self, String> {
         let level = plan.refine.levels.first().ok_or("no level")?;
         let mut subject = subject(plan, second_order(case.method), *level)?;
-        let clock = Clock::new(case.until, dt, plan.instants).ok_or("dt makes no sense")?;
+        let clock = case.clock(plan, dt).ok_or("dt makes no sense")?;
         let mut now = Samples::default();
         subject.sample(&mut now);
         let mut states = vec![now.clone()];

@@ -10,7 +10,7 @@ use crate::study::build::dispatch;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan};
-use crate::verify::Clock;
+use crate::verify::STEP_TOLERANCE;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -76,20 +76,28 @@ fn stepped(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> Result<Step
     Ok((level, limit.filter(|limit| taken > *limit)))
 }
 
-/// The step (s) that ends at the instants.
+/// The step (s) that is taken.
 fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
-    Clock::new(case.until, level.dt, plan.instants).map_or(level.dt, |clock| clock.dt())
+    case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the stable time step.
+/// Warning about a step that is longer than the stable time step, or not the one asked for.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<String> {
-    let (dt, limit) = (taken(plan, case, level), limit?);
-    (dt > limit).then(|| {
-        let (cells, times) = (level.cells, dt / limit);
+    let clock = case.clock(plan, level.dt)?;
+    let (dt, name, cells) = (clock.dt(), &case.name, level.cells);
+    if let Some(limit) = limit.filter(|limit| dt > *limit) {
+        let times = dt / limit;
+        return Some(format!(
+            "{name}, {cells} cells: dt = {dt:.4e} s is {times:.2} times the stable time \
+             step, {limit:.4e} s"
+        ));
+    }
+    let (ratio, steps) = (dt / level.dt, clock.steps);
+    let is_near = (ratio - 1.0).abs() <= STEP_TOLERANCE;
+    (!is_near).then(|| {
         format!(
-            "{}, {cells} cells: dt = {dt:.4e} s is {times:.2} times the longest \
-             stable time step, {limit:.4e} s",
-            case.name
+            "{name}, {cells} cells: the run takes {steps} steps of {dt:.4e} s, {ratio:.3} times what \
+             the suite asks for; a longer run, or a step that divides it, would take the step itself"
         )
     })
 }

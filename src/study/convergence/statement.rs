@@ -73,7 +73,7 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
         let share = shown(share);
         format!("{share} of the stable time step, case by case and level by level")
     });
-    push(rows, "dt", &format!("{dt}, shortened to divide the time between instants"));
+    push(rows, "dt", &format!("{dt}, to a whole number of steps"));
     push(rows, "instants", &format!("{instants}"));
     if plan.has_particles() {
         push(rows, "particles", &format!("{} per cell, equally spaced", ppc(usual)));

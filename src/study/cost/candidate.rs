@@ -5,8 +5,8 @@ use crate::suite::compile::check::size::{nodes, too_large};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan};
 use crate::verify::{
-    CaseOutcome, Clock, Convergence, End, Exponent, LevelOutcome, MethodCost, Model, Ranked,
-    Verdict, Workload,
+    CaseOutcome, Convergence, End, Exponent, LevelOutcome, MethodCost, Model, Ranked, Verdict,
+    Workload,
 };
 
 /// How many times finer than all levels that have run an order is trusted.
@@ -65,7 +65,7 @@ impl Candidate<'_> {
 
     /// Predicted load of a level, from the finest one that has run.
     pub(crate) fn load(&self, level: LevelPlan) -> Option<Workload> {
-        let clock = Clock::new(self.case.until, level.dt, self.plan.instants)?;
+        let clock = self.case.clock(self.plan, level.dt)?;
         let finest = self.finest();
         let known = load(self.plan, finest);
         let d = self.plan.scene.dimension() as f64;

@@ -11,7 +11,7 @@ use crate::study::runner::Runner;
 use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{CaseOutcome, Clock, LevelOutcome, TimedSuite, Timing, Workload};
+use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 
 /// Fewest repeats, and the time (s) that they must fill.
 const FEWEST: usize = 5;
@@ -47,8 +47,7 @@ pub(crate) fn seconds(
     case: &Case,
     level: LevelPlan,
 ) -> Result<f64, String> {
-    let clock =
-        Clock::new(case.until, level.dt, plan.instants).ok_or("the time step makes no sense")?;
+    let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
     alone(|| {
         let mut subject = subject(plan, case.method, level)?;
         let watch = LoadMonitor::start();

@@ -91,8 +91,8 @@ fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
     };
     subject_support::check(&evaluator, &spec, &plan)?;
     size::check(&evaluator, &spec, &plan, &places)?;
-    steps::check(&evaluator, &plan, &places, &until)?;
     plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
+    steps::check(&evaluator, &plan, &places)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
     Ok(assemble(head, parameters, &spec.functions, plan))

@@ -24,7 +24,7 @@ use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
-use crate::verify::{Expectation, Quantity};
+use crate::verify::{Clock, Expectation, Quantity};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -123,6 +123,26 @@ pub struct ReferencePlan {
     pub cells: u64,
     /// Wanted time step (s), a formula of h.
     pub dt: Formula,
+}
+
+impl ConvergencePlan {
+    /// The steps of a run until `until` (s) that is held `against` a truth, for a wanted step `dt`
+    /// (s). A truth that is computed is known at common instants only.
+    pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
+        match against {
+            Against::Exact | Against::Nothing => Clock::new(until, dt, self.instants),
+            Against::Reference | Against::SameMethod => {
+                Clock::with_common_instants(until, dt, self.instants)
+            }
+        }
+    }
+}
+
+impl Case {
+    /// The steps of a run, for a wanted step `dt` (s).
+    pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
+        plan.clock(self.against, self.until, dt)
+    }
 }
 
 impl Suite {

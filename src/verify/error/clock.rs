@@ -1,12 +1,12 @@
 //! From a wanted time step to a run that ends exactly where it should.
 
-/// The steps of one run. Errors are taken at equally spaced instants, the same on every level,
-/// and every instant is the end of a step.
+/// The steps of one run, and the instants at which errors are taken, each of which is the end of a
+/// step. Instants are as equally spaced as the steps allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// End of the run (s).
     pub until: f64,
-    /// Number of steps, a multiple of `instants`.
+    /// Number of steps.
     pub steps: u64,
     /// Number of instants at which the error is taken, the last one at `until`.
     pub instants: u64,
@@ -15,16 +15,35 @@ pub struct Clock {
 /// No run takes more steps than this: a misspelt dt must not run for years.
 pub const MOST_STEPS: f64 = 1e9;
 
+/// Largest relative difference between the step that is wanted and the one that is taken. An error
+/// of second order in the step differs by twice that from one level to the next: 0.03 in an order.
+pub const STEP_TOLERANCE: f64 = 0.01;
+
 impl Clock {
-    /// The largest step that is not above `wanted` (s) and divides the time between instants.
-    /// `None` if `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`]
-    /// steps would be needed.
+    /// The number of steps nearest to `until / wanted` (s), so that instants do not change the
+    /// step. A run of fewer steps than `instants` has an instant after each step. `None` if
+    /// `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`] steps would
+    /// be needed.
     pub fn new(until: f64, wanted: f64, instants: u64) -> Option<Self> {
+        let steps = Self::usable(until, wanted, instants, libm::round(until / wanted))?;
+        Some(Self { until, steps, instants: instants.min(steps) })
+    }
+
+    /// The largest step that is not above `wanted` (s) and divides the time between equally spaced
+    /// instants: runs of different steps, which are compared with one another, then have them in
+    /// common. `None` as for [`Clock::new`].
+    pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
         // A ratio that is a whole number but for rounding is that number.
-        let steps = libm::ceil(between * (1.0 - 1e-12)).max(1.0) * instants as f64;
+        let between = libm::ceil(between * (1.0 - 1e-12)).max(1.0);
+        let steps = Self::usable(until, wanted, instants, between * instants as f64)?;
+        Some(Self { until, steps, instants })
+    }
+
+    /// `steps`, at least one, if they make a run.
+    fn usable(until: f64, wanted: f64, instants: u64, steps: f64) -> Option<u64> {
         let usable = until > 0.0 && wanted > 0.0 && until.is_finite() && instants > 0;
-        (usable && steps <= MOST_STEPS).then_some(Self { until, steps: steps as u64, instants })
+        (usable && steps <= MOST_STEPS).then_some(steps.max(1.0) as u64)
     }
 
     /// Length of a step (s).
@@ -39,7 +58,10 @@ impl Clock {
 
     /// Whether the error is taken after `step` steps.
     pub fn is_instant(&self, step: u64) -> bool {
-        step.is_multiple_of(self.steps / self.instants)
+        // Instants up to the end of a step: one more than up to the end of the step before.
+        let passed =
+            |step: u64| u128::from(step) * u128::from(self.instants) / u128::from(self.steps);
+        step > 0 && passed(step) > passed(step - 1)
     }
 }
 
@@ -48,27 +70,54 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
+    fn taken(clock: &Clock) -> Vec<u64> {
+        (1..=clock.steps).filter(|step| clock.is_instant(*step)).collect()
+    }
+
     #[rstest]
-    #[case::talk(0.5, 1e-3, 50, Some(500))]
-    #[case::rounded_up_to_instants(0.5, 3e-3, 50, Some(200))]
-    #[case::coarse(0.5, 1.0, 50, Some(50))]
+    #[case::talk(0.5, 1e-3, 50, Some((500, 50)))]
+    #[case::no_multiple_of_instants(0.5, 3e-3, 50, Some((167, 50)))]
+    #[case::fewer_steps_than_instants(0.5, 0.051, 50, Some((10, 10)))]
+    #[case::one_step(0.5, 1.0, 50, Some((1, 1)))]
     #[case::zero(0.5, 0.0, 50, None)]
     #[case::negative(0.5, -1e-3, 50, None)]
     #[case::nan(0.5, f64::NAN, 50, None)]
+    #[case::no_instants(0.5, 1e-3, 0, None)]
     #[case::years(1.0, 1e-12, 50, None)]
-    fn steps_of_a_run(
+    fn instants_do_not_change_the_step(
         #[case] until: f64,
         #[case] wanted: f64,
         #[case] instants: u64,
-        #[case] steps: Option<u64>,
+        #[case] found: Option<(u64, u64)>,
     ) {
         let clock = Clock::new(until, wanted, instants);
-        assert_eq!(clock.map(|c| c.steps), steps);
-        if let Some(clock) = clock {
-            assert!(clock.dt() <= wanted * (1.0 + 1e-9));
-            let taken = (1..=clock.steps).filter(|k| clock.is_instant(*k)).count();
-            assert_eq!(taken as u64, instants);
-            assert!(clock.is_instant(clock.steps));
+        assert_eq!(clock.map(|clock| (clock.steps, clock.instants)), found);
+        let Some(clock) = clock else { return };
+        let (off, steps) = ((clock.dt() / wanted - 1.0).abs(), clock.steps as f64);
+        assert!(off <= 0.5 / steps + 1e-12, "{off} of the step");
+        let taken = taken(&clock);
+        assert_eq!((taken.len() as u64, taken.last()), (clock.instants, Some(&clock.steps)));
+        for (k, step) in taken.iter().enumerate() {
+            let equal = (k + 1) as f64 * until / clock.instants as f64;
+            assert!((clock.time(*step) - equal).abs() <= clock.dt(), "instant {k}");
         }
+    }
+
+    #[rstest]
+    #[case::talk(0.5, 1e-3, Some(500))]
+    #[case::rounded_up_to_instants(0.5, 3e-3, Some(200))]
+    #[case::coarse(0.5, 1.0, Some(50))]
+    #[case::zero(0.5, 0.0, None)]
+    fn common_instants_shorten_the_step(
+        #[case] until: f64,
+        #[case] wanted: f64,
+        #[case] steps: Option<u64>,
+    ) {
+        let clock = Clock::with_common_instants(until, wanted, 50);
+        assert_eq!(clock.map(|clock| clock.steps), steps);
+        let Some(clock) = clock else { return };
+        assert!(clock.dt() <= wanted * (1.0 + 1e-9));
+        let every: Vec<u64> = (1..=50).map(|k| k * clock.steps / 50).collect();
+        assert_eq!(taken(&clock), every);
     }
 }

@@ -30,8 +30,12 @@ const NO_STEP: &str = ", instants";
     &["a level with dt = 0.002 after one with 0.001", "expected levels from coarse to fine"]
 )]
 #[case::time_steps_that_become_the_same(
-    &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1, ▸0.1]}")],
-    &["dt = 0.1 and 1 both become 0.01 s", "shortened to end at 50 instants"]
+    &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1, ▸0.9]}")],
+    &["dt = 0.9 and 1 both become 0.5 s", "both runs take 1 steps"]
+)]
+#[case::instants_of_a_computed_truth_that_cut_the_step(
+    &[("dt: 1e-3", "dt: ▸3e-3"), ("\nrun:", "\nreference:\n  equation: small_strain\n  fem: {element: linear, mass: lumped, cells: 100, dt: 1e-3}\nrun:")],
+    &["dt = 0.003 becomes 0.0025 s, to end at 50 instants", "to 1 %", "`instants: 42` keeps this step"]
 )]
 #[case::a_time_step_that_is_none(
     &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1e-3, ▸\"0/0\"]}")],

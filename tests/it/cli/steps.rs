@@ -1,6 +1,6 @@
 //! Time steps by rule, and the warning of a step that is too long for any.
 
-use super::{BAR, Folder, SOUND};
+use super::{BAR, FAILED, Folder, SOUND};
 use serde_json::Value;
 
 /// The bar without its FEM, with another time step.
@@ -48,7 +48,33 @@ fn the_share_is_of_the_same_stable_time_step() {
     };
     for (rule, share) in [("auto", 0.5), ("{courant: 0.5}", 0.5), ("{courant: \"1/4\"}", 0.25)] {
         for found in steps(rule) {
-            assert!(found <= share && found > 0.98 * share, "{rule}: {found}");
+            assert!((found / share - 1.0).abs() < 0.01, "{rule}: {found}");
         }
     }
+}
+
+#[test]
+fn instants_leave_the_step_as_it_is() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", bar("dt: {courant: 0.3}").replace("until: 0.05", "until: 5"));
+    let found = folder.call(&["steps", "bar.yaml"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""), "{}", found.out);
+    assert!(found.out.starts_with("short-bar\n  mpm-linear-flip-musl, 4 cells: "), "{}", found.out);
+    assert_eq!(found.out.matches(", 50 instants").count(), 4, "{}", found.out);
+}
+
+#[test]
+fn a_run_of_few_steps_says_what_it_takes() {
+    let folder = Folder::new();
+    let text = bar("dt: \"h/100\"").replace("until: 0.05", "until: 0.006");
+    folder.write("bar.yaml", text.replace("verdict: failed", "order: [0, 3]"));
+    let found = folder.call(&["steps", "bar.yaml"]);
+    assert_eq!(found.code, FAILED, "{}", found.out);
+    let first = "6 cells: 4 steps of 1.5000e-3 s, 0.9000 of 1.6667e-3 s, 4 instants  off by more";
+    assert!(found.out.contains(first), "{}", found.out);
+    let errors = folder.call(&["run", "bar.yaml"]).errors;
+    assert!(
+        errors.contains("6 cells: the run takes 4 steps of 1.5000e-3 s, 0.900 times"),
+        "{errors}"
+    );
 }

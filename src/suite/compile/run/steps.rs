@@ -5,11 +5,11 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::ConvergenceSpec;
-use crate::suite::model::ConvergencePlan;
 use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::refine_plan::RefinePlan;
+use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::suite::yaml::Diagnostic;
-use crate::verify::{Axis, Clock};
+use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 
 /// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
 /// order, so that an error of second order on the finest level is known to 1/64.
@@ -34,7 +34,10 @@ pub(crate) fn same_method(
     let path = path.then("dt");
     let dt = evaluator.formula(&path, &same.dt, &["h"])?.eval(&[finest.h]);
     for (_, until) in until {
-        let clock = |dt| Clock::new(*until, dt, instants).map_or(0.0, |clock| clock.steps as f64);
+        let clock = |dt| {
+            Clock::with_common_instants(*until, dt, instants)
+                .map_or(0.0, |clock| clock.steps as f64)
+        };
         if !(clock(dt) >= SHORTER * clock(finest.dt)) {
             let message =
                 format!("the time step is {}, the finest level's {}", shown(dt), shown(finest.dt));
@@ -46,52 +49,55 @@ pub(crate) fn same_method(
 }
 
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is
-/// refined.
+/// refined. Instants that are shared with a computed truth must not change it.
 pub(crate) fn check(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
     places: &[LevelPaths],
-    until: &[(String, f64)],
 ) -> Result<(), Diagnostic> {
-    for (_, until) in until {
+    for case in &plan.cases {
         let mut coarser: Option<(f64, Clock)> = None;
         for (level, place) in plan.refine.levels.iter().zip(places) {
-            let clock = clock(evaluator, &place.dt, plan, *until, (level.cells, level.dt))?;
+            let clock = case.clock(plan, level.dt);
+            let clock = usable(evaluator, &place.dt, clock, (level.cells, level.dt))?;
             if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
                 if let Some(coarser) = coarser {
-                    finer(evaluator, &place.dt, plan, coarser, (level.dt, clock))?;
+                    finer(evaluator, &place.dt, coarser, (level.dt, clock))?;
                 }
                 coarser = Some((level.dt, clock));
+            }
+            let shares_instants = matches!(case.against, Against::Reference | Against::SameMethod);
+            if shares_instants && plan.refine.rule.is_none() {
+                as_wanted(evaluator, &place.dt, case, (level.dt, clock))?;
             }
         }
         if let Some(fine) = &plan.reference {
             let path = Path::top("reference").then("fem").then("dt");
             let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
-            clock(evaluator, &path, plan, *until, (fine.cells, dt))?;
+            let clock = plan.clock(Against::Reference, case.until, dt);
+            usable(evaluator, &path, clock, (fine.cells, dt))?;
         }
     }
     Ok(())
 }
 
-fn clock(
+fn usable(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    plan: &ConvergencePlan,
-    until: f64,
+    clock: Option<Clock>,
     (cells, dt): (u64, f64),
 ) -> Result<Clock, Diagnostic> {
-    Clock::new(until, dt, plan.instants).ok_or_else(|| {
+    clock.ok_or_else(|| {
         let message = format!("with {cells} cells the time step is {}", shown(dt));
         let label = "expected a positive step, and at most 1e9 of them";
         evaluator.diagnostic(path, &message).with_label(label)
     })
 }
 
-/// Steps end at instants, which can make two wanted steps the same.
+/// Two wanted steps can become the same in a short run.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    plan: &ConvergencePlan,
     (coarse, coarse_clock): (f64, Clock),
     (fine, fine_clock): (f64, Clock),
 ) -> Result<(), Diagnostic> {
@@ -104,6 +110,30 @@ fn finer(
         return Ok(());
     }
     let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine_clock.dt()));
-    let label = format!("steps are shortened to end at {} instants", plan.instants);
+    let label = format!("both runs take {} steps", fine_clock.steps);
     Err(evaluator.diagnostic(path, &message).with_label(&label))
+}
+
+/// Refuses instants that cut a step by more than the tolerance.
+fn as_wanted(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    case: &Case,
+    (wanted, clock): (f64, Clock),
+) -> Result<(), Diagnostic> {
+    let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;
+    if is_near(&clock) {
+        return Ok(());
+    }
+    let (dt, instants) = (shown(clock.dt()), clock.instants);
+    let message = format!("dt = {} becomes {dt} s, to end at {instants} instants", shown(wanted));
+    let label = "expected a step that divides the time between instants to 1 %";
+    let fewer = (1..instants).rev().find(|instants| {
+        Clock::with_common_instants(case.until, wanted, *instants).is_some_and(|c| is_near(&c))
+    });
+    let help = fewer.map_or_else(
+        || format!("a run until {} s has no such step of this length", shown(case.until)),
+        |fewer| format!("`instants: {fewer}` keeps this step"),
+    );
+    Err(evaluator.diagnostic(path, &message).with_label(label).with_help(&help))
 }
