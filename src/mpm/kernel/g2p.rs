@@ -96,7 +96,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
     ) {
         let ([velocity, acceleration], request) = (&self.fields, &self.request);
         let beside = request.change.is_some() && are_beside::<D>();
-        if request.change.is_some() && !beside {
+        if const { !are_beside::<D>() } && request.change.is_some() {
             for lane in lanes.clone() {
                 put::<B, _>(&mut sums.change[lane], patches.gather(simd, lane, acceleration));
             }
@@ -142,7 +142,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             let value = value[first..].iter_mut();
             if let Some(dt) = request.change {
                 let (change, at) =
-                    if are_beside::<D>() { (&sums.velocity, D) } else { (&sums.change, 0) };
+                    if const { are_beside::<D>() } { (&sums.velocity, D) } else { (&sums.change, 0) };
                 for (value, change) in value.zip(change) {
                     *value += components::<D>(*change * dt, at);
                 }
@@ -174,7 +174,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 
 impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
     // Sums for two axes at once, with their factors.
-    const NEEDS_32_REGISTERS: bool = true;
+    const NEEDS_32_REGISTERS: bool = D == 3;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {

@@ -32,7 +32,12 @@ pub(in crate::mpm) fn has_one_field<const D: usize>(
 ) -> bool {
     let by_gradient =
         request.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
-    2 * D < LANES && request.momentum.is_some() && by_gradient
+    fits_one_field::<D>() && request.momentum.is_some() && by_gradient
+}
+
+/// Whether momentum, force and mass are at most four numbers.
+const fn fits_one_field<const D: usize>() -> bool {
+    2 * D < LANES
 }
 
 /// Columns of a matrix, each in a register from lane `from` on.
@@ -102,20 +107,18 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
                 #[inline(always)]
                 |_, (m, v)| NodeTerm { value: Some(inertial(simd, *m, v)), ..NodeTerm::NONE },
             ),
-            Some(Affine::Slope(c)) => patches.scatter(
+            Some(affine) => patches.scatter(
                 simd,
                 field,
-                lanes.zip(particles.zip(&c[here])),
+                lanes.zip(particles.zip(&affine.state()[here])),
                 #[inline(always)]
-                |_, ((m, v), c)| NodeTerm::affine(inertial(simd, *m, v), columns(simd, c, 0), *m),
-            ),
-            Some(Affine::Moment(b)) => patches.scatter(
-                simd,
-                field,
-                lanes.zip(particles.zip(&b[here])),
-                #[inline(always)]
-                |lane, ((m, v), b)| {
-                    let slope = divide::<B, S, D>((simd, patches, lane), of_all, b, h);
+                |lane, ((m, v), state)| {
+                    let slope = match affine {
+                        Affine::Slope(_) => columns(simd, state, 0),
+                        Affine::Moment(_) => {
+                            divide::<B, S, D>((simd, patches, lane), of_all, state, h)
+                        }
+                    };
                     NodeTerm::affine(inertial(simd, *m, v), slope, *m)
                 },
             ),
@@ -234,7 +237,8 @@ impl<const D: usize, B: Basis> SimdPass for Scatter<'_, D, B> {
                             of_all.map(|of_all| &of_all.mean),
                         );
                     }
-                    if has_one_field {
+                    // Known in each dimension: where it is false, the loop is not compiled.
+                    if const { fits_one_field::<D>() } && has_one_field {
                         return self.all(simd, (first, lanes), patches, of_all);
                     }
                     if wants_inertia {

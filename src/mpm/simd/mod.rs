@@ -41,7 +41,7 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
         use fearless_simd::Simd as _;
-        if P::NEEDS_32_REGISTERS
+        if const { P::NEEDS_32_REGISTERS }
             && let Some(avx512) = level.as_avx512()
         {
             return avx512.vectorize(
