@@ -59,7 +59,7 @@ fn is_whole<B: Basis, const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
 }
 
 /// Functions of one node at the particle.
-struct Visited<const D: usize> {
+struct NodeWeights<const D: usize> {
     node: usize,
     weight: f64,
     gradient: Vector<D>,
@@ -68,11 +68,14 @@ struct Visited<const D: usize> {
 
 /// Nodes of the only particle. All laws share one copy of this loop, which is long.
 #[inline(never)]
-fn visited<B: Basis, const D: usize>(grid: &Grid<D>, particles: &Particles<D>) -> Vec<Visited<D>> {
+fn node_weights<B: Basis, const D: usize>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+) -> Vec<NodeWeights<D>> {
     let mut nodes = Vec::new();
     B::visit(grid, particles, 0, |i| {
         let (node, weight, gradient, offset) = (i.node, i.weight, *i.gradient, i.offset);
-        nodes.push(Visited { node, weight, gradient, offset });
+        nodes.push(NodeWeights { node, weight, gradient, offset });
     });
     nodes
 }
@@ -84,7 +87,7 @@ fn hold<B: Basis, const D: usize>(periodic: bool) {
         let (mut sum, mut slope) = (0.0, Vector::<D>::zeros());
         let mut mean = Vector::<D>::zeros();
         let (mut position, mut identity) = (Vector::<D>::zeros(), Matrix::<D>::zeros());
-        let nodes = visited::<B, D>(&grid, &particles);
+        let nodes = node_weights::<B, D>(&grid, &particles);
         for i in &nodes {
             assert!(i.weight >= 0.0, "no negative weight");
             sum += i.weight;
@@ -121,12 +124,12 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
     let eps = 1e-6;
     let field = |x: Vector<D>, node: usize| {
-        let nodes = visited::<B, D>(&grid, &particle(&grid, x));
+        let nodes = node_weights::<B, D>(&grid, &particle(&grid, x));
         nodes.iter().filter(|i| i.node == node).map(|i| i.weight).sum::<f64>()
     };
     for along in [0.4, 1.55, 2.1, 3.6] {
         let x = Vector::<D>::from_fn(|a, _| grid.origin[a] + grid.h * (along - 0.02 * a as f64));
-        for Visited { node, gradient, .. } in visited::<B, D>(&grid, &particle(&grid, x)) {
+        for NodeWeights { node, gradient, .. } in node_weights::<B, D>(&grid, &particle(&grid, x)) {
             for axis in 0..D {
                 let mut step = Vector::zeros();
                 step[axis] = eps;
@@ -197,7 +200,7 @@ fn values_by_hand(#[case] name: &str, #[case] at: f64, #[case] expected: &[f64])
         let counts = [B::count(cells, name != BasisName::QuadraticBSpline || at > 0.0)];
         let periodic = [name != BasisName::QuadraticBSpline || at > 0.0];
         let grid = Grid::<1>::new(Vector::zeros(), 1.0, [cells], periodic, counts);
-        let nodes = visited::<B, 1>(&grid, &particle(&grid, Vector::<1>::new(at)));
+        let nodes = node_weights::<B, 1>(&grid, &particle(&grid, Vector::<1>::new(at)));
         assert_eq!(nodes.len(), expected.len());
         for (node, expected) in nodes.iter().zip(expected) {
             assert_abs_diff_eq!(node.weight, *expected, epsilon = 1e-15);

@@ -141,8 +141,11 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         if let Some(value) = &mut request.value {
             let value = value[first..].iter_mut();
             if let Some(dt) = request.change {
-                let (change, at) =
-                    if const { are_beside::<D>() } { (&sums.velocity, D) } else { (&sums.change, 0) };
+                let (change, at) = if const { are_beside::<D>() } {
+                    (&sums.velocity, D)
+                } else {
+                    (&sums.change, 0)
+                };
                 for (value, change) in value.zip(change) {
                     *value += components::<D>(*change * dt, at);
                 }
