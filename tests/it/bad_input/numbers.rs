@@ -73,7 +73,7 @@ fn three_particles_per_cell_cannot_be_spaced_equally_in_2d() {
 )]
 #[case::more_states_than_fit(
     &[("cells: 1280", "cells: ▸1e7")],
-    &["10000000 elements at 250 instants are too many to keep", "expected at most 5e7"]
+    &["10000000 elements at 167 instants are too many to keep", "expected at most 5e7"]
 )]
 fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(COLUMN, edits, words);
