@@ -32,8 +32,9 @@ fn the_report_has_levels_a_model_and_both_rankings() {
         assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
     }
     let rows = |name: &str| found.out.lines().filter(|line| line.contains(name)).count();
-    // Four levels, a model, and two rows in each of two rankings.
-    assert_eq!(rows("mpm-linear-flip-musl"), 9);
+    // Four levels, a model, and two rows in each of two rankings; beside other tests a finer level can
+    // take less time than a coarser one, and then seconds have no exponent.
+    assert!((8..=9).contains(&rows("mpm-linear-flip-musl")), "{}", found.out);
     assert!(!found.out.contains("best split"), "{}", found.out);
 }
 
