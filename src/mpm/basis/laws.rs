@@ -15,7 +15,7 @@ use rstest::rstest;
 /// The basis that `docs/exercises/basis.md` adds.
 #[allow(unreachable_pub)] // public where the page puts it
 #[path = "../../../tests/exercises/quadratic_bernstein.rs"]
-mod exercise;
+pub(in crate::mpm) mod exercise;
 
 const CELLS: usize = 4;
 

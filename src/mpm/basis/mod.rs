@@ -7,7 +7,7 @@ mod cpdi;
 mod domain_1d;
 mod gimp;
 #[cfg(test)]
-mod laws;
+pub(in crate::mpm) mod laws;
 mod linear;
 mod node_accumulator;
 mod patch;
