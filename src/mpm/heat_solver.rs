@@ -5,6 +5,7 @@ use super::basis::Domain;
 use super::effect::Effect;
 use super::grid::Grid;
 use super::kernel::contract::Kernel;
+use super::kernel::tally::Tally;
 use super::particles::Particles;
 use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject};
 
@@ -55,6 +56,11 @@ impl<const D: usize> HeatSolver<D> {
             columns,
             ..Profile::default()
         }
+    }
+
+    /// See [`Solver::take_visits`](super::solver::Solver::take_visits).
+    pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
+        Tally::take(&[self.kernel.tally()])
     }
 }
 

@@ -51,11 +51,11 @@ pub use frame::FrameName;
 pub use grid::Grid;
 pub use heat_solver::HeatSolver;
 pub use kernel::contract::Kernel;
-pub use kernel::counting::{Counted, Tally};
 pub use kernel::moments::Moments;
 pub use kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
 pub use kernel::scalar_contract::Scalars;
 pub use kernel::settings::LoopSettings;
+pub use kernel::tally::Tally;
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{

@@ -6,6 +6,7 @@ use super::basis::Domain;
 use super::boundary::Advance;
 use super::frame::FrameName;
 use super::grid::Grid;
+use super::kernel::tally::Tally;
 use super::particles::Particles;
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::Setup;
@@ -87,6 +88,12 @@ impl<const D: usize> Solver<D> {
     pub fn profile(&self) -> Profile {
         let advected = Column::of_particles("advected x", &self.advected);
         self.setup.profile([self.cell_tracker.columns(), advected])
+    }
+
+    /// Parts of passes since the last call, with the particles visited; counted from the first call
+    /// on.
+    pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
+        Tally::take(&[self.setup.kernel.tally()])
     }
 
     /// Runs one pass of a step of length `dt` (s).

@@ -6,15 +6,14 @@ use crate::common::effect::add;
 use crate::common::interrupted::goes_on;
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
-    BasisName, Bodies, Boundary, Counted, Fixed, Friction, Grid, Heat, HeatSolver, HeatSource,
-    NeoHookean, Particles, Prescribed, Roller, SchemeName, Setup, Side, Solver, Tally,
-    ThermalExpansion, TransferName, Vector,
+    BasisName, Bodies, Boundary, Fixed, Friction, Grid, Heat, HeatSolver, HeatSource, NeoHookean,
+    Particles, Prescribed, Roller, SchemeName, Setup, Side, Solver, ThermalExpansion, TransferName,
+    Vector,
 };
 use mpm_verify::study;
 use mpm_verify::subject::{Column, Holder, Profile, Subject};
 use mpm_verify::suite::{ConvergencePlan, EffectName, Suite, embedded};
 use rstest::rstest;
-use std::sync::Arc;
 
 /// Every column of the particles as bits, 0 and -0 being one: `f + 0` is where they differ.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
@@ -71,13 +70,11 @@ fn an_effect_of_no_strength_is_none_bit_for_bit(
 fn taken(add: impl FnOnce(&mut Setup<2>)) -> Profile {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
     add(&mut setup);
-    let (kernel, tally) = Counted::new(setup.kernel);
-    setup.kernel = Box::new(kernel);
     let mut solver = Solver::new(setup).unwrap();
     solver.step(DT).unwrap();
-    tally.take();
+    solver.take_visits();
     solver.step(DT).unwrap();
-    Profile { passes: solver.passes(), visits: tally.take(), ..solver.profile() }
+    Profile { passes: solver.passes(), visits: solver.take_visits(), ..solver.profile() }
 }
 
 #[test]
@@ -230,19 +227,17 @@ fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
 
 /// Profile of the second step of two bodies that overlap.
 fn taken_by_two(friction: Option<f64>) -> Profile {
-    let tally = Arc::<Tally>::default();
     let setup = |shift: f64| {
         let method = (BasisName::Linear, TransferName::Flip);
         let mut setup = free_body::<2>(method, SchemeName::Musl);
         setup.particles.x.iter_mut().for_each(|x| x[0] += shift);
-        setup.kernel = Box::new(Counted::sharing(setup.kernel, &tally));
         setup
     };
     let mut bodies = Bodies::new(vec![setup(0.0), setup(0.3)], friction).unwrap();
     bodies.step(DT).unwrap();
-    tally.take();
+    bodies.take_visits();
     bodies.step(DT).unwrap();
-    Profile { passes: bodies.passes(), visits: tally.take(), ..bodies.profile() }
+    Profile { passes: bodies.passes(), visits: bodies.take_visits(), ..bodies.profile() }
 }
 
 #[test]
@@ -340,7 +335,7 @@ fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
     assert!(goes_on(make, DT, "heat alone"));
 }
 
-/// The visits that a counting kernel sees are those that the work counter of reports is made of.
+/// The visits that a kernel counts are those that the work counter of reports is made of.
 #[test]
 fn the_visits_of_a_step_make_up_its_transfers() {
     // Taylor least squares sums over points of cells, and counts particles.
@@ -351,12 +346,10 @@ fn the_visits_of_a_step_make_up_its_transfers() {
         }
         add(EffectName::ThermalExpansion, &mut setup, method.0, 0.1);
         let support = setup.kernel.support();
-        let (kernel, tally) = Counted::new(setup.kernel);
-        setup.kernel = Box::new(kernel);
         let mut solver = Solver::new(setup).unwrap();
-        tally.take();
+        solver.take_visits();
         (0..3).for_each(|_| solver.step(DT).unwrap());
-        let visited: u64 = tally.take().iter().map(|(_, visited)| visited).sum();
+        let visited: u64 = solver.take_visits().iter().map(|(_, visited)| visited).sum();
         assert_eq!(visited * support, solver.counters().transfers, "{method:?}");
     }
 }

@@ -5,6 +5,7 @@
 use super::moments::Moments;
 use super::request::{Divergence, G2pRequest, P2gRequest, ParticleField};
 use super::scalar_contract::Scalars;
+use super::tally::Tally;
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::basis::Domain;
 use crate::mpm::grid::Grid;
@@ -113,6 +114,9 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         grid: &Grid<D>,
         gradient: &mut [Vector<D>],
     );
+
+    /// Visits of particles by the passes; the preparation of a pass (`divide_by_inertia`) is none.
+    fn tally(&self) -> &Tally;
 
     /// Largest number of nodes of a particle.
     fn support(&self) -> u64;

@@ -20,12 +20,11 @@
 //! threads.
 
 pub(crate) mod contract;
-pub(crate) mod counting;
-pub(crate) mod counting_scalars;
 pub(crate) mod moments;
 pub(crate) mod request;
 pub(crate) mod scalar_contract;
 pub(crate) mod settings;
+pub(crate) mod tally;
 
 mod batch;
 mod colouring;
@@ -52,6 +51,7 @@ use settings::LoopSettings;
 use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use tally::Tally;
 
 /// Kernel of the basis with this name.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
@@ -77,12 +77,14 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSetting
 struct Loops<B> {
     /// Memory kept from one pass to the next; no result depends on its contents.
     workspace: Mutex<Workspace>,
+    tally: Tally,
     basis: PhantomData<B>,
 }
 
 impl<B> Loops<B> {
     fn new(settings: LoopSettings) -> Self {
-        Self { workspace: Mutex::new(Workspace::new(settings)), basis: PhantomData }
+        let workspace = Mutex::new(Workspace::new(settings));
+        Self { workspace, tally: Tally::default(), basis: PhantomData }
     }
 
     fn workspace(&self) -> MutexGuard<'_, Workspace> {
@@ -93,6 +95,7 @@ impl<B> Loops<B> {
 
 impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>) {
+        request.parts().for_each(|name| self.tally.add(name, particles.len()));
         let mut mass = std::mem::take(&mut grid.mass);
         let mut momentum = std::mem::take(&mut grid.velocity);
         let mut force = std::mem::take(&mut grid.force);
@@ -113,6 +116,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid: &Grid<D>,
         column: &mut [Vector<D>],
     ) {
+        self.tally.add("p2g momentum", particles.len());
         let request = P2gRequest { momentum: Some(shown), ..P2gRequest::default() };
         let columns = Columns { momentum: Some(column), ..Columns::default() };
         self.workspace().scatter::<B, D>(particles, &request, grid, columns);
@@ -125,12 +129,14 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         force: &Vector<D>,
         grid: &mut Grid<D>,
     ) {
+        self.tally.add("p2g point force", 1);
         let mut column = std::mem::take(&mut grid.force);
         B::visit(grid, particles, p, |i| column[i.node] += force * i.weight);
         grid.force = column;
     }
 
     fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>) {
+        request.parts().for_each(|name| self.tally.add(name, particles.len()));
         self.workspace().gather::<B, D>(grid, particles, &grid.velocity, request);
     }
 
@@ -142,13 +148,10 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         keep_and_factor: (f64, f64),
         value: &mut [Vector<D>],
     ) {
+        self.tally.add("g2p velocity", particles.len());
         let (mix, value) = (Some(keep_and_factor), Some(value));
-        self.workspace().gather::<B, D>(
-            grid,
-            particles,
-            field,
-            G2pRequest { mix, value, ..G2pRequest::default() },
-        );
+        let request = G2pRequest { mix, value, ..G2pRequest::default() };
+        self.workspace().gather::<B, D>(grid, particles, field, request);
     }
 
     fn g2p_gradient(
@@ -158,13 +161,10 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         particles: &Particles<D>,
         gradient: &mut [Matrix<D>],
     ) {
+        self.tally.add("g2p gradient", particles.len());
         let gradient = Some(gradient);
-        self.workspace().gather::<B, D>(
-            grid,
-            particles,
-            field,
-            G2pRequest { gradient, ..G2pRequest::default() },
-        );
+        let request = G2pRequest { gradient, ..G2pRequest::default() };
+        self.workspace().gather::<B, D>(grid, particles, field, request);
     }
 
     fn g2p_moment(
@@ -174,16 +174,14 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         particles: &Particles<D>,
         moment: &mut [Matrix<D>],
     ) {
+        self.tally.add("g2p moment", particles.len());
         let moment = Some(moment);
-        self.workspace().gather::<B, D>(
-            grid,
-            particles,
-            field,
-            G2pRequest { moment, ..G2pRequest::default() },
-        );
+        let request = G2pRequest { moment, ..G2pRequest::default() };
+        self.workspace().gather::<B, D>(grid, particles, field, request);
     }
 
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>) {
+        self.tally.add("weight moments", particles.len());
         for (p, (mean, second)) in moments.mean.iter_mut().zip(&mut moments.second).enumerate() {
             InertiaTensor { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
         }
@@ -206,6 +204,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         particles: &Particles<D>,
         entry: &mut dyn FnMut(usize, usize, f64),
     ) {
+        self.tally.add("mass matrix", particles.len());
         for (p, m) in particles.mass.iter().enumerate() {
             B::visit(grid, particles, p, |i| {
                 B::visit(grid, particles, p, |j| entry(i.node, j.node, m * i.weight * j.weight));
@@ -220,6 +219,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         moment: &Matrix<D>,
         grid: &mut Grid<D>,
     ) {
+        self.tally.add("p2g point moment", 1);
         let mut column = std::mem::take(&mut grid.force);
         B::visit(grid, particles, p, |i| column[i.node] += moment * i.gradient);
         grid.force = column;
@@ -231,10 +231,15 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid: &Grid<D>,
         gradient: &mut [Vector<D>],
     ) {
+        self.tally.add("p2g mass gradient", particles.len());
         gradient.fill(Vector::zeros());
         for (p, m) in particles.mass.iter().enumerate() {
             B::visit(grid, particles, p, |i| gradient[i.node] += i.gradient * *m);
         }
+    }
+
+    fn tally(&self) -> &Tally {
+        &self.tally
     }
 
     fn support(&self) -> u64 {

@@ -15,6 +15,7 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
         grid: &Grid<D>,
         column: &mut [f64],
     ) {
+        self.tally.add("p2g scalar", particles.len());
         column.fill(0.0);
         for (p, m) in particles.mass.iter().enumerate() {
             let (value, slope) = (value[p] * *m, slope[p] * *m);
@@ -31,6 +32,7 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
         grid: &Grid<D>,
         column: &mut [f64],
     ) {
+        self.tally.add("p2g scalar flux", particles.len());
         column.fill(0.0);
         for (p, vol) in particles.vol.iter().enumerate() {
             let flow = slope[p] * (factor * vol);
@@ -46,6 +48,7 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
         grid: &Grid<D>,
         column: &mut [f64],
     ) {
+        self.tally.add("p2g scalar source", 1);
         B::visit(grid, particles, p, |i| column[i.node] += amount * i.weight);
     }
 
@@ -57,6 +60,7 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
         factor: f64,
         value: &mut [f64],
     ) {
+        self.tally.add("g2p scalar", particles.len());
         for (p, value) in value.iter_mut().enumerate() {
             let mut sum = 0.0;
             B::visit(grid, particles, p, |i| sum += field[i.node] * i.weight);
@@ -71,6 +75,7 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
         particles: &Particles<D>,
         slope: &mut [Vector<D>],
     ) {
+        self.tally.add("g2p scalar gradient", particles.len());
         for (p, slope) in slope.iter_mut().enumerate() {
             slope.fill(0.0);
             B::visit(grid, particles, p, |i| *slope += i.gradient * field[i.node]);

@@ -19,6 +19,7 @@ mod profile;
 mod shared_velocity;
 mod state;
 
+use super::kernel::tally::Tally;
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::Setup;
 use super::solver::Solver;
@@ -76,6 +77,12 @@ impl<const D: usize> Bodies<D> {
     pub fn profile(&self) -> Profile {
         let coupling = self.coupling.as_deref();
         profile::of(self.solvers.iter().map(Solver::profile), coupling)
+    }
+
+    /// See [`Solver::take_visits`], of all bodies together.
+    pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
+        let tallies = self.solvers.iter().map(|solver| solver.setup.kernel.tally());
+        Tally::take(&tallies.collect::<Vec<_>>())
     }
 
     /// Compiles the schedule, that of the first body with the coupling of all.

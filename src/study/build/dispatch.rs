@@ -1,14 +1,13 @@
 //! Names become types: the only place that knows every family.
 
 use super::bar::bar;
-use super::setup::{Body, conductor, plain, setup};
+use super::setup::{Body, conductor, setup};
 use crate::dimension::with_dimension;
-use crate::mpm::{BasisName, Bodies, Counted, Kernel, Setup, Solver, Tally, Vector};
+use crate::mpm::{BasisName, Bodies, Setup, Solver, Vector};
 use crate::subject::{Failure, Perturbable, Profile, Subject};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
-use std::sync::Arc;
 
 /// Builds the subject of `method` for one level.
 ///
@@ -24,7 +23,7 @@ pub(crate) fn subject(
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
         (Method::Mpm { .. }, d) => with_dimension!(d, D => mpm::<D>(plan, method, level)),
         (Method::Heat { basis }, d) => with_dimension!(d, D => {
-            Ok(Box::new(conductor::<D>(plan, basis, level, plain)?))
+            Ok(Box::new(conductor::<D>(plan, basis, level)?))
         }),
     }
 }
@@ -37,35 +36,25 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         method: Method,
         level: LevelPlan,
     ) -> Option<Profile> {
-        let tally = Arc::<Tally>::default();
-        let counted = |setup: Setup<D>| {
-            let kernel = Box::new(Counted::sharing(setup.kernel, &tally));
-            Setup { kernel, ..setup }
-        };
-        let setups = setups::<D>(plan, method, level).ok()?.into_iter().map(counted).collect();
+        let setups = setups::<D>(plan, method, level).ok()?;
         let mut bodies = Bodies::new(setups, plan.scene.contact).ok()?;
         bodies.step(level.dt).ok()?;
-        tally.take();
+        bodies.take_visits();
         bodies.step(level.dt).ok()?;
-        Some(Profile { passes: bodies.passes(), visits: tally.take(), ..bodies.profile() })
+        let visits = bodies.take_visits();
+        Some(Profile { passes: bodies.passes(), visits, ..bodies.profile() })
     }
     fn of_heat<const D: usize>(
         plan: &ConvergencePlan,
         basis: BasisName,
         level: LevelPlan,
     ) -> Option<Profile> {
-        let mut tally = None;
-        let counted = |kernel| {
-            let (kernel, count) = Counted::new(kernel);
-            tally = Some(count);
-            Box::new(kernel) as Box<dyn Kernel<D>>
-        };
-        let mut body = conductor::<D>(plan, basis, level, counted).ok()?;
-        let tally = tally?;
+        let mut body = conductor::<D>(plan, basis, level).ok()?;
         body.step(level.dt).ok()?;
-        tally.take();
+        body.take_visits();
         body.step(level.dt).ok()?;
-        Some(Profile { passes: body.passes(), visits: tally.take(), ..body.profile() })
+        let visits = body.take_visits();
+        Some(Profile { passes: body.passes(), visits, ..body.profile() })
     }
     with_dimension!(plan.scene.dimension(), D => match method {
         Method::Fem { .. } => None,

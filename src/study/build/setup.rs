@@ -100,26 +100,21 @@ pub fn effects<const D: usize>(
     built(&plan.scene.loads, site)
 }
 
-/// A body at rest; `with` may wrap its kernel.
+/// A body at rest.
 pub(crate) fn conductor<const D: usize>(
     plan: &ConvergencePlan,
     basis: BasisName,
     level: LevelPlan,
-    with: impl FnOnce(Box<dyn Kernel<D>>) -> Box<dyn Kernel<D>>,
 ) -> Result<HeatSolver<D>, String> {
     let h = cell_size(&plan.scene, level.cells);
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
-    let kernel = with(kernel::<D>(basis));
+    let kernel = kernel::<D>(basis);
     let grid = grid(&plan.scene, h, kernel.as_ref());
     let mut particles = seeding::particles(&plan.scene, &grid.origin, h, per_axis);
     let site =
         BodySite { grid: &grid, basis, heat: plan.heat_problem(), particles: &mut particles };
     let effects = built(&plan.scene.loads, site)?;
     HeatSolver::new(kernel, grid, particles, effects).map_err(|failure| failure.to_string())
-}
-
-pub(crate) fn plain<const D: usize>(kernel: Box<dyn Kernel<D>>) -> Box<dyn Kernel<D>> {
-    kernel
 }
 
 fn manufactured_force<const D: usize>(
