@@ -14,7 +14,7 @@ pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     let mut wrapped = Vec::new();
     wrap(&mut wrapped, WIDTH - KEY - 2, value);
     for (i, line) in wrapped.iter().enumerate() {
-        let key = if i == 0 { key } else { "" };
+        let key = if i == 0 { format!("{key} ") } else { String::new() };
         lines.push(format!("  {key:KEY$}{line}").trim_end().to_owned());
     }
 }
