@@ -38,6 +38,8 @@ pub struct Problem {
     pub to: Vec<f64>,
     /// The body, if it is no box; then there are no faces.
     pub round: Option<Round>,
+    /// The problems of several boxes, of which this is the whole; empty where there is one body.
+    pub bodies: Vec<Self>,
     /// Reference density (kg/m^D).
     pub density: f64,
     /// The equation of motion.
@@ -77,6 +79,15 @@ impl Problem {
     /// Whether the body holds a point of the box around it.
     pub fn holds(&self, label: &[f64]) -> bool {
         self.round.as_ref().is_none_or(|round| round.holds(label))
+    }
+
+    /// The problem of the body at `label`.
+    fn body_at(&self, label: &[f64]) -> &Self {
+        let inside = |body: &&Self| {
+            let ends = body.from.iter().zip(&body.to);
+            ends.zip(label).all(|((from, to), x)| from <= x && x <= to)
+        };
+        self.bodies.iter().find(inside).unwrap_or(self)
     }
 
     /// A random point of the body.
@@ -185,7 +196,7 @@ impl Problem {
     }
 }
 
-/// The motion, with the stress that the equation's law makes of it.
+/// The motion, with the stress that the law at the place makes of it.
 impl Truth for Problem {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         self.motion.displacement(label, t, into);
@@ -210,7 +221,7 @@ impl Truth for Problem {
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let grad = self.motion.derivatives(label, t).grad;
         let sigma = match self.swelling(label, t) {
-            None => self.equation.cauchy(&grad),
+            None => self.body_at(label).equation.cauchy(&grad),
             Some(Swelling { theta, .. }) => {
                 swollen_cauchy(&self.equation, self.dimension(), &grad, theta)
             }

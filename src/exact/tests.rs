@@ -3,6 +3,7 @@
 
 use super::formula::{Expr, Formula, Scope};
 use super::random::Random;
+use super::truth::Truth;
 use super::{
     Condition, Face, FacePoint, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term,
     Violation,
@@ -115,6 +116,7 @@ fn held(dimension: usize) -> Problem {
         heat: None,
         at_rest: false,
         follows_motion: true,
+        bodies: Vec::new(),
         initial_displacement: Vec::new(),
         manufactured: true,
         faces: (0..dimension).flat_map(|axis| [face(axis, false), face(axis, true)]).collect(),
@@ -164,6 +166,24 @@ fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
         faces: vec![face("left", false, fixed()), face("right", true, right)],
         motion: Motion::new(vec![bind(displacement, &["X", "t"])]),
         ..held(1)
+    }
+}
+
+/// The strain is 1/50 in the first half of the bar and 1/100 in the second, twice as stiff one.
+#[test]
+fn the_stress_of_several_bodies_is_that_of_each() {
+    let whole = bar("(X - max(0, X - 0.5)/2)/50", free());
+    let half = |from, to, young| Problem {
+        from: vec![from],
+        to: vec![to],
+        equation: SmallStrainLaw::new(young, 0.0).into(),
+        ..whole.clone()
+    };
+    let both = Problem { bodies: vec![half(0.0, 0.5, 2.0), half(0.5, 1.0, 4.0)], ..whole };
+    for x in [0.0, 0.3, 0.7, 1.0] {
+        let mut sigma = [f64::NAN];
+        assert!(Truth::stress(&both, &[x], 0.0, &mut sigma));
+        assert!((sigma[0] - 0.04).abs() < 1e-15, "{sigma:?} at {x}");
     }
 }
 

@@ -229,7 +229,7 @@ pub enum Failure {
         j: f64,
     },
     /// A body starts deformed, and its law cannot tell the stress of that.
-    #[error("a law in rate form has no stress for a body that starts deformed")]
+    #[error("the law has no stress for a body that starts deformed")]
     NotOfDeformation,
     /// A particle has no cell any more.
     #[error("{site} left the domain at x = {position:?}")]

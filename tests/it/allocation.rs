@@ -46,6 +46,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         heat: None,
         at_rest: false,
         follows_motion: true,
+        bodies: Vec::new(),
         initial_displacement: Vec::new(),
         manufactured: true,
         faces: Vec::new(),

@@ -42,6 +42,7 @@ fn problem(
         manufactured: true,
         faces: Vec::new(),
         follows_motion: true,
+        bodies: Vec::new(),
         initial_displacement: Vec::new(),
         initial_velocity: Vec::new(),
         until,

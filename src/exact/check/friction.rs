@@ -113,6 +113,7 @@ mod tests {
             manufactured: false,
             faces: vec![face("bottom", false, wall), face("top", true, free())],
             follows_motion: true,
+            bodies: Vec::new(),
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),
             until: 1.0,

@@ -174,6 +174,7 @@ mod tests {
                 manufactured: false,
                 faces: vec![face("left", false, low), face("right", true, high)],
                 follows_motion: true,
+                bodies: Vec::new(),
                 initial_displacement: Vec::new(),
                 initial_velocity: Vec::new(),
                 until: 3.0,

@@ -3,19 +3,27 @@
 #[cfg(test)]
 use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
-use crate::subject::{Checkpoint, Column};
+use crate::subject::{Checkpoint, Column, Failure};
 
 /// Properties of a law that decide what may be stated of its bodies.
 pub trait MaterialProperties {
     /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave.
     fn wave_modulus(&self) -> f64;
 
-    /// Whether stress is a function of F alone, so that a body may start deformed, and a body force
-    /// may be manufactured for a motion.
+    /// Whether stress is a function of F alone, so that a body may start as a motion does, and a
+    /// body force may be manufactured for it.
     ///
     /// # Errors
     /// Why it is not.
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str>;
+
+    /// Whether the deformation at the start gives the stress there: a body may start deformed.
+    ///
+    /// # Errors
+    /// Why it does not.
+    fn starts_deformed(&self) -> Result<(), &'static str> {
+        self.depends_on_deformation_alone()
+    }
 
     /// Whether the law is one of elasticity: what it does to a body that expands by heat is known.
     fn is_elastic(&self) -> bool {
@@ -71,6 +79,19 @@ pub trait Material<const D: usize>: Send {
     /// work of the stress is no function of the state. Dissipated energy is not stored.
     fn energy(&self, _: &Particles<D>) -> Option<f64> {
         None
+    }
+
+    /// Stresses of a body that starts deformed, from F and the velocity gradients; volumes are
+    /// those of F already.
+    ///
+    /// # Errors
+    /// [`Failure::NotOfDeformation`] if these give no stress.
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        if !self.reads_deformation() {
+            return Err(Failure::NotOfDeformation);
+        }
+        self.update(0.0, particles);
+        Ok(())
     }
 
     /// New stresses and volumes of all particles from their velocity gradients over `dt` (s). F,

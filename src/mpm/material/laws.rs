@@ -126,6 +126,22 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
+/// To the second order in the strain, which a law in rate form does not have from one step.
+fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: MaterialPlan) {
+    if plan.properties().starts_deformed().is_err() {
+        return;
+    }
+    for size in [1e-3, 1e-5] {
+        let f = Matrix::<D>::identity() + scattered(size, 0.4);
+        let mut specimen = Specimen::new(plan);
+        let found = specimen.start(&f);
+        assert_relative_eq!(specimen.j(), det(&f), max_relative = 1e-15);
+        let way = stress(plan, &f);
+        assert!((found - way).norm() <= 9.0 * size * way.norm(), "{plan:?}: {found}, {way}");
+        assert_eq!(specimen.flow(&Matrix::zeros(), SLOW), found, "{plan:?}: it stays there");
+    }
+}
+
 /// Bit for bit: plastic flow and hardening are in the checkpoint.
 fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
@@ -144,6 +160,7 @@ fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
 fn hold<const D: usize>(plan: MaterialPlan) {
     an_interrupted_run_goes_on::<D>(plan);
     rest_keeps_the_stress::<D>(plan);
+    a_deformed_start_has_the_stress_of_the_way_there::<D>(plan);
     no_strain_means_no_stress::<D>(plan);
     waves_have_their_speed::<D>(plan);
     rotation_in_a_step_only_turns_the_stress::<D>(plan);

@@ -8,10 +8,15 @@
 //! The rate is the plain one, without the terms of Jaumann or Green & Naghdi: a spin adds no
 //! stress, to first order in the step, but neither does it turn the stress that is there. Objective
 //! for small rotations only, in more than one dimension.
+//!
+//! A body that starts deformed has the stress that the rate brings along the straight path
+//! `x = X + s u`, s from 0 to 1: `grad v = H (I + s H)^-1` with `H = F - I`, and so
+//! `eps = sym(ln F)` (Higham 2008, *Functions of Matrices*, eq. 11.1).
 
 use super::contract::{Material, MaterialProperties};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
+use crate::subject::Failure;
 
 /// Isotropic linear elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +56,27 @@ fn logarithmic_work(eps: f64) -> f64 {
     terms.sum()
 }
 
+/// Most terms of a logarithm: those of a stretch of 1/100 or 100.
+const MOST_TERMS: u32 = 2000;
+
+/// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5); no numbers where the
+/// series does not converge: for stretches below 1/100 or above 100, and turns of 90 degrees.
+fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
+    let nothing = Matrix::from_element(f64::NAN);
+    let Some(inverse) = (f + Matrix::identity()).try_inverse() else { return nothing };
+    let z = (f - Matrix::identity()) * inverse;
+    let (mut sum, mut power, square) = (z, z, z * z);
+    for k in 1..MOST_TERMS {
+        power *= square;
+        let term = power / f64::from(2 * k + 1);
+        sum += term;
+        if term.norm() <= 0.1 * f64::EPSILON * sum.norm() {
+            return sum * 2.0;
+        }
+    }
+    nothing
+}
+
 impl MaterialProperties for LinearElastic {
     fn wave_modulus(&self) -> f64 {
         self.lambda + 2.0 * self.mu
@@ -58,6 +84,10 @@ impl MaterialProperties for LinearElastic {
 
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
         Err("a law in rate form has no stress of the deformation alone")
+    }
+
+    fn starts_deformed(&self) -> Result<(), &'static str> {
+        Ok(())
     }
 
     fn is_elastic(&self) -> bool {
@@ -87,6 +117,14 @@ impl<const D: usize> Material<D> for LinearElastic {
             vol0 * modulus * logarithmic_work(sigma[(0, 0)] / modulus)
         };
         (D == 1).then(|| particles.sigma.iter().zip(&particles.vol0).map(stored).sum())
+    }
+
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        for (f, sigma) in particles.def_grad.iter().zip(&mut particles.sigma) {
+            let log = logarithm(f);
+            *sigma = self.increment(&((log + log.transpose()) * 0.5));
+        }
+        Ok(())
     }
 
     fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
@@ -136,6 +174,41 @@ mod tests {
         }
         assert_relative_eq!(bar.vol[0], 1.1, max_relative = 1e-12);
         assert_relative_eq!(bar.sigma[0][(0, 0)], young * libm::log(1.1), max_relative = 1e-6);
+    }
+
+    /// Against the rate along `x = X + s u`, taken in steps about their middles.
+    #[test]
+    fn a_deformed_start_has_the_stress_of_the_straight_path() {
+        let (law, steps) = (LinearElastic::new(100.0, 0.3), 2000);
+        let f = Matrix::<3>::new(1.2, 0.3, 0.0, -0.2, 0.7, 0.1, 0.05, 0.0, 1.4);
+        let grad = f - Matrix::identity();
+        let mut pulled = one_particle::<3>();
+        for step in 0..steps {
+            let middle = (f64::from(step) + 0.5) / f64::from(steps);
+            let now = Matrix::identity() + grad * middle;
+            pulled.grad_v[0] = grad * now.try_inverse().unwrap();
+            { law }.update(1.0 / f64::from(steps), &mut pulled);
+        }
+        assert_relative_eq!(started(law, f).sigma[0], pulled.sigma[0], epsilon = 1e-5);
+    }
+
+    /// `E ln F` along a line, to the last digits of a small strain; none for half a turn.
+    #[test]
+    fn a_deformed_start_has_the_stress_of_the_logarithm() {
+        let law = LinearElastic::new(100.0, 0.0);
+        for stretch in [0.02, 0.7, 1.0 + 1e-9, 3.0, 50.0] {
+            let sigma = started(law, Matrix::<1>::new(stretch)).sigma[0][(0, 0)];
+            assert_relative_eq!(sigma, 100.0 * libm::log(stretch), max_relative = 1e-13);
+        }
+        let half_a_turn = Matrix::<2>::new(-1.0, 0.0, 0.0, -1.0);
+        assert!(started(law, half_a_turn).sigma[0].iter().all(|sigma| sigma.is_nan()));
+    }
+
+    fn started<const D: usize>(mut law: LinearElastic, f: Matrix<D>) -> Particles<D> {
+        let mut body = one_particle();
+        body.deform(|_| (Vector::zeros(), f));
+        law.start_deformed(&mut body).unwrap();
+        body
     }
 
     /// `W(J) = M (J ln J - J + 1)`, whose derivative is sigma; and none in a plane.

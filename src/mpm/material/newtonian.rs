@@ -12,6 +12,7 @@
 use super::contract::{Material, MaterialProperties};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
+use crate::subject::Failure;
 
 /// A viscous fluid, weakly compressible.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +41,19 @@ impl MaterialProperties for Newtonian {
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
         Err("viscous stress depends on the rate of deformation")
     }
+
+    fn starts_deformed(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
 }
 
 impl<const D: usize> Material<D> for Newtonian {
+    /// The pressure of J and the viscous stress of the velocity.
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        self.update(0.0, particles);
+        Ok(())
+    }
+
     fn reads_deformation(&self) -> bool {
         false
     }

@@ -46,6 +46,14 @@ impl<const D: usize> Specimen<D> {
         self.flow(&((step - Matrix::identity()) / dt), dt)
     }
 
+    /// The stress of a start at this F.
+    pub(super) fn start(&mut self, f: &Matrix<D>) -> Matrix<D> {
+        let Self(material, particles) = self;
+        particles.deform(|_| (Vector::zeros(), *f));
+        material.start_deformed(particles).unwrap();
+        particles.sigma[0]
+    }
+
     /// Another one, made of `plan`, that goes on from the state of this one.
     pub(super) fn interrupted(&mut self, plan: MaterialPlan) -> Self {
         let mut checkpoint = Checkpoint::empty();

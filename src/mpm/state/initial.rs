@@ -1,7 +1,8 @@
 //! Initial state of the particles: columns, stresses and domains before the first step.
 //!
-//! A body may start deformed ([`Particles::deform`]): stress and volume then follow from F by the
-//! material, and domains from F by the basis, as they would have had the body been brought there.
+//! A body may start deformed ([`Particles::deform`]): stress then follows from F by the material
+//! ([`Material::start_deformed`]), and domains from F by the basis, as they would have had the body
+//! been brought there.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::material::Material;
@@ -12,7 +13,7 @@ use crate::subject::{Failure, Site};
 /// returns the smallest J.
 ///
 /// # Errors
-/// [`Failure::NotOfDeformation`] if a deformed body has a law without a stress of F,
+/// [`Failure::NotOfDeformation`] if F gives a deformed body no stress,
 /// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
 pub(in crate::mpm) fn complete<const D: usize>(
     particles: &mut Particles<D>,
@@ -27,11 +28,8 @@ pub(in crate::mpm) fn complete<const D: usize>(
     if material.reads_deformation() {
         particles.track_deformation();
     }
-    if deformed && !material.reads_deformation() {
-        return Err(Failure::NotOfDeformation);
-    }
     if deformed {
-        material.update(0.0, particles);
+        material.start_deformed(particles)?;
     }
     let mut min_j = f64::INFINITY;
     for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
@@ -49,6 +47,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mpm::material::Rigid;
     use crate::mpm::{Block, LinearElastic, Matrix, NeoHookean, Vector};
     use approx::assert_relative_eq;
     use rstest::rstest;
@@ -93,9 +92,11 @@ mod tests {
         assert_eq!(start(inside_out, &mut neo), Err(Failure::Inverted { site, j: -0.5 }));
         let torn = Matrix::<2>::new(f64::NAN, 0.0, 0.0, 1.0);
         assert!(matches!(start(torn, &mut neo), Err(Failure::NonFinite { .. })));
-        let mut rate = LinearElastic::new(100.0, 0.3);
         let stretched = Matrix::<2>::new(1.1, 0.0, 0.0, 1.0);
-        assert_eq!(start(stretched, &mut rate), Err(Failure::NotOfDeformation));
-        assert_eq!(start(Matrix::identity(), &mut rate), Ok(()));
+        assert_eq!(start(stretched, &mut Rigid::new()), Err(Failure::NotOfDeformation));
+        assert_eq!(start(Matrix::identity(), &mut Rigid::new()), Ok(()));
+        let half_a_turn = Matrix::<2>::new(-1.0, 0.0, 0.0, -1.0);
+        let turned = start(half_a_turn, &mut LinearElastic::new(100.0, 0.3));
+        assert!(matches!(turned, Err(Failure::NonFinite { quantity: "stress", .. })));
     }
 }

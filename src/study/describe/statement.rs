@@ -57,6 +57,7 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
         push(rows, "  material", &material(&one.material));
+        push(rows, "  displacement", &sources(&one.initial_displacement));
         push(rows, "  velocity", &sources(&one.initial_velocity));
     }
     match (scene.contact, scene.bodies.len()) {
@@ -88,8 +89,8 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
         scene.loads.iter().partition(|load| load.target() == LoadTarget::Body);
     let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), LoadTarget::Set(_)));
     rows.extend(on_sets.chain(on_body).flat_map(|load| load.rows()));
-    push(rows, "initial displacement", &sources(&scene.initial_displacement));
     if one {
+        push(rows, "initial displacement", &sources(&scene.initial_displacement));
         push(rows, "initial velocity", &sources(&scene.initial_velocity));
     }
 }

@@ -33,6 +33,7 @@ pub(crate) struct SceneSpec {
 pub(crate) struct OneBodySpec {
     pub(crate) body: BodySpec,
     pub(crate) material: MaterialSpec<NumberText>,
+    pub(crate) initial_displacement: Option<Vec<NumberText>>,
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 

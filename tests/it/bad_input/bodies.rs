@@ -8,11 +8,12 @@ const IMPACT: &str = include_str!("../../../verification/two-bar-impact.yaml");
 const DISKS: &str = include_str!("../../../verification/two-disks.yaml");
 const HALVES: &str = include_str!("../../../verification/vibrating-bar-of-two.yaml");
 
+const JOINED: &str = include_str!("../../../verification/bar-of-two-materials.yaml");
 const VISCOUS: &str = include_str!("../../../verification/artificial-viscosity-linear.yaml");
 
 #[test]
 fn sound() {
-    for text in [IMPACT, DISKS, HALVES, VISCOUS] {
+    for text in [IMPACT, DISKS, HALVES, JOINED, VISCOUS] {
         if let Err(diagnostic) = load(text) {
             panic!("{diagnostic}");
         }
@@ -42,6 +43,29 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
     IMPACT,
     &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  ▸initial_velocity: [v0]")],
     &["`initial_velocity` speaks of one body"]
+)]
+#[case::a_displacement_besides(
+    JOINED,
+    &[("  boundary: {left: fixed}", "  boundary: {left: fixed}\n  ▸initial_displacement: [0]")],
+    &["`initial_displacement` speaks of one body"]
+)]
+#[case::a_displacement_of_a_law_with_a_history(
+    JOINED,
+    &[
+        ("linear_elastic: {young: E2, poisson: 0", "j2: {young: E2, poisson: 0, yield: 1"),
+        ("initial_displacement: [\"A*right", "▸initial_displacement: [\"A*right"),
+    ],
+    &["a `j2` body cannot start deformed", "plastic flow depends on the whole history"]
+)]
+#[case::a_displacement_of_one_that_is_not_in_the_formula(
+    JOINED,
+    &[("[\"A*right(X)\"]", "[\"1.001*A*right(X)\"]"), ("[\"A*(left", "[▸\"A*(left")],
+    &["initial condition u_X(X, 0) = u0(X) is violated at X = (1.", "m (off by -"]
+)]
+#[case::a_frequency_that_is_no_root(
+    JOINED,
+    &[("omega: 6.276875706767236", "omega: 6.276876"), ("[\"A*(left", "[▸\"A*(left")],
+    &["where two bodies meet along X, the same traction in X on both,", "Pa (off by "]
 )]
 #[case::a_traction(
     IMPACT,

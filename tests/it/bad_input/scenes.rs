@@ -18,9 +18,16 @@ use rstest::rstest;
     &[("[\"v0*mode(X)\"]", "▸[\"v0*mode(X)\", 0]")],
     &["2 components in a scene of dimension 1", "expected 1"]
 )]
-#[case::a_deformed_start_of_a_law_in_rate_form(
-    &[("  initial_velocity:", "  ▸initial_displacement: [0]\n  initial_velocity:")],
-    &["a `linear_elastic` body cannot start deformed"]
+#[case::a_deformed_start_of_a_law_with_a_history(
+    &[
+        ("linear_elastic: {young: E, poisson: 0", "j2: {young: E, poisson: 0, yield: 1"),
+        ("  initial_velocity:", "  ▸initial_displacement: [0]\n  initial_velocity:"),
+    ],
+    &["a `j2` body cannot start deformed", "plastic flow depends on the whole history"]
+)]
+#[case::a_displacement_with_two_components(
+    &[("  initial_velocity:", "  initial_displacement: ▸[0, 0]\n  initial_velocity:")],
+    &["2 components in a scene of dimension 1", "expected 1"]
 )]
 #[case::a_grid_the_wrong_way_round(&[("to: [L + 5]", "to: [▸-5]")], &["the box ends at -5 and starts at 0"])]
 #[case::a_body_that_sticks_out_of_the_grid(

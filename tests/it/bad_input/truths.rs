@@ -32,6 +32,13 @@ fn violated(sound: &str, edits: Edits<'_>, words: &[&str]) {
     &[("[\"v0/omega*mode(X)*sin(omega*t)\"]", "[▸\"v0/omega*mode(X)*cos(omega*t)\"]")],
     &["initial condition u_X(X, 0) = 0", "t = 0.000000", "expected 0.000000e0", "m (off by "]
 )]
+#[case::a_stated_displacement_that_is_not_in_the_formula(
+    &[
+        ("  initial_velocity:", "  initial_displacement: [\"1e-3*X\"]\n  initial_velocity:"),
+        ("[\"v0/omega*", "[▸\"v0/omega*"),
+    ],
+    &["initial condition u_X(X, 0) = u0(X)", "t = 0.000000", "found 0.000000e0", "m (off by -"]
+)]
 #[case::another_initial_velocity(
     &[("[\"v0*mode(X)\"]", "[\"2*v0*mode(X)\"]"), ("[\"v0/omega*", "[▸\"v0/omega*")],
     &["initial condition on the velocity in X", "t = 0.000000", "m/s (off by "]

@@ -23,6 +23,7 @@ pub(crate) struct Listed<'w> {
     pub(crate) at: Path,
     pub(crate) body: &'w BodySpec,
     pub(crate) material: &'w MaterialSpec<NumberText>,
+    pub(crate) initial_displacement: Option<&'w Vec<NumberText>>,
     pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
 }
 
@@ -41,9 +42,14 @@ pub(crate) fn listed<'w>(
             return Err(diagnostic.with_label(&format!("expected 1 to {MOST}")));
         }
         let one = |(i, one): (usize, &'w OneBodySpec)| {
-            let OneBodySpec { body, material, initial_velocity } = one;
-            let (at, initial_velocity) = (at.then(i), initial_velocity.as_ref());
-            Listed { at, body, material, initial_velocity }
+            let OneBodySpec { body, material, initial_displacement, initial_velocity } = one;
+            Listed {
+                at: at.then(i),
+                body,
+                material,
+                initial_displacement: initial_displacement.as_ref(),
+                initial_velocity: initial_velocity.as_ref(),
+            }
         };
         return Ok(bodies.iter().enumerate().map(one).collect());
     }
@@ -51,10 +57,13 @@ pub(crate) fn listed<'w>(
         let diagnostic = evaluator.diagnostic_at_key(path, &format!("a scene without `{key}`"));
         diagnostic.with_help("add `body` and `material`, or a list of `bodies` with one of each")
     };
-    let body = words.body.as_ref().ok_or_else(|| missing("body"))?;
-    let material = words.material.as_ref().ok_or_else(|| missing("material"))?;
-    let (at, initial_velocity) = (path.clone(), words.initial_velocity.as_ref());
-    Ok(vec![Listed { at, body, material, initial_velocity }])
+    Ok(vec![Listed {
+        at: path.clone(),
+        body: words.body.as_ref().ok_or_else(|| missing("body"))?,
+        material: words.material.as_ref().ok_or_else(|| missing("material"))?,
+        initial_displacement: words.initial_displacement.as_ref(),
+        initial_velocity: words.initial_velocity.as_ref(),
+    }])
 }
 
 /// Refuses words that speak of one body beside a list of bodies.

@@ -73,7 +73,7 @@ fn body(
         from,
         to,
         grid,
-        initial_displacement: initial_displacement(evaluator, &path, words, dimension, &material)?,
+        initial_displacement: initial_displacement(evaluator, own, dimension, &material)?,
         material,
         density,
         faces: if round.is_some() && words.bodies.is_none() {
@@ -144,18 +144,16 @@ fn declared_sets(
 
 fn initial_displacement(
     evaluator: &Evaluator<'_>,
-    path: &Path,
-    words: &SceneSpec,
+    own: &Listed<'_>,
     dimension: usize,
     material: &MaterialPlan,
 ) -> Result<Vec<Formula>, Diagnostic> {
-    let path = path.then("initial_displacement");
-    let Some(texts) = &words.initial_displacement else { return Ok(Vec::new()) };
-    if material.properties().depends_on_deformation_alone().is_err() {
+    let path = own.at.then("initial_displacement");
+    let Some(texts) = own.initial_displacement else { return Ok(Vec::new()) };
+    if let Err(reason) = material.properties().starts_deformed() {
         let message = format!("a `{}` body cannot start deformed", material.name());
         let diagnostic = evaluator.diagnostic_at_key(&path, &message);
-        let help = "its stress is integrated from the start on; a `neo_hookean` one can";
-        return Err(diagnostic.with_help(help));
+        return Err(diagnostic.with_help(reason));
     }
     evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
 }

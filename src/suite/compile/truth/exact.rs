@@ -59,15 +59,15 @@ pub(crate) fn exact(
     }
     let each =
         scene.bodies.iter().map(|body| solution(evaluator, &path, exact, (body, false), until));
-    let each = each.collect::<Result<Vec<Problem>, _>>()?;
+    let bodies = each.collect::<Result<Vec<Problem>, _>>()?;
     interface::check(
         evaluator,
         scene,
-        each,
+        bodies.clone(),
         |problem| check(evaluator, &path, problem),
         |violation| no_solution(evaluator, &path, &violation),
     )?;
-    Ok(Some(problem))
+    Ok(Some(Problem { bodies, ..problem }))
 }
 
 /// The scene's problem with the formulas at `path`, not yet checked.
@@ -169,6 +169,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         from: scene.from.clone(),
         to: scene.to.clone(),
         round: scene.round.clone(),
+        bodies: Vec::new(),
         density: scene.density,
         equation,
         terms: scene.terms(),
