@@ -67,6 +67,11 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
     &[("omega: 6.276875706767236", "omega: 6.276876"), ("[\"A*(left", "[▸\"A*(left")],
     &["where two bodies meet along X, the same traction in X on both,", "Pa (off by "]
 )]
+#[case::one_at_rest(
+    DISKS,
+    &[("material: {linear_elastic: {young: 1000, poisson: 0.3, density: 1000}}", "▸material: {rigid: {density: 1000}}")],
+    &["a body that does not move in a list of bodies", "a `rigid` body is at rest: remove this, or choose a material"]
+)]
 #[case::a_traction(
     IMPACT,
     &[("  contact: {friction: 0}", "  contact: {friction: 0}\n  loads:\n    - ▸traction: {on: right, value: [1]}")],

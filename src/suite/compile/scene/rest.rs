@@ -16,8 +16,8 @@ use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Sets every face at rest that is not periodic, and refuses words that hold or move the body.
-/// `path` is that of the scene.
+/// Sets every face at rest that is not periodic, and refuses words that hold or move the body, and
+/// other bodies. `path` is that of the map that holds the body.
 pub(crate) fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -28,6 +28,9 @@ pub(crate) fn settle(
         let diagnostic = evaluator.diagnostic_at_key(at, message);
         Err(diagnostic.with_help("a `rigid` body is at rest: remove this, or choose a material"))
     };
+    if words.bodies.is_some() {
+        return idle(&path.then("material"), "a body that does not move in a list of bodies");
+    }
     for face in faces {
         if face.hold.is_free() {
             face.hold = Arc::new(FaceAtRest);

@@ -91,7 +91,7 @@ fn body(
     };
     combined(evaluator, &words.loads)?;
     if scene.is_at_rest() {
-        rest::settle(evaluator, &path, words, &mut scene.faces)?;
+        rest::settle(evaluator, &own.at, words, &mut scene.faces)?;
     }
     add_loads(evaluator, &words.loads, &mut scene)?;
     Ok(scene)
