@@ -5,6 +5,7 @@
 
 mod bodies;
 mod boundaries;
+mod case_names;
 mod combinations;
 mod equilibria;
 mod expectations;

@@ -1,6 +1,6 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
-use super::methods::methods;
+use super::methods::{methods, named};
 use crate::mpm::{FrameName, MassName, combine, combine_bodies};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases;
@@ -43,40 +43,21 @@ pub(crate) fn cases(
     plan: &ConvergencePlan,
     until: &[(String, f64)],
 ) -> Result<Vec<Case>, Diagnostic> {
-    let mut drafts = Vec::new();
+    let truths = truths(plan);
+    let mut found = Vec::new();
     for (i, method) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         possible(evaluator, &path, method, plan)?;
-        few(evaluator, &path, drafts.len(), method, until.len())?;
-        for (name, method) in methods(method, own_law(plan)) {
-            if let Method::Mpm { basis, transfer, mass, frame, start, .. } = method {
-                let contact = plan.scene.contact.is_some();
-                let mut known = combine(basis, transfer, mass, frame);
-                if plan.scene.bodies.len() > 1 {
-                    let coupled = || combine_bodies(transfer, mass, frame, start, contact);
-                    known = known.and_then(|()| coupled());
-                }
-                known.map_err(|reason| {
-                    let help = "give what goes together an entry of `methods` of its own";
-                    evaluator.diagnostic(&path, &reason).with_help(help)
-                })?;
-            }
-            for draft in runs(&name, method, plan, until) {
-                if drafts.iter().any(|known: &Draft| known.name == draft.name) {
-                    let message = format!("the case `{}` appears twice", draft.name);
-                    let diagnostic = evaluator.diagnostic(&path, &message);
-                    return Err(diagnostic.with_label("the second time"));
-                }
-                drafts.push(draft);
-            }
-        }
+        few(evaluator, &path, found.len() * until.len() * truths.len(), method, until.len())?;
+        let more = methods(i, method, own_law(plan));
+        more.iter().try_for_each(|draft| combined(evaluator, &path, draft.method, plan))?;
+        found.extend(more);
     }
-    if drafts.is_empty() {
-        let path = Path::top("methods");
-        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
-    }
-    let named: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
-    let expectations = cases::expectations(evaluator, &spec.expect, plan, &named)?;
+    let found = named(evaluator, found)?;
+    let runs = |(name, method): &(String, Method)| runs(name, *method, &truths, until);
+    let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
+    let names: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
+    let expectations = cases::expectations(evaluator, &spec.expect, plan, &names)?;
     let with = |(draft, (expectation, expectation_in_full)): (Draft, _)| Case {
         name: draft.name,
         method: draft.method,
@@ -96,21 +77,28 @@ struct Draft {
     against: Against,
 }
 
-/// One method, for every end of the run and every truth. A part enters the name only where there
-/// is a choice.
-fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f64)]) -> Vec<Draft> {
+/// The truths of the study, each with what it adds to a name.
+fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
         plan.same_method_dt.map(|_| (Against::SameMethod, "-vs-shorter-steps")),
     ];
-    let mut truths: Vec<_> = truths.into_iter().flatten().collect();
-    if conservation_only::is_truthless(plan) {
-        truths.push((Against::Nothing, ""));
-    }
+    let nothing = conservation_only::is_truthless(plan).then_some((Against::Nothing, ""));
+    truths.into_iter().flatten().chain(nothing).collect()
+}
+
+/// One method, for every end of the run and every truth. A part enters the name only where there
+/// is a choice.
+fn runs(
+    name: &str,
+    method: Method,
+    truths: &[(Against, &str)],
+    until: &[(String, f64)],
+) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
-        for (against, suffix) in &truths {
+        for (against, suffix) in truths {
             let mut name = name.to_owned();
             if until.len() > 1 {
                 name += &format!("-until-{text}");
@@ -122,6 +110,25 @@ fn runs(name: &str, method: Method, plan: &ConvergencePlan, until: &[(String, f6
         }
     }
     drafts
+}
+
+/// Refuses parts of a method that do not go together, or not with several bodies.
+fn combined(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    method: Method,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    let Method::Mpm { basis, transfer, mass, frame, start, .. } = method else { return Ok(()) };
+    let mut known = combine(basis, transfer, mass, frame);
+    if plan.scene.bodies.len() > 1 {
+        let contact = plan.scene.contact.is_some();
+        known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));
+    }
+    known.map_err(|reason| {
+        let help = "give what goes together an entry of `methods` of its own";
+        evaluator.diagnostic(path, &reason).with_help(help)
+    })
 }
 
 /// Refuses a product of lists that is too long, before it is unfolded.

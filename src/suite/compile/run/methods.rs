@@ -1,84 +1,164 @@
-//! One entry of `methods` becomes methods: the product of its lists, with names.
+//! The entries of `methods` become methods: the products of their lists, with names.
 
-use crate::fem::{Element, Mass, Sampling};
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::fem::Sampling;
+use crate::mpm::{FrameName, MassName};
 use crate::subject::Start;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
 use crate::suite::grammar::{EquationName, MethodSpec};
 use crate::suite::model::method::Method;
-use crate::suite::yaml::OneOrMany;
+use crate::suite::yaml::{Diagnostic, OneOrMany};
+use std::collections::BTreeMap;
 
-/// The product of one entry of `methods`. A choice enters the name where there is one, or where
-/// it always has to be made.
-pub(crate) fn methods(spec: &MethodSpec, own_law: EquationName) -> Vec<(String, Method)> {
+/// A method on its way to a name.
+pub(crate) struct MethodDraft {
+    /// Number of its entry of `methods`.
+    entry: usize,
+    pub(crate) method: Method,
+    /// Which of its settings the name says.
+    said: Vec<bool>,
+}
+
+impl MethodDraft {
+    /// The name of a case of this method.
+    fn name(&self) -> String {
+        let (subject, settings) = settings(&self.method);
+        let said = settings.iter().zip(&self.said).filter(|(_, said)| **said);
+        let parts = said.map(|(setting, _)| format!("-{}", setting.replace('_', "-")));
+        parts.fold(subject.to_owned(), |name, part| name + &part)
+    }
+}
+
+/// First word of the names of a method, and its settings in the order in which they follow.
+fn settings(method: &Method) -> (&'static str, Vec<String>) {
+    match *method {
+        Method::Mpm { basis, transfer, scheme, start, mass, frame } => {
+            let transfer = transfer.name();
+            let rest = [scheme.name(), start.name(), mass.name(), frame.name()];
+            let mut settings = vec![basis.name().to_owned(), transfer];
+            settings.extend(rest.map(ToOwned::to_owned));
+            ("mpm", settings)
+        }
+        Method::Heat { basis } => ("heat", vec![basis.name().to_owned()]),
+        Method::Fem { element, mass, law, start, sampling } => {
+            let settings = [element.name(), mass.name(), law.name(), start.name(), sampling.name()];
+            ("fem", settings.map(ToOwned::to_owned).to_vec())
+        }
+    }
+}
+
+/// The product of entry number `entry` of `methods`. A setting enters the name where the entry
+/// lists several, or where one always has to be chosen.
+pub(crate) fn methods(entry: usize, spec: &MethodSpec, own_law: EquationName) -> Vec<MethodDraft> {
+    let mut drafts = Vec::new();
     match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => {
-            let mut all = Vec::new();
-            let starts = choices(start.as_ref(), Start::AtZero, Start::name);
-            let masses = choices(mass.as_ref(), MassName::Lumped, MassName::name);
-            let frames = choices(frame.as_ref(), FrameName::Updated, FrameName::name);
-            let rest = product(&product(&starts, &masses), &frames);
-            let pairs =
-                product(&named(basis, BasisName::name), &named(transfer, TransferChoice::name));
-            for (name, ((basis, transfer), scheme)) in
-                product(&pairs, &named(scheme, SchemeName::name))
-            {
-                for (suffix, ((start, mass), frame)) in &rest {
-                    let (start, mass, frame) = (*start, *mass, *frame);
-                    let method = Method::Mpm { basis, transfer, scheme, start, mass, frame };
-                    all.push((format!("mpm{name}{suffix}"), method));
-                }
+            let said =
+                [true, true, true, many(start.as_ref()), many(mass.as_ref()), many(frame.as_ref())];
+            let settings = product(
+                &product(&product(basis.as_slice(), transfer.as_slice()), scheme.as_slice()),
+                &product(
+                    &product(
+                        &choices(start.as_ref(), Start::AtZero),
+                        &choices(mass.as_ref(), MassName::Lumped),
+                    ),
+                    &choices(frame.as_ref(), FrameName::Updated),
+                ),
+            );
+            for (((basis, transfer), scheme), ((start, mass), frame)) in settings {
+                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame };
+                drafts.push(MethodDraft { entry, method, said: said.to_vec() });
             }
-            all
         }
-        MethodSpec::Heat { basis } => named(basis, BasisName::name)
-            .into_iter()
-            .map(|(name, basis)| (format!("heat{name}"), Method::Heat { basis }))
-            .collect(),
-        MethodSpec::Fem { element, mass, law, start, sampling } => {
-            let mut all = Vec::new();
-            let laws = choices(law.as_ref(), own_law, EquationName::name);
-            let starts = choices(start.as_ref(), Start::AtZero, Start::name);
-            let samplings = choices(sampling.as_ref(), Sampling::Inside, Sampling::name);
-            let rest = product(&product(&laws, &starts), &samplings);
-            for (name, (element, mass)) in
-                product(&named(element, Element::name), &named(mass, Mass::name))
-            {
-                for (suffix, ((law, start), sampling)) in &rest {
-                    let (law, start, sampling) = (*law, *start, *sampling);
-                    let method = Method::Fem { element, mass, law, start, sampling };
-                    all.push((format!("fem{name}{suffix}"), method));
-                }
+        MethodSpec::Heat { basis } => {
+            for &basis in basis.as_slice() {
+                let method = Method::Heat { basis };
+                drafts.push(MethodDraft { entry, method, said: vec![true] });
             }
-            all
+        }
+        MethodSpec::Fem { element, mass, law, start, sampling } => {
+            let said =
+                [true, true, many(law.as_ref()), many(start.as_ref()), many(sampling.as_ref())];
+            let settings = product(
+                &product(element.as_slice(), mass.as_slice()),
+                &product(
+                    &product(
+                        &choices(law.as_ref(), own_law),
+                        &choices(start.as_ref(), Start::AtZero),
+                    ),
+                    &choices(sampling.as_ref(), Sampling::Inside),
+                ),
+            );
+            for ((element, mass), ((law, start), sampling)) in settings {
+                let method = Method::Fem { element, mass, law, start, sampling };
+                drafts.push(MethodDraft { entry, method, said: said.to_vec() });
+            }
         }
     }
+    drafts
 }
 
-/// A member of a list with what it adds to the name of a case.
-type Choice<T> = (String, T);
+/// The methods with their names. None at all, and one twice, is refused.
+pub(crate) fn named(
+    evaluator: &Evaluator<'_>,
+    mut drafts: Vec<MethodDraft>,
+) -> Result<Vec<(String, Method)>, Diagnostic> {
+    let path = Path::top("methods");
+    if drafts.is_empty() {
+        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
+    }
+    tell_apart(&mut drafts);
+    let mut named: Vec<(String, Method)> = Vec::new();
+    for draft in &drafts {
+        let name = draft.name();
+        if named.iter().any(|(known, _)| *known == name) {
+            let message = format!("the case `{name}` appears twice");
+            let diagnostic = evaluator.diagnostic(&path.then(draft.entry), &message);
+            return Err(diagnostic.with_label("the second time"));
+        }
+        named.push((name, draft.method));
+    }
+    Ok(named)
+}
+
+/// Lets names say the settings by which methods of one name differ. Names that are told apart
+/// already stay as they are; equal ones remain where the methods are equal.
+fn tell_apart(drafts: &mut [MethodDraft]) {
+    while say_differences(drafts) {}
+}
+
+/// Whether a name has become longer, and may have become that of another method.
+fn say_differences(drafts: &mut [MethodDraft]) -> bool {
+    let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (i, draft) in drafts.iter().enumerate() {
+        of_one_name.entry(draft.name()).or_default().push(i);
+    }
+    let mut longer = false;
+    for same in of_one_name.values().filter(|same| same.len() > 1) {
+        let all: Vec<_> = same.iter().map(|i| settings(&drafts[*i].method).1).collect();
+        for k in 0..all[0].len() {
+            if all.iter().any(|settings| settings[k] != all[0][k]) {
+                for i in same {
+                    longer |= !drafts[*i].said[k];
+                    drafts[*i].said[k] = true;
+                }
+            }
+        }
+    }
+    longer
+}
 
 /// All pairs, the second list running fastest.
-fn product<A: Copy, B: Copy>(first: &[Choice<A>], second: &[Choice<B>]) -> Vec<Choice<(A, B)>> {
-    let pair = |(a, x): &Choice<A>, (b, y): &Choice<B>| (format!("{a}{b}"), (*x, *y));
-    first.iter().flat_map(|first| second.iter().map(move |second| pair(first, second))).collect()
+fn product<A: Copy, B: Copy>(first: &[A], second: &[B]) -> Vec<(A, B)> {
+    first.iter().flat_map(|a| second.iter().map(move |b| (*a, *b))).collect()
 }
 
-/// The members of a list that has to be given, each of which is part of the name.
-fn named<T: Copy, N: AsRef<str>>(list: &OneOrMany<T>, name: fn(T) -> N) -> Vec<Choice<T>> {
-    let suffix = |member: T| format!("-{}", name(member).as_ref().replace('_', "-"));
-    list.as_slice().iter().map(|member| (suffix(*member), *member)).collect()
+/// The members of an optional list.
+fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
+    list.map_or(vec![default], |list| list.as_slice().to_vec())
 }
 
-/// The members of an optional list with the suffix that each gives to a name: none where there is
-/// no choice.
-fn choices<T: Copy>(
-    list: Option<&OneOrMany<T>>,
-    default: T,
-    name: fn(T) -> &'static str,
-) -> Vec<Choice<T>> {
-    match list.map_or(&[][..], OneOrMany::as_slice) {
-        [] => vec![(String::new(), default)],
-        [only] => vec![(String::new(), *only)],
-        many => many.iter().map(|m| (format!("-{}", name(*m).replace('_', "-")), *m)).collect(),
-    }
+/// Whether an optional list has several members.
+fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
+    list.is_some_and(|list| list.as_slice().len() > 1)
 }

@@ -6,7 +6,7 @@ use crate::mpm::{MaterialPlan, combine};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases::{assign, because};
 use crate::suite::compile::path::Path;
-use crate::suite::compile::run::methods::methods;
+use crate::suite::compile::run::methods::{methods, named};
 use crate::suite::compile::truth::law;
 use crate::suite::compile::wording::{shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
@@ -125,35 +125,26 @@ fn drafts(
     material: &MaterialPlan,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
     let own = law::own(material).unwrap_or_default();
-    let mut drafts: Vec<(String, Method)> = Vec::new();
+    let mut drafts = Vec::new();
     for (i, spec) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         if matches!(spec, MethodSpec::Fem { .. }) {
             return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
         }
-        for (name, method) in methods(spec, own) {
-            if let Method::Mpm { basis, transfer, mass, frame, .. } = method {
+        for draft in methods(i, spec, own) {
+            if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
                 combine(basis, transfer, mass, frame).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
                     evaluator.diagnostic(&path, &reason).with_help(help)
                 })?;
             }
-            if drafts.len() == MOST || drafts.iter().any(|(known, _)| *known == name) {
-                let message = if drafts.len() == MOST {
-                    format!("more than {MOST} cases")
-                } else {
-                    format!("the case `{name}` appears twice")
-                };
-                return Err(evaluator.diagnostic(&path, &message));
+            if drafts.len() == MOST {
+                return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
             }
-            drafts.push((name, method));
+            drafts.push(draft);
         }
     }
-    if drafts.is_empty() {
-        let path = Path::top("methods");
-        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
-    }
-    Ok(drafts)
+    named(evaluator, drafts)
 }
 
 fn cases(
