@@ -90,3 +90,6 @@ pub mod suite;
 mod dimension;
 mod members;
 mod named;
+mod nearest;
+
+pub use nearest::nearest;

@@ -3,6 +3,7 @@
 use super::args::ExplainArgs;
 use super::status::BAD_INPUT;
 use super::{output, show};
+use mpm_verify::nearest;
 use mpm_verify::report;
 use mpm_verify::study;
 use mpm_verify::study::describe::profiles::Dispensable;
@@ -25,13 +26,8 @@ fn named(name: &str) -> Result<Dispensable, String> {
         return Ok(found);
     }
     let known: Vec<&str> = Dispensable::all().map(Dispensable::name).collect();
-    let nearest = known
-        .iter()
-        .map(|known| (strsim::jaro_winkler(known, name), known))
-        .filter(|(likeness, _)| *likeness > 0.8)
-        .max_by(|a, b| a.0.total_cmp(&b.0));
-    let hint = match nearest {
-        Some((_, nearest)) => format!("did you mean `{nearest}`?"),
+    let hint = match nearest(name, known.iter().copied()) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
         None => format!("known effects: {}", known.join(", ")),
     };
     Err(format!("error: --without {name}: there is no such effect\nhelp: {hint}"))

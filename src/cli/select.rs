@@ -1,8 +1,13 @@
 //! Suites that the user names.
 
+use super::args::Cli;
+use clap::CommandFactory;
+use mpm_verify::nearest;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use mpm_verify::suite::{Suite, embedded};
 use rayon::prelude::*;
+use std::ffi::OsStr;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Where suites are looked for by default.
@@ -44,8 +49,12 @@ fn sources(target: &Path) -> Sources {
     }
     let name = target.to_string_lossy();
     let looks_like_a_path = target.extension().is_some() || name.contains(['/', '\\']);
-    if target.exists() || looks_like_a_path {
+    if target.exists() {
         return vec![Source::read(target)];
+    }
+    if looks_like_a_path {
+        let help = meant_by_path(target);
+        return vec![Source::read(target).map_err(|diagnostic| diagnostic.with_help(&help))];
     }
     let local = Path::new(FOLDER).join(format!("{name}.yaml"));
     if local.is_file() {
@@ -54,32 +63,67 @@ fn sources(target: &Path) -> Sources {
     vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))]
 }
 
+/// What the path of a file that is not there may mean: a file beside it, or a suite by its name.
+fn meant_by_path(target: &Path) -> String {
+    let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let folder = target.parent().unwrap_or(Path::new(""));
+    let here = if folder == Path::new("") { Path::new(".") } else { folder };
+    let beside: Vec<String> =
+        suite_files(here).unwrap_or_default().iter().map(|path| text(path.file_name())).collect();
+    if let Some(file) = nearest(&text(target.file_name()), beside.iter().map(String::as_str)) {
+        return format!("did you mean `{}`?", folder.join(file).display());
+    }
+    let suites = suite_names();
+    nearest(&text(target.file_stem()), suites.iter().map(String::as_str))
+        .map_or_else(String::new, |suite| format!("did you mean the suite `{suite}`?"))
+}
+
 fn unknown(name: &str) -> Diagnostic {
     let diagnostic = Diagnostic::about(name, &format!("there is no suite called `{name}`"));
-    let near = |known: &&str| strsim::jaro_winkler(known, name) > 0.8;
-    if let Some(known) = embedded::names().find(near) {
-        return diagnostic.with_help(&format!("did you mean `{known}`?"));
+    let suites = suite_names();
+    let cli = Cli::command();
+    // Behind a command, another one makes no sense.
+    let first = std::env::args_os().nth(1).is_some_and(|first| first == name);
+    let commands = cli.get_subcommands().filter(|_| first).map(clap::Command::get_name);
+    let help = match nearest(name, suites.iter().map(String::as_str).chain(commands)) {
+        Some(near) if suites.iter().any(|suite| suite == near) => format!("did you mean `{near}`?"),
+        Some(command) => format!("did you mean the command `{command}`?"),
+        None => {
+            let known = embedded::names().count();
+            format!("`mpm-verify list` shows the {known} that are built in")
+        }
+    };
+    diagnostic.with_help(&help)
+}
+
+/// Names by which suites can be asked for: those of the default folder, and the embedded ones.
+fn suite_names() -> Vec<String> {
+    let local = suite_files(Path::new(FOLDER)).unwrap_or_default();
+    let stem = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
+    let local = local.iter().filter_map(stem);
+    local.chain(embedded::names().map(ToOwned::to_owned)).collect()
+}
+
+/// The suites of a folder.
+fn files_in(folder: &Path) -> Sources {
+    let name = folder.display().to_string();
+    match suite_files(folder) {
+        Ok(files) if files.is_empty() => {
+            vec![Err(Diagnostic::about(&name, "this folder holds no suite (no .yaml file)"))]
+        }
+        Ok(files) => files.into_iter().map(Source::read).collect(),
+        Err(error) => {
+            let message = format!("this folder cannot be read: {error}");
+            vec![Err(Diagnostic::about(&name, &message))]
+        }
     }
-    let known = embedded::names().count();
-    diagnostic.with_help(&format!("`mpm-verify list` shows the {known} that are built in"))
 }
 
 /// Every `.yaml` file of a folder, sorted by name.
-fn files_in(folder: &Path) -> Sources {
-    let name = folder.display().to_string();
-    let entries = match std::fs::read_dir(folder) {
-        Ok(entries) => entries,
-        Err(error) => {
-            let message = format!("this folder cannot be read: {error}");
-            return vec![Err(Diagnostic::about(&name, &message))];
-        }
-    };
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+fn suite_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let paths = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     let mut files: Vec<PathBuf> =
         paths.filter(|path| path.extension().is_some_and(|e| e == "yaml" || e == "yml")).collect();
     files.sort();
-    if files.is_empty() {
-        return vec![Err(Diagnostic::about(&name, "this folder holds no suite (no .yaml file)"))];
-    }
-    files.into_iter().map(Source::read).collect()
+    Ok(files)
 }

@@ -20,6 +20,7 @@ pub(crate) struct Wall {
 /// `study` has no wall: it builds and runs whatever a suite asks for.
 pub(crate) const WALLS: &[Wall] = &[
     Wall { around: "named", may: &[], why: "every part is built on it" },
+    Wall { around: "nearest", may: &[], why: "whatever has names to suggest reads it" },
     Wall { around: "dimension", may: &[], why: "every part is built on it" },
     Wall { around: "members", may: &[], why: "rooms on both sides of a wall read it" },
     Wall { around: "subject", may: &["named"], why: "it is the contract between judge and solver" },
@@ -35,7 +36,7 @@ pub(crate) const WALLS: &[Wall] = &[
     },
     Wall {
         around: "exact",
-        may: &["subject", "named", "dimension", "members"],
+        may: &["subject", "named", "nearest", "dimension", "members"],
         why: "a truth that is made with a solver can only agree with it",
     },
     Wall {
@@ -58,6 +59,7 @@ pub(crate) const WALLS: &[Wall] = &[
             "report",
             "subject",
             "named",
+            "nearest",
             "dimension",
             "members",
         ],
@@ -65,7 +67,7 @@ pub(crate) const WALLS: &[Wall] = &[
     },
     Wall {
         around: "suite::yaml",
-        may: &["named"],
+        may: &["named", "nearest"],
         why: "it turns text into values that know their place, whatever they mean",
     },
     Wall {

@@ -1,6 +1,6 @@
 //! Suggestions for unknown names.
 
-use strsim::damerau_levenshtein;
+use crate::nearest::nearest;
 
 /// Names that other languages have and this one writes differently.
 const ELSEWHERE: &[(&str, &str)] = &[
@@ -17,14 +17,4 @@ pub(super) fn hint<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) ->
         return Some((*help).to_owned());
     }
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
-}
-
-/// The most similar candidate. One error in three letters is tolerated, and any difference of case.
-fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let lower = name.to_lowercase();
-    candidates
-        .map(|candidate| (damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
-        .filter(|(distance, _)| *distance <= name.len() / 3)
-        .min()
-        .map(|(_, candidate)| candidate)
 }

@@ -1,6 +1,7 @@
 //! How complaints put things.
 
-use crate::suite::yaml::{NumberText, nearest};
+use crate::nearest::nearest;
+use crate::suite::yaml::NumberText;
 
 /// A number as an author would write it: 1e300 rather than a one and 300 zeros.
 pub(crate) fn shown(value: f64) -> String {
@@ -9,7 +10,7 @@ pub(crate) fn shown(value: f64) -> String {
 
 /// The name that was most likely meant, or all `known` ones.
 pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
-    match nearest(name, known) {
+    match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("known {kind}: {}", known.join(", ")),
     }

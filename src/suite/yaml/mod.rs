@@ -52,7 +52,6 @@ pub use locate::Step;
 pub use number_text::NumberText;
 pub use one_or_many::OneOrMany;
 pub use ordered::Ordered;
-pub(crate) use phrase::nearest;
 pub use place::Place;
 pub use read::read;
 pub use refusal::refuse;

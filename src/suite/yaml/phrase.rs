@@ -1,8 +1,5 @@
 //! Messages of serde and of the parser, in plain English.
 
-/// Names farther from what was written than this part of their length are no suggestion.
-const NEAR: usize = 3;
-
 /// The expected value, without the names of Rust types.
 pub(crate) fn expected(serde: &str) -> String {
     let words = match serde {
@@ -61,21 +58,6 @@ pub(crate) fn found(serde: &str) -> String {
         },
         ToOwned::to_owned,
     )
-}
-
-/// The valid name that a misspelt one was most likely meant to be.
-pub(crate) fn nearest<'a>(name: &str, valid: &[&'a str]) -> Option<&'a str> {
-    // The distance costs the product of the lengths, and a long name is no slip of the finger.
-    if name.len() > 64 {
-        return None;
-    }
-    let plain = name.to_lowercase().replace(['-', ' '], "_");
-    valid
-        .iter()
-        .map(|valid| (strsim::damerau_levenshtein(&plain, valid), *valid))
-        .filter(|(distance, valid)| *distance <= valid.chars().count().div_ceil(NEAR))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, valid)| valid)
 }
 
 /// Names in a row, each in backticks.

@@ -1,8 +1,9 @@
 //! Errors of the YAML library, in terms of a suite.
 
-use super::phrase::{expected, found, listed, nearest, syntax};
+use super::phrase::{expected, found, listed, syntax};
 use super::refusal::refused;
 use super::{Diagnostic, Source};
+use crate::nearest::nearest;
 
 /// Turns an error of the library into a complaint at the same place.
 pub(crate) fn diagnostic(source: &Source, error: &serde_yaml::Error) -> Diagnostic {
@@ -76,7 +77,7 @@ impl<'a> Fault<'a> {
         let (name, valid) =
             rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
-        let help = match nearest(name, &valid) {
+        let help = match nearest(name, valid.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None if valid.is_empty() => format!("no {kind} is possible here"),
             None => format!("possible {kind}s: {}", listed(&valid)),

@@ -13,6 +13,7 @@ mod run;
 mod steps;
 
 use folder::Folder;
+use rstest::rstest;
 
 /// Exit status of a run on which everything came as expected.
 const SOUND: i32 = 0;
@@ -135,6 +136,42 @@ fn a_misspelt_name_is_answered_with_the_right_one() {
         assert!(found.errors.contains("there is no suite called `odometer`"), "{}", found.errors);
         assert!(found.errors.contains("did you mean `oedometer`?"), "{}", found.errors);
     }
+}
+
+#[rstest]
+#[case::the_nearest_and_not_the_first("vibratin-bar", "did you mean `vibrating-bar`?")]
+#[case::a_local_one("shrot-bar", "did you mean `short-bar`?")]
+#[case::a_file_beside(
+    "verification/short-baar.yaml",
+    "did you mean `verification/short-bar.yaml`?"
+)]
+#[case::a_file_that_is_built_in("oedometre.yaml", "did you mean the suite `oedometer`?")]
+fn suites_at_hand_are_suggested(#[case] name: &str, #[case] help: &str) {
+    let folder = Folder::new();
+    folder.write("verification/short-bar.yaml", BAR);
+    let found = folder.call(&["check", name]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains(help), "{}", found.errors);
+}
+
+#[rstest]
+#[case("chek", "did you mean the command `check`?")]
+#[case("lst", "did you mean the command `list`?")]
+#[case("odometer", "did you mean `oedometer`?")]
+fn a_misspelt_command_is_answered_with_the_right_one(#[case] word: &str, #[case] help: &str) {
+    let found = Folder::new().call(&[word]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains(help), "{}", found.errors);
+    let behind_a_command = Folder::new().call(&["check", "chek"]);
+    assert!(!behind_a_command.errors.contains("command"), "{}", behind_a_command.errors);
+}
+
+#[test]
+fn a_suite_that_is_nearer_than_a_command_is_meant() {
+    let folder = Folder::new();
+    folder.write("verification/checks.yaml", BAR);
+    let found = folder.call(&["cheks"]);
+    assert!(found.errors.contains("did you mean `checks`?"), "{}", found.errors);
 }
 
 #[test]

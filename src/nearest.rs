@@ -1,0 +1,74 @@
+//! What a misspelt name was most likely meant to be.
+
+use strsim::damerau_levenshtein;
+
+/// Longer names are no slip of the finger, and the distance costs the product of the lengths.
+const LONGEST: usize = 64;
+
+/// A name is near if one letter in so many is wrong.
+const LETTERS: usize = 3;
+
+/// The nearest of the `known` names, if one is near; the first of several as near.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    by_nearness(name, known).into_iter().next().filter(|known| is_near(name, known))
+}
+
+/// The `known` names, the nearest first.
+pub(crate) fn by_nearness<'a>(
+    name: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Vec<&'a str> {
+    let mut known: Vec<&str> = known.into_iter().collect();
+    if name.len() <= LONGEST {
+        known.sort_by_cached_key(|known| distance(name, known));
+    }
+    known
+}
+
+fn is_near(name: &str, known: &str) -> bool {
+    let letters = name.chars().count().max(known.chars().count());
+    name.len() <= LONGEST && distance(name, known) <= letters / LETTERS
+}
+
+/// Slips of the finger between two names; capitals and the kind of hyphen are none.
+fn distance(name: &str, known: &str) -> usize {
+    let plain = |name: &str| name.to_lowercase().replace(['-', ' '], "_");
+    damerau_levenshtein(&plain(name), &plain(known))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    const BARS: [&str; 4] = ["vibrating-bar-long", "vibrating-bar-of-two", "vibrating-bar", "bar"];
+
+    #[rstest]
+    #[case::not_the_first_that_is_near("vibratin-bar", Some("vibrating-bar"))]
+    #[case::letters_swapped("vibrating-bra", Some("vibrating-bar"))]
+    #[case::capitals_and_hyphens("Vibrating_Bar_Long", Some("vibrating-bar-long"))]
+    #[case::one_letter_of_three("far", Some("bar"))]
+    #[case::two_letters_of_three("fur", None)]
+    #[case::nothing("", None)]
+    fn the_nearest_name(#[case] name: &str, #[case] wanted: Option<&str>) {
+        assert_eq!(nearest(name, BARS), wanted);
+    }
+
+    #[test]
+    fn one_letter_is_no_slip_for_another() {
+        assert_eq!(nearest("y", ["x"]), None);
+        assert_eq!(nearest("x", ["X"]), Some("X"));
+    }
+
+    #[test]
+    fn a_long_name_is_none() {
+        let name = "a".repeat(65);
+        assert_eq!(nearest(&name, [name.as_str()]), None);
+    }
+
+    #[test]
+    fn all_names_in_order() {
+        let sorted = by_nearness("rhoo", ["young", "L", "rho", "rho0"]);
+        assert_eq!(sorted, ["rho", "rho0", "L", "young"]);
+    }
+}
