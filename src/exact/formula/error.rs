@@ -17,12 +17,20 @@ pub struct FormulaError {
     pub help: Option<String>,
     /// The user function in whose body the fault lies, if it is not in the formula itself.
     pub within: Option<String>,
+    /// The name that is declared nowhere, if that is the fault.
+    pub unknown: Option<String>,
 }
 
 impl FormulaError {
     /// An error without help, in the formula itself.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { message: message.into(), span, help: None, within: None }
+        Self { message: message.into(), span, help: None, within: None, unknown: None }
+    }
+
+    /// An unknown name.
+    pub(super) fn unknown(span: Range<usize>, name: &str) -> Self {
+        let message = format!("unknown name `{name}`");
+        Self { unknown: Some(name.to_owned()), ..Self::new(span, message) }
     }
 
     /// Adds what to write instead.

@@ -10,11 +10,13 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("heaviside", "the unit step is `step`"),
 ];
 
-/// Correction of the unknown `name`, if it resembles a candidate or is known elsewhere.
-pub(super) fn hint<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
-    let elsewhere = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
-    if let Some((_, help)) = elsewhere {
-        return Some((*help).to_owned());
-    }
+/// What other languages mean by a name, and how it is written here.
+pub(super) fn elsewhere(name: &str) -> Option<String> {
+    let known = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
+    known.map(|(_, help)| (*help).to_owned())
+}
+
+/// The question whether the nearest candidate is meant, if one is near.
+pub(super) fn meant<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }

@@ -42,6 +42,16 @@ impl Scope {
         Ok(())
     }
 
+    /// The same scope, with another value for a constant that it declares.
+    #[must_use]
+    pub fn with(&self, name: &str, value: f64) -> Self {
+        let mut scope = self.clone();
+        if let Some(known) = scope.constants.get_mut(name) {
+            *known = value;
+        }
+        scope
+    }
+
     /// Declares a function. Its body is resolved when a formula that uses it is bound, so that
     /// functions may be declared in any order.
     ///

@@ -10,7 +10,7 @@ use rstest::rstest;
     &["expected `,` or `)`, found the end of the formula"]
 )]
 #[case::a_decimal_comma(&[("L: 25 ", "L: 25▸,5 ")], &["expected an operator or the end of the formula, found `,`"])]
-#[case::an_unknown_parameter(&[("v0/omega*", "v0/▸omgea*")], &["unknown name `omgea`", "did you mean `omega`?"])]
+#[case::an_unknown_parameter(&[("v0/omega*", "v0/▸omgea*")], &["unknown name `omgea`", "did you mean `omega`? declared: `omega`, "])]
 #[case::an_unknown_function(&[("v0*mode(X)", "v0*▸mod(X)")], &["unknown function `mod`", "did you mean `mode`?"])]
 #[case::a_small_letter(&[("mode(X)*", "mode(▸x)*")], &["unknown name `x`", "did you mean `X`?"])]
 #[case::a_coordinate_of_more_dimensions(
@@ -18,7 +18,18 @@ use rstest::rstest;
     &["unknown name `Y`", "the variables are `X`, `t`"]
 )]
 #[case::time_in_the_time_step(&[("dt: 1e-3", "dt: ▸t")], &["unknown name `t`", "the variables are `h`"])]
-#[case::a_parameter_that_comes_later(&[("L: 25 ", "L: \"▸E/4\" ")], &["unknown name `E`"])]
+#[case::a_parameter_that_comes_later(
+    &[("L: 25 ", "L: \"▸E/4\" ")],
+    &["unknown name `E`", "`E` is declared further down (line 7): move it up"]
+)]
+#[case::a_parameter_that_is_declared_nowhere(
+    &[("E: 100", "E: \"▸M*4\"")],
+    &["unknown name `M`", "there are no variables here; declared: `L`"]
+)]
+#[case::a_parameter_that_comes_later_in_a_function(
+    &[("sin(pi*s/(2*L))", "sin(pi*s/(2*▸v0))"), ("L: 25 ", "L: \"25*mode(1)\" ")],
+    &["unknown name `v0`", "`v0` is declared further down (line 9): move it up"]
+)]
 #[case::an_unused_parameter(
     &[("rho: 1\n", "rho: 1\n  ▸nu: 0.3\n")],
     &["the parameter `nu` is never used", "remove it, or use it"]

@@ -11,7 +11,35 @@ use rstest::rstest;
 )]
 #[case::a_negative_density_deep_in_a_formula(
     &[("rho: 1\n", "rho: -1\n"), ("\"pi/(2*L)", "▸\"pi/(2*L)")],
-    &["`pi/(2*L)*sqrt(E/rho)` is NaN, which is not finite"]
+    &["`omega` is NaN because `rho` is -1", "expected a finite number", "`rho` is -1 (line 8)"]
+)]
+#[case::a_negative_stiffness_deep_in_a_formula(
+    &[("E: 100", "E: -100"), ("\"pi/(2*L)", "▸\"pi/(2*L)")],
+    &["`omega` is NaN because `E` is -100", "`E` is -100 (line 7)"]
+)]
+#[case::a_length_of_zero_deep_in_a_formula(
+    &[("L: 25 ", "L: 0 "), ("\"pi/(2*L)", "▸\"pi/(2*L)")],
+    &["`omega` is inf because `L` is 0", "`L` is 0 (line 6)"]
+)]
+#[case::two_that_are_to_blame_together(
+    &[("E: 100", "E: 25"), ("rho: 1\n", "rho: 1\n  k: ▸\"1/(E - L)\"\n")],
+    &["`k` is inf because `E` is 25 and `L` is 25", "`E` is 25 (line 7), `L` is 25 (line 6)"]
+)]
+#[case::one_beyond_a_branch_through_a_function(
+    &[("sin(pi*s/(2*L))", "asin(s*v0)"), ("v0: 0.1", "v0: 3"), ("until: 0.5", "until: ▸\"mode(1)\"")],
+    &["`mode(1)` is NaN because `v0` is 3", "`v0` is 3 (line 9)"]
+)]
+#[case::none_that_stands_out(
+    &[("rho: 1\n", "rho: 1\n  k: ▸\"0*E/0\"\n")],
+    &["`0*E/0` is NaN, which is not finite", "`E` is 100 (line 7)"]
+)]
+#[case::a_negative_stiffness(
+    &[("E: 100", "E: -100"), ("sqrt(E/rho)", "sqrt(-E/rho)"), ("young: E", "young: ▸E")],
+    &["Young's modulus is -100, and must be above zero", "`E` is -100 (line 7)"]
+)]
+#[case::a_fraction_of_a_cell_by_a_formula(
+    &[("[6, 12]", "[6, ▸\"E/40\"]")],
+    &["the number of cells is 2.5", "`E` is 100 (line 7)"]
 )]
 #[case::zero_cells(&[("[6, 12]", "[▸0, 12]")], &["the number of cells is 0", "expected a whole number from 1"])]
 #[case::zero_cells_without_a_list(&[("[6, 12]", "▸0")], &["the number of cells is 0", "expected a whole number from 1"])]

@@ -53,9 +53,9 @@ fn message_and_span(#[case] source: &str, #[case] message: &str, #[case] span: R
 }
 
 #[rstest]
-#[case("omgea*t", "unknown name `omgea`", 0..5, "did you mean `omega`?")]
-#[case("1+l", "unknown name `l`", 2..3, "did you mean `L`?")]
-#[case("2*velocity", "unknown name `velocity`", 2..10, "the variables are `x`, `t`")]
+#[case("omgea*t", "unknown name `omgea`", 0..5, "did you mean `omega`? declared: `omega`, `E`, `L`, `g`, `rho`")]
+#[case("1+l", "unknown name `l`", 2..3, "did you mean `L`? declared: `L`, `E`, `g`, `rho`, `omega`")]
+#[case("2*velocity", "unknown name `velocity`", 2..10, "the variables are `x`, `t`; declared: `omega`, `rho`, `E`, `L`, `g`")]
 #[case("e^x", "unknown name `e`", 0..1, "there is no constant `e`: write `exp(1)`")]
 #[case("log(x)", "unknown function `log`", 0..3, "the natural logarithm is `ln`")]
 #[case("sqr(x)", "unknown function `sqr`", 0..3, "did you mean `sqrt`?")]
@@ -87,6 +87,29 @@ fn message_span_and_help(
 #[test]
 fn without_variables_the_help_says_so() {
     let error = bind("velocity", &[]).unwrap_err();
+    assert_eq!(
+        error.help.as_deref(),
+        Some("there are no variables here; declared: `omega`, `rho`, `E`, `L`, `g`")
+    );
+}
+
+#[test]
+fn of_many_constants_the_nearest_are_listed() {
+    let mut scope = Scope::new();
+    for i in 0..12 {
+        scope.constant(&format!("c{i}"), 1.0).unwrap();
+    }
+    scope.constant("rho", 1.0).unwrap();
+    let error = Formula::bind(&Expr::parse("rhoo").unwrap(), &scope, &[]).unwrap_err();
+    let help = error.help.expect("help");
+    assert!(help.starts_with("did you mean `rho`? declared: `rho`, `c0`, "), "{help}");
+    assert!(help.ends_with(" and 5 more"), "{help}");
+    assert_eq!(error.unknown.as_deref(), Some("rhoo"));
+}
+
+#[test]
+fn without_names_the_help_says_so() {
+    let error = Formula::bind(&Expr::parse("a").unwrap(), &Scope::new(), &[]).unwrap_err();
     assert_eq!(error.help.as_deref(), Some("there are no variables here"));
 }
 

@@ -4,8 +4,12 @@ use super::{Frame, ProgramBuilder};
 use crate::exact::formula::ast::Node;
 use crate::exact::formula::builtin;
 use crate::exact::formula::error::FormulaError;
-use crate::exact::formula::hint::hint;
+use crate::exact::formula::hint::{elsewhere, meant};
 use crate::exact::formula::program::Operand;
+use crate::nearest::by_nearness;
+
+/// Most constants that a message lists.
+const LISTED: usize = 8;
 
 impl ProgramBuilder<'_> {
     /// The value that a name stands for.
@@ -28,9 +32,8 @@ impl ProgramBuilder<'_> {
             return Err(FormulaError::new(span, message)
                 .help(format!("write its arguments in parentheses: `{name}(...)`")));
         }
-        let known = frame.locals.iter().map(|(local, _)| *local);
-        let help = hint(name, known.chain(self.declared())).unwrap_or_else(|| frame.listing());
-        Err(FormulaError::new(span, format!("unknown name `{name}`")).help(help))
+        let help = elsewhere(name).unwrap_or_else(|| self.instead(frame, name));
+        Err(FormulaError::unknown(span, name).help(help))
     }
 
     /// The error for the call of a `name` that is no function.
@@ -44,7 +47,7 @@ impl ProgramBuilder<'_> {
                 let error =
                     FormulaError::new(node.head(name), format!("unknown function `{name}`"));
                 let callable = self.scope.functions().chain(builtin::names());
-                return match hint(name, callable) {
+                return match elsewhere(name).or_else(|| meant(name, callable)) {
                     Some(help) => error.help(help),
                     None => error,
                 };
@@ -52,6 +55,28 @@ impl ProgramBuilder<'_> {
         };
         FormulaError::new(node.head(name), format!("`{name}` is {role}, not a function"))
             .help(format!("write `{name}*(...)` to multiply"))
+    }
+
+    /// The names that may stand in the place of `name`: the nearest, or else the variables, and the
+    /// constants.
+    fn instead(&self, frame: &Frame, name: &str) -> String {
+        let known = frame.locals.iter().map(|(local, _)| *local);
+        match (meant(name, known.chain(self.declared())), self.constants(name)) {
+            (Some(near), Some(constants)) => format!("{near} {constants}"),
+            (Some(near), None) => near,
+            (None, Some(constants)) => format!("{}; {constants}", frame.listing()),
+            (None, None) => frame.listing(),
+        }
+    }
+
+    /// The constants, the nearest to `name` first.
+    fn constants(&self, name: &str) -> Option<String> {
+        let sorted = by_nearness(name, self.scope.constants().map(|(known, _)| known));
+        let listed: Vec<String> =
+            sorted.iter().take(LISTED).map(|known| format!("`{known}`")).collect();
+        let more = sorted.len().saturating_sub(LISTED);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        (!listed.is_empty()).then(|| format!("declared: {}{more}", listed.join(", ")))
     }
 
     /// Every name that may be meant in any frame.

@@ -34,7 +34,7 @@ fn not_negative(
         return Ok(value);
     }
     let message = format!("{what} is {}, and must not be below zero", shown(value));
-    Err(evaluator.diagnostic(path, &message).with_label("expected zero or a positive number"))
+    Err(evaluator.unusable(path, text, &message, "expected zero or a positive number"))
 }
 
 fn poissons_ratio(
@@ -47,5 +47,5 @@ fn poissons_ratio(
         return Ok(poisson);
     }
     let message = format!("Poisson's ratio is {poisson}");
-    Err(evaluator.diagnostic(path, &message).with_label("expected a number above -1 and below 0.5"))
+    Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
 }

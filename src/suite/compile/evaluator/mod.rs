@@ -1,5 +1,7 @@
 //! From what a file says to numbers and formulas, with the place of whatever is wrong.
 
+mod cause;
+
 use super::path::Path;
 use super::wording::shown;
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
@@ -19,6 +21,8 @@ pub(crate) struct Evaluator<'a> {
     scope: Scope,
     used: RefCell<BTreeSet<String>>,
     heads: Vec<String>,
+    /// Every parameter of the suite, also those that are not declared yet.
+    parameters: Vec<String>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -31,7 +35,9 @@ impl<'a> Evaluator<'a> {
     ) -> Result<(Self, Vec<DeclaredParameter>), Diagnostic> {
         let scope = Scope::new();
         let heads = functions.as_slice().iter().map(|(head, _)| head.clone()).collect();
-        let mut evaluator = Self { source, scope, used: RefCell::default(), heads };
+        let names = parameters.as_slice().iter().map(|(name, _)| name.clone()).collect();
+        let used = RefCell::default();
+        let mut evaluator = Self { source, scope, used, heads, parameters: names };
         for (head, body) in functions.as_slice() {
             evaluator.declare_function(head, body)?;
         }
@@ -127,8 +133,7 @@ impl<'a> Evaluator<'a> {
         if value.is_finite() {
             return Ok(value);
         }
-        let message = format!("`{text}` is {}, which is not finite", shown(value));
-        Err(self.diagnostic(path, &message).with_label("expected a finite number"))
+        Err(self.not_finite(path, text, value))
     }
 
     /// A number above zero.
@@ -143,7 +148,7 @@ impl<'a> Evaluator<'a> {
             return Ok(value);
         }
         let message = format!("{what} is {}, and must be above zero", shown(value));
-        Err(self.diagnostic(path, &message).with_label("expected a positive number"))
+        Err(self.unusable(path, text, &message, "expected a positive number"))
     }
 
     /// A whole number from 1 on.
@@ -159,7 +164,7 @@ impl<'a> Evaluator<'a> {
         }
         let message = format!("{what} is {}", shown(value));
         let label = format!("expected a whole number from 1 to {MOST:e}");
-        Err(self.diagnostic(path, &message).with_label(&label))
+        Err(self.unusable(path, text, &message, &label))
     }
 
     /// One number for each of `dimension` axes.
@@ -233,7 +238,20 @@ impl<'a> Evaluator<'a> {
             Some(place) => self.source.diagnostic(place, &error.message),
             None => self.diagnostic(&path, &error.message),
         };
-        with_help(diagnostic, error)
+        match error.unknown.as_deref().filter(|name| self.comes_later(name)) {
+            Some(name) => {
+                let line = self.line_of(name).map_or_else(String::new, |n| format!(" (line {n})"));
+                let help = format!("`{name}` is declared further down{line}: move it up");
+                diagnostic.with_help(&help)
+            }
+            None => with_help(diagnostic, error),
+        }
+    }
+
+    /// Whether a name is that of a parameter whose value is not known yet.
+    fn comes_later(&self, name: &str) -> bool {
+        self.parameters.iter().any(|known| known == name)
+            && !self.scope.constants().any(|(known, _)| known == name)
     }
 
     /// The head under which the file declares `function`.
