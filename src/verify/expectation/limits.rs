@@ -39,6 +39,15 @@ pub struct Measured {
     pub energy_rate: Option<(f64, f64)>,
 }
 
+/// A figure that is not as expected.
+#[derive(Debug)]
+pub(crate) struct UnmetFigure {
+    /// What was expected, and what came.
+    pub(crate) line: String,
+    /// Whether there is such a figure at all.
+    pub(crate) measured: bool,
+}
+
 /// One bound on a figure beside what was measured.
 struct Check {
     what: &'static str,
@@ -75,24 +84,31 @@ impl Limits {
         self.drift.iter().map(|(sum, _)| *sum).collect()
     }
 
-    /// Limits that do not hold, in words.
-    pub(crate) fn unmet(&self, measured: &Measured) -> Vec<String> {
+    /// Limits that do not hold.
+    pub(crate) fn unmet(&self, measured: &Measured) -> Vec<UnmetFigure> {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
-        let mut unmet: Vec<String> = broken
-            .map(|check| format!("expected {}, got {}", check.bound(), check.got()))
+        let mut unmet: Vec<UnmetFigure> = broken
+            .map(|check| UnmetFigure {
+                line: format!("expected {}, got {}", check.bound(), check.got()),
+                measured: check.got.is_some_and(|got| !got.is_nan()),
+            })
             .collect();
         for (sum, limit) in &self.drift {
             let drift = measured.drift.map(|drift| drift.of(*sum));
             if !drift.is_some_and(|drift| drift <= *limit) {
                 let (sum, got) = (sum.words(), drift.map_or("none".to_owned(), rounding));
-                unmet.push(format!("expected drift of {sum} at most {limit:e}, got {got}"));
+                let line = format!("expected drift of {sum} at most {limit:e}, got {got}");
+                let measured = drift.is_some_and(|drift| !drift.is_nan());
+                unmet.push(UnmetFigure { line, measured });
             }
         }
         if let Some((low, high)) = self.energy_rate {
             let got = measured.energy_rate;
             if !got.is_some_and(|(least, most)| low <= least && most <= high) {
+                let measured = got.is_some_and(|(least, most)| !least.is_nan() && !most.is_nan());
                 let got = got.map_or("none".to_owned(), rates);
-                unmet.push(format!("expected {}, got {got}", rate_within((low, high))));
+                let line = format!("expected {}, got {got}", rate_within((low, high)));
+                unmet.push(UnmetFigure { line, measured });
             }
         }
         unmet
@@ -255,6 +271,8 @@ mod tests {
         assert_eq!(errors.summary(), ["largest error at most 1e-11"]);
         assert_eq!(errors.found(&measured()), "largest error 0.01");
         let nan = Measured { errors: Some((NAN, NAN)), ..measured() };
-        assert_eq!(errors.unmet(&nan), ["expected largest error at most 1e-11, got NaN"]);
+        let unmet = errors.unmet(&nan).pop().expect("a line");
+        assert_eq!(unmet.line, "expected largest error at most 1e-11, got NaN");
+        assert!(!unmet.measured);
     }
 }

@@ -2,7 +2,7 @@
 
 pub(crate) mod limits;
 
-use super::expectation::limits::{Limits, Measured};
+use super::expectation::limits::{Limits, Measured, UnmetFigure};
 use super::verdict::floor::FloorCause;
 use super::verdict::name::Verdict;
 
@@ -47,46 +47,67 @@ pub struct CaseFindings {
 }
 
 impl Expectation {
-    /// Everything that did not come as expected, in words; empty if all did.
+    /// Everything that did not come as expected, in words, each failure once; empty if all came.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
+        let judged = self.unmet_judgement(found);
+        // A run that failed has left no figures, and that it failed is told already.
+        let failed = judged.is_some() && found.verdict == Verdict::Failed;
+        let figures = self.unmet_figures(found).into_iter();
+        let told = figures.filter(|figure| figure.measured || !failed);
+        judged.into_iter().chain(told.map(|figure| figure.line)).collect()
+    }
+
+    /// Verdict and observed order, which are two words for one finding.
+    fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
+        let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
+        let holds = |bounds: &Bounds| {
+            found.order.is_some_and(|(low, high)| within(low, *bounds) && within(high, *bounds))
+        };
+        let order = self.order.filter(|bounds| !holds(bounds)).map(show);
+        let got = || found.order.map_or("none".to_owned(), show);
+        match (verdict, order) {
+            (Some(verdict), Some(order)) => Some(format!(
+                "expected the verdict `{verdict}` with the order within {order}, got `{}` with {}",
+                found.verdict,
+                got()
+            )),
+            (Some(verdict), None) => {
+                Some(format!("expected the verdict `{verdict}`, got `{}`", found.verdict))
+            }
+            (None, Some(order)) => {
+                Some(format!("expected the order within {order}, got {}", got()))
+            }
+            (None, None) => (self.verdict.is_none() && found.verdict == Verdict::Failed)
+                .then(|| "expected every level to run to its end".to_owned()),
+        }
+    }
+
+    fn unmet_figures(&self, found: &CaseFindings) -> Vec<UnmetFigure> {
         let mut unmet = Vec::new();
-        match self.verdict {
-            Some(verdict) if found.verdict != verdict => {
-                unmet.push(format!("expected the verdict `{verdict}`, got `{}`", found.verdict));
-            }
-            None if found.verdict == Verdict::Failed => {
-                unmet.push("expected every level to run to its end".to_owned());
-            }
-            _ => {}
-        }
-        if let Some(bounds) = self.order {
-            let inside =
-                found.order.is_some_and(|(low, high)| within(low, bounds) && within(high, bounds));
-            if !inside {
-                let got = found.order.map_or("none".to_owned(), show);
-                unmet.push(format!("expected the order within {}, got {got}", show(bounds)));
-            }
-        }
         if let Some(bounds) = self.finest_pair
             && !found.finest_pair.is_some_and(|order| within(order, bounds))
         {
             let got = found.finest_pair.map_or("none".to_owned(), |order| format!("{order:.2}"));
             let wanted = show(bounds);
-            unmet.push(format!("expected the finest pair's order within {wanted}, got {got}"));
+            let line = format!("expected the finest pair's order within {wanted}, got {got}");
+            let measured = found.finest_pair.is_some_and(|order| !order.is_nan());
+            unmet.push(UnmetFigure { line, measured });
         }
         if let Some(some) = self.crossings
             && found.crossings.map(|n| n > 0) != Some(some)
         {
             let wanted = if some { "some" } else { "no" };
             let got = found.crossings.map_or("none counted".to_owned(), |n| n.to_string());
-            unmet.push(format!("expected {wanted} crossings on the finest level, got {got}"));
+            let line = format!("expected {wanted} crossings on the finest level, got {got}");
+            unmet.push(UnmetFigure { line, measured: found.crossings.is_some() });
         }
         unmet.extend(self.limits.unmet(&found.measured));
         if let Some(cause) = self.floor
             && found.floor != Some(cause)
         {
             let got = found.floor.map_or("not told", FloorCause::name);
-            unmet.push(format!("expected the floor of `{}`, got `{got}`", cause.name()));
+            let line = format!("expected the floor of `{}`, got `{got}`", cause.name());
+            unmet.push(UnmetFigure { line, measured: found.floor.is_some() });
         }
         unmet
     }
@@ -161,6 +182,37 @@ mod tests {
     #[case::floor_not_told(CaseFindings { floor: None, ..SEEN }, 1)]
     fn every_part_must_hold(#[case] found: CaseFindings, #[case] unmet: usize) {
         assert_eq!(expectation().unmet(&found).len(), unmet, "{:?}", expectation().unmet(&found));
+    }
+
+    #[test]
+    fn verdict_and_order_are_told_in_one_line() {
+        let low = CaseFindings { verdict: Verdict::TooLow, order: Some((1.5, 1.6)), ..SEEN };
+        let line = "expected the verdict `converging` with the order within [1.90, 2.10], \
+                    got `too low` with [1.50, 1.60]";
+        assert_eq!(expectation().unmet(&low), [line]);
+        let none = CaseFindings { verdict: Verdict::Oscillatory, order: None, ..SEEN };
+        let [line] = &expectation().unmet(&none)[..] else { panic!("several lines") };
+        assert!(line.ends_with("got `oscillatory` with none"), "{line}");
+    }
+
+    #[test]
+    fn figures_that_a_failed_run_cannot_have_are_not_told_again() {
+        let measured = Measured { errors: None, ..SEEN.measured };
+        let failed = CaseFindings {
+            verdict: Verdict::Failed,
+            order: None,
+            finest_pair: None,
+            crossings: None,
+            measured,
+            floor: None,
+        };
+        assert_eq!(expectation().unmet(&failed).len(), 1);
+        let bounded = Expectation { verdict: None, order: None, ..expectation() };
+        assert_eq!(bounded.unmet(&failed), ["expected every level to run to its end"]);
+        let wanted = Expectation { verdict: Some(Verdict::Failed), order: None, ..expectation() };
+        assert_eq!(wanted.unmet(&failed).len(), 4);
+        let crossed = CaseFindings { crossings: Some(3), ..failed };
+        assert_eq!(expectation().unmet(&crossed).len(), 2);
     }
 
     #[test]

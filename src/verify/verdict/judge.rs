@@ -220,7 +220,8 @@ fn settled(
     } else {
         Verdict::PreAsymptotic
     };
-    (verdict, Reason::Against { verdict, range })
+    let overlaps = order.low <= high && order.high >= low;
+    (verdict, Reason::Against { verdict, range, overlaps })
 }
 
 /// The change of the order along the window, if it is significant and material.

@@ -10,13 +10,27 @@ use crate::verify::order::window::FEWEST_LEVELS;
 /// Reason of a verdict; levels by index.
 pub(crate) enum Reason {
     Failed(String),
-    TooFew { usable: usize },
+    TooFew {
+        usable: usize,
+    },
     Oscillatory,
-    Divergent { from: usize, to: usize },
-    Floor { from: usize },
+    Divergent {
+        from: usize,
+        to: usize,
+    },
+    Floor {
+        from: usize,
+    },
     Wide,
-    Drift { change: f64 },
-    Against { verdict: Verdict, range: (f64, f64) },
+    Drift {
+        change: f64,
+    },
+    /// The order beside the expected range; `overlaps` says whether its interval meets that.
+    Against {
+        verdict: Verdict,
+        range: (f64, f64),
+        overlaps: bool,
+    },
 }
 
 impl Reason {
@@ -55,7 +69,7 @@ impl Reason {
             Self::Drift { change } => {
                 format!("the order drifts by {change:.3} along the window")
             }
-            Self::Against { verdict, range } => against(*verdict, *range),
+            Self::Against { verdict, range, overlaps } => against(*verdict, *range, *overlaps),
         }
     }
 }
@@ -95,12 +109,17 @@ fn floor(levels: &[Level], axis: Axis) -> String {
     }
 }
 
-fn against(verdict: Verdict, (low, high): (f64, f64)) -> String {
+fn against(verdict: Verdict, (low, high): (f64, f64), overlaps: bool) -> String {
     let (low, high) = (format_number(low), format_number(high));
+    let interval = if overlaps {
+        ", but the interval overlaps it: not decided"
+    } else {
+        " with its whole interval"
+    };
     match verdict {
         Verdict::Converging => format!("within the expected [{low}, {high}]"),
-        Verdict::TooGood => format!("above the expected [{low}, {high}]"),
-        Verdict::TooLow => format!("below the expected [{low}, {high}]"),
+        Verdict::TooGood => format!("above the expected [{low}, {high}]{interval}"),
+        Verdict::TooLow => format!("below the expected [{low}, {high}]{interval}"),
         _ => format!("but the interval sticks out of the expected [{low}, {high}]"),
     }
 }

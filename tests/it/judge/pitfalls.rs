@@ -112,6 +112,29 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
     assert!(judgement.reason.contains("sticks out"));
 }
 
+/// An order out of the range is one thing, an interval that is far from it another.
+#[rstest]
+#[case(1.85, 0.06, Verdict::TooLow, "below the expected [1.9, 2.1], but the interval overlaps it")]
+#[case(2.15, 0.06, Verdict::TooGood, "above the expected [1.9, 2.1], but the interval overlaps it")]
+#[case(1.5, 0.01, Verdict::TooLow, "below the expected [1.9, 2.1] with its whole interval")]
+#[case(2.5, 0.01, Verdict::TooGood, "above the expected [1.9, 2.1] with its whole interval")]
+fn an_order_out_of_the_range_may_be_undecided(
+    #[case] order: f64,
+    #[case] noise: f64,
+    #[case] verdict: Verdict,
+    #[case] words: &str,
+) {
+    let signs = [1.0, -1.0, -1.0, 1.0, 0.0];
+    let mut series = halved(5, |h| libm::pow(h, order));
+    series.iter_mut().zip(signs).for_each(|(level, sign)| level.error *= 1.0 + sign * noise);
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
+    assert_eq!(judgement.verdict, verdict, "{}", judgement.reason);
+    assert!(judgement.reason.contains(words), "{}", judgement.reason);
+    let undecided = judgement.reason.ends_with("not decided");
+    let interval = judgement.order.unwrap();
+    assert_eq!(undecided, interval.low <= 2.1 && interval.high >= 1.9);
+}
+
 /// No silent substitute: what the order was fitted to is shown, and an outlier stays in it.
 #[test]
 fn an_outlier_is_kept_wherever_it_lies() {

@@ -1,6 +1,7 @@
 //! From what a file says to numbers and formulas, with the place of whatever is wrong.
 
 mod cause;
+mod names;
 
 use super::path::Path;
 use super::wording::shown;
@@ -91,24 +92,6 @@ impl<'a> Evaluator<'a> {
         Ok(formula)
     }
 
-    /// Refuses a declared name that formulas need for one of their `variables`.
-    fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
-        let diagnostic = |path: &Path, name: &str| {
-            let message = format!("`{name}` is a variable of formulas and cannot be declared");
-            let help = format!("rename it; the variables are {}", variables.join(", "));
-            Err(self.diagnostic_at_key(path, &message).with_help(&help))
-        };
-        for name in variables {
-            if self.scope.constants().any(|(constant, _)| constant == *name) {
-                return diagnostic(&Path::top("parameters").then(*name), name);
-            }
-            if let Some(head) = self.head_of(name) {
-                return diagnostic(&Path::top("functions").then(head.as_str()), name);
-            }
-        }
-        Ok(())
-    }
-
     /// Binds one formula for each of `dimension` components.
     pub(crate) fn vector(
         &self,
@@ -178,35 +161,6 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
     }
 
-    /// Complains of the first parameter or function that nothing uses.
-    pub(crate) fn refuse_unused(
-        &self,
-        parameters: &Ordered<NumberText>,
-        functions: &Ordered<String>,
-    ) -> Result<(), Diagnostic> {
-        let used = self.used.borrow();
-        for (name, _) in parameters.as_slice() {
-            if !used.contains(name) {
-                let path = Path::top("parameters").then(name.as_str());
-                let message = format!("the parameter `{name}` is never used");
-                return Err(self
-                    .diagnostic_at_key(&path, &message)
-                    .with_help("remove it, or use it"));
-            }
-        }
-        for (head, _) in functions.as_slice() {
-            let name = name_in(head);
-            if !used.contains(name) {
-                let path = Path::top("functions").then(head.as_str());
-                let message = format!("the function `{name}` is never used");
-                return Err(self
-                    .diagnostic_at_key(&path, &message)
-                    .with_help("remove it, or use it"));
-            }
-        }
-        Ok(())
-    }
-
     /// The way to alternative `i` of what is a list or, if there is only one, may stand alone.
     pub(crate) fn alternative(&self, path: &Path, i: usize) -> Path {
         let member = path.then(i);
@@ -248,17 +202,6 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Whether a name is that of a parameter whose value is not known yet.
-    fn comes_later(&self, name: &str) -> bool {
-        self.parameters.iter().any(|known| known == name)
-            && !self.scope.constants().any(|(known, _)| known == name)
-    }
-
-    /// The head under which the file declares `function`.
-    fn head_of(&self, function: &str) -> Option<&String> {
-        self.heads.iter().find(|head| name_in(head) == function)
-    }
-
     fn at_key(&self, path: &Path, error: &FormulaError) -> Diagnostic {
         with_help(self.diagnostic_at_key(path, &error.message), error)
     }
@@ -269,9 +212,4 @@ fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
         Some(help) => diagnostic.with_help(help),
         None => diagnostic,
     }
-}
-
-/// `s` in `s(tau)`.
-fn name_in(head: &str) -> &str {
-    head.split('(').next().unwrap_or(head).trim()
 }
