@@ -1,4 +1,4 @@
-//! What a misspelt name was most likely meant to be.
+//! The known name that a misspelt one was most likely meant to be.
 
 use strsim::damerau_levenshtein;
 

@@ -63,7 +63,7 @@ fn sources(target: &Path) -> Sources {
     vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))]
 }
 
-/// What the path of a file that is not there may mean: a file beside it, or a suite by its name.
+/// Meaning of the path of a file that is not there: a file beside it, or a suite by its name.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));

@@ -10,7 +10,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("heaviside", "the unit step is `step`"),
 ];
 
-/// What other languages mean by a name, and how it is written here.
+/// Spelling here of a name that other languages have.
 pub(super) fn elsewhere(name: &str) -> Option<String> {
     let known = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
     known.map(|(_, help)| (*help).to_owned())

@@ -15,3 +15,6 @@ pub(crate) mod stability;
 pub(crate) mod suite;
 pub(crate) mod truth;
 pub(crate) mod wording;
+
+#[cfg(test)]
+mod missing_keys;

@@ -13,11 +13,12 @@ use super::wording::shown;
 use super::{internal_force, stability};
 use crate::suite::grammar::{
     ConvergenceSpec, Head, InternalForceSpec, ObserveSpec, ReferenceSpec, StabilitySpec, StudyName,
+    read,
 };
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene, Suite};
-use crate::suite::yaml::{Diagnostic, Ordered, Source, read};
+use crate::suite::yaml::{Diagnostic, Ordered, Source};
 use std::sync::Arc;
 
 /// Instants at which the error is taken unless a suite says otherwise.
@@ -40,11 +41,11 @@ impl Suite {
 
 /// The kind of study, which decides what other keys are known.
 fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
-    read::<Head>(source).map(|head| head.study)
+    read::<Head>(source, "").map(|head| head.study)
 }
 
 fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: ConvergenceSpec = read(source)?;
+    let spec: ConvergenceSpec = read(source, "convergence")?;
     let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;
@@ -118,7 +119,7 @@ fn loads(
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: InternalForceSpec = read(source)?;
+    let spec: InternalForceSpec = read(source, "internal_force")?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;
     let plan = internal_force::plan(&evaluator, &spec)?;
@@ -128,7 +129,7 @@ fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
 }
 
 fn stability(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: StabilitySpec = read(source)?;
+    let spec: StabilitySpec = read(source, "stability")?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;
     let plan = stability::plan(&evaluator, source, &spec)?;

@@ -7,6 +7,7 @@ pub(crate) mod drift;
 pub(crate) mod head;
 pub(crate) mod internal_force;
 pub(crate) mod refine;
+pub(crate) mod sample;
 pub(crate) mod scene;
 pub(crate) mod stability;
 pub(crate) mod step;
@@ -17,6 +18,7 @@ pub(crate) use drift::DriftSpec;
 pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 pub(crate) use refine::{RefineSpec, RunSpec};
+pub(crate) use sample::read;
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
 };

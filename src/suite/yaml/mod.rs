@@ -54,6 +54,7 @@ pub use one_or_many::OneOrMany;
 pub use ordered::Ordered;
 pub use place::Place;
 pub use read::read;
+pub(crate) use read::read_with;
 pub use refusal::refuse;
 pub use source::{MAX_BYTES, Source};
 

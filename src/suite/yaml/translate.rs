@@ -5,8 +5,16 @@ use super::refusal::refused;
 use super::{Diagnostic, Source};
 use crate::nearest::nearest;
 
+/// A value that may stand in a map: from the owner of the map (empty for the whole file) and the
+/// key.
+pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
+
 /// Turns an error of the library into a complaint at the same place.
-pub(crate) fn diagnostic(source: &Source, error: &serde_yaml::Error) -> Diagnostic {
+pub(crate) fn diagnostic(
+    source: &Source,
+    error: &serde_yaml::Error,
+    sample: &SampleOf<'_>,
+) -> Diagnostic {
     let text = error.to_string();
     let offset = error.location().map_or(source.text().len(), |location| location.index());
     let fault = Fault { source, offset };
@@ -23,7 +31,7 @@ pub(crate) fn diagnostic(source: &Source, error: &serde_yaml::Error) -> Diagnost
     let (path, problem) = split_path(text);
     fault
         .unknown(problem)
-        .or_else(|| fault.missing(path, problem))
+        .or_else(|| fault.missing(path, problem, sample))
         .or_else(|| fault.wrong_type(problem))
         .or_else(|| fault.wrong_length(problem))
         .unwrap_or_else(|| fault.at_token(problem))
@@ -89,14 +97,16 @@ impl<'a> Fault<'a> {
         )
     }
 
-    fn missing(self, path: &str, problem: &str) -> Option<Diagnostic> {
+    fn missing(self, path: &str, problem: &str, sample: &SampleOf<'_>) -> Option<Diagnostic> {
         let key = problem.strip_prefix("missing field `")?.strip_suffix('`')?;
         let owner = path.rsplit('.').next().unwrap_or_default();
         let inside = if owner.is_empty() { String::new() } else { format!(" in `{owner}`") };
+        let owner = owner.split('[').next().unwrap_or_default();
+        let value = sample(owner, key).unwrap_or("VALUE");
         Some(
             self.at_token(&format!("missing key `{key}`{inside}"))
                 .with_label(&format!("these keys lack `{key}`"))
-                .with_help(&format!("add `{key}: VALUE`{inside}")),
+                .with_help(&format!("add `{key}: {value}`{inside}")),
         )
     }
 

@@ -42,7 +42,7 @@ pub struct Measured {
 /// A figure that is not as expected.
 #[derive(Debug)]
 pub(crate) struct UnmetFigure {
-    /// What was expected, and what came.
+    /// The expectation, and the figure that came.
     pub(crate) line: String,
     /// Whether there is such a figure at all.
     pub(crate) measured: bool,

@@ -1,6 +1,6 @@
 //! Keys, names and types.
 
-use super::samples::{BAR, FORCE};
+use super::samples::{BAR, FORCE, SWEPT};
 use super::{Edits, refused};
 use rstest::rstest;
 
@@ -18,11 +18,15 @@ use rstest::rstest;
 )]
 #[case::a_missing_key(
     &[("{young: E, poisson: 0, density: rho}", "▸{young: E, poisson: 0}")],
-    &["missing key `density` in `linear_elastic`", "add `density: VALUE`"]
+    &["missing key `density` in `linear_elastic`", "add `density: 1` in `linear_elastic`"]
 )]
 #[case::a_missing_section(
     &[("suite: bar", "▸suite: bar"), ("refine: {cells: [6, 12], ppc: 4}\n", "")],
-    &["missing key `refine`", "add `refine: VALUE`"]
+    &["missing key `refine`", "add `refine: {cells: [8, 16, 32, 64], ppc: 4}`"]
+)]
+#[case::a_run_without_an_end(
+    &[("run: {until: 0.5, ", "run: ▸{")],
+    &["missing key `until` in `run`", "add `until: 1`"]
 )]
 #[case::an_empty_list(&[("[6, 12]", "▸[]")], &["an empty list selects nothing", "at least one value"])]
 #[case::an_empty_list_of_names(&[("[musl, usl]", "▸[]")], &["an empty list selects nothing"])]
@@ -69,6 +73,14 @@ use rstest::rstest;
 #[case::a_path_for_the_name_of_a_suite(&[("suite: bar", "suite: ▸../bar")], &["this is not a name for a suite"])]
 fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
+}
+
+/// Both studies have a `run`, of other keys.
+#[test]
+fn a_stability_study_without_a_run() {
+    let run = SWEPT.lines().find(|line| line.starts_with("run:")).expect("a run");
+    let words = ["missing key `run`", "add `run: {dt: 1e-3, steps: 1000}`"];
+    refused(SWEPT, &[("suite:", "▸suite:"), (run, "")], &words);
 }
 
 #[rstest]

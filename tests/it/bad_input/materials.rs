@@ -23,7 +23,7 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
 )]
 #[case::a_solid_without_yield_stress(
     &[(ELASTIC, "{j2: ▸{young: E, poisson: 0, density: rho}}")],
-    &["missing key `yield` in `j2`", "add `yield: VALUE`"]
+    &["missing key `yield` in `j2`", "add `yield: 1`"]
 )]
 #[case::a_yield_stress_of_zero(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: ▸0, density: rho}}")],

@@ -3,8 +3,8 @@
 
 use crate::suite::compile::boundary::BoundarySpec;
 use crate::suite::compile::load::LoadSpec;
-use crate::suite::grammar::SceneSpec;
-use crate::suite::yaml::{Diagnostic, Ordered, Source, read};
+use crate::suite::grammar::{SceneSpec, read};
+use crate::suite::yaml::{Diagnostic, Ordered, Source};
 use serde::Deserialize;
 use std::ops::Deref;
 
@@ -35,7 +35,7 @@ impl<'a> SceneWords<'a> {
     /// # Errors
     /// The first mistake in its loads and boundary conditions, with its place.
     pub(crate) fn read(source: &Source, scene: &'a SceneSpec) -> Result<Self, Diagnostic> {
-        let SuiteOfFamilies { scene: SceneOfFamilies { boundary, loads } } = read(source)?;
+        let SuiteOfFamilies { scene: SceneOfFamilies { boundary, loads } } = read(source, "")?;
         Ok(Self { scene, boundary, loads })
     }
 }

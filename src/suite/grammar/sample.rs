@@ -1,0 +1,102 @@
+//! Values that may stand under the keys that must not be missing, for messages that can be pasted.
+
+use crate::suite::yaml::{Diagnostic, Source, read_with};
+use serde::de::DeserializeOwned;
+
+/// A key, or a key of an owner where the same word has another value elsewhere, and a sample.
+pub(crate) const SAMPLES: &[(&str, &str)] = &[
+    // Every study.
+    ("suite", "my-suite"),
+    ("title", "My suite"),
+    ("source", "a textbook"),
+    (
+        "scene",
+        "{dimension: 1, body: {box: {from: [0], to: [1]}}, material: {linear_elastic: \
+         {young: 100, poisson: 0, density: 1}}}",
+    ),
+    ("run", "{until: 1, dt: 1e-3}"),
+    ("refine", "{cells: [8, 16, 32, 64], ppc: 4}"),
+    ("methods", "[{mpm: {basis: linear, transfer: flip, scheme: musl}}]"),
+    ("expect", "[{order: [1.9, 2.1], because: theory says so}]"),
+    ("because", "theory says so"),
+    // A scene.
+    ("dimension", "1"),
+    ("body", "{box: {from: [0], to: [1]}}"),
+    ("from", "[0]"),
+    ("to", "[1]"),
+    ("corners", "[[0, 0], [1, 0], [1, 1], [0, 1]]"),
+    ("centre", "[0, 0]"),
+    ("inner", "0.5"),
+    ("outer", "1"),
+    ("radius", "1"),
+    ("friction", "0.3"),
+    ("convection.coefficient", "1"),
+    ("ambient", "0"),
+    // Materials.
+    ("material", "{linear_elastic: {young: 100, poisson: 0, density: 1}}"),
+    ("young", "100"),
+    ("poisson", "0"),
+    ("yield", "1"),
+    ("bulk", "100"),
+    ("viscosity", "0"),
+    ("density", "1"),
+    // Loads.
+    ("on", "right"),
+    ("value", "[1]"),
+    ("pressure.value", "1"),
+    ("linear", "0.1"),
+    ("quadratic", "1"),
+    ("conductivity", "1"),
+    ("capacity", "1"),
+    ("coefficient", "1e-5"),
+    ("reference", "0"),
+    // Methods.
+    ("basis", "linear"),
+    ("transfer", "flip"),
+    ("scheme", "musl"),
+    ("element", "linear"),
+    ("mass", "lumped"),
+    // A convergence study.
+    ("until", "1"),
+    ("cells", "16"),
+    ("dt", "1e-3"),
+    ("courant", "0.5"),
+    ("at", "[0.5]"),
+    // A stability study.
+    ("stability.run", "{dt: 1e-3, steps: 1000}"),
+    ("stability.expect", "[{verdict: stable, because: theory says so}]"),
+    ("particles", "{cells: 16, ppc: 4}"),
+    ("ppc", "4"),
+    ("steps", "1000"),
+    ("sweep", "{C: [0.5, 1]}"),
+    ("parameter", "C"),
+    ("critical.from", "0.1"),
+    ("critical.to", "2"),
+    // A study of the internal force.
+    (
+        "internal_force",
+        "{cell: 1, ppc: 4, volume: 0.25, stress: 1, positions: 16, prediction: n_left - n_right}",
+    ),
+    ("internal_force.methods", "[{mpm: {basis: linear}}]"),
+    ("internal_force.expect", "[{agrees_within: 1e-12, because: theory says so}]"),
+    ("cell", "1"),
+    ("volume", "0.25"),
+    ("stress", "1"),
+    ("positions", "16"),
+    ("prediction", "n_left - n_right"),
+];
+
+/// Reads a suite of a kind of `study` into a type; what is missing is shown with a sample.
+///
+/// # Errors
+/// The first mistake in the file, with its place.
+pub(crate) fn read<T: DeserializeOwned>(source: &Source, study: &str) -> Result<T, Diagnostic> {
+    read_with(source, &|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
+}
+
+/// The sample of a key of `owner`.
+fn sample(owner: &str, key: &str) -> Option<&'static str> {
+    let of =
+        |wanted: &str| SAMPLES.iter().find(|(known, _)| *known == wanted).map(|(_, text)| *text);
+    of(&format!("{owner}.{key}")).or_else(|| of(key))
+}
