@@ -48,7 +48,9 @@ fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
         }
         _ => return,
     };
-    below.into_iter().for_each(|(step, value)| keys(value, &format!("{pointer}/{step}"), found));
+    for (step, value) in below {
+        keys(value, &format!("{pointer}/{step}"), found);
+    }
 }
 
 fn map<'a>(suite: &'a mut Value, pointer: &str) -> &'a mut Map<String, Value> {

@@ -4,14 +4,13 @@ use super::samples::{BAR, SWEPT};
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const METHODS: &str = "\
-  - mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}
+const METHODS: &str = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}
   - fem: {element: linear, mass: lumped}
 ";
 
 /// Names of the cases of a bar with these methods.
 fn names(methods: &[&str]) -> Vec<String> {
-    let entries: String = methods.iter().map(|method| format!("  - {method}\n")).collect();
+    let entries = format!("- {}\n", methods.join("\n  - "));
     let (head, _) = BAR.split_once("\nexpect:").expect("expectations");
     let expected = "\nexpect:\n  - {verdict: too_few_levels, because: two levels are no claim}\n";
     let suite = head.replace(METHODS, &entries) + expected;

@@ -20,7 +20,7 @@ const FEM_EXPECTED: &str = "  - case: \"fem-*\"\n    verdict: too_few_levels\n";
 )]
 #[case::a_scale_that_is_no_number(
     &[("{norm: rms}", "{scale: ▸\"1/(E - 100)\"}")],
-    &["which is not finite"]
+    &["is inf because `E` is 100"]
 )]
 #[case::a_stress_that_finite_elements_lack(
     &[("{norm: rms}", "{of: stress}"), ("- fem:", "- ▸fem:")],

@@ -53,9 +53,9 @@ fn message_and_span(#[case] source: &str, #[case] message: &str, #[case] span: R
 }
 
 #[rstest]
-#[case("omgea*t", "unknown name `omgea`", 0..5, "did you mean `omega`? declared: `omega`, `E`, `L`, `g`, `rho`")]
+#[case("omgea*t", "unknown name `omgea`", 0..5, "did you mean `omega`? declared: `omega`, `E`, `g`, `L`, `rho`")]
 #[case("1+l", "unknown name `l`", 2..3, "did you mean `L`? declared: `L`, `E`, `g`, `rho`, `omega`")]
-#[case("2*velocity", "unknown name `velocity`", 2..10, "the variables are `x`, `t`; declared: `omega`, `rho`, `E`, `L`, `g`")]
+#[case("2*velocity", "unknown name `velocity`", 2..10, "the variables are `x`, `t`; declared: `E`, `L`, `omega`, `rho`, `g`")]
 #[case("e^x", "unknown name `e`", 0..1, "there is no constant `e`: write `exp(1)`")]
 #[case("log(x)", "unknown function `log`", 0..3, "the natural logarithm is `ln`")]
 #[case("sqr(x)", "unknown function `sqr`", 0..3, "did you mean `sqrt`?")]
@@ -89,7 +89,7 @@ fn without_variables_the_help_says_so() {
     let error = bind("velocity", &[]).unwrap_err();
     assert_eq!(
         error.help.as_deref(),
-        Some("there are no variables here; declared: `omega`, `rho`, `E`, `L`, `g`")
+        Some("there are no variables here; declared: `E`, `L`, `omega`, `rho`, `g`")
     );
 }
 

@@ -4,7 +4,7 @@ use super::Evaluator;
 use crate::exact::formula::{Expr, Formula};
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
-use crate::suite::yaml::{Diagnostic, NumberText, Step};
+use crate::suite::yaml::{Diagnostic, NumberText, Place, Step};
 
 /// Values that hardly any formula fails for. A parameter is suspected where one of them, or its
 /// own magnitude, in its place gives a finite number.
@@ -79,6 +79,6 @@ impl Evaluator<'_> {
     /// The line that declares a parameter.
     pub(super) fn line_of(&self, parameter: &str) -> Option<usize> {
         let path = Path::top("parameters").then(parameter);
-        self.source.key_at(path.steps()).map(|place| place.line())
+        self.source.key_at(path.steps()).map(Place::line)
     }
 }
