@@ -1,6 +1,6 @@
 //! Suites that would take all memory or all time: refused at once, before anything is allocated.
 
-use super::samples::{BAR, CUBE, PLATE};
+use super::samples::{BAR, CUBE, PLATE, SWEPT};
 use super::{Edits, refused};
 use rstest::rstest;
 use std::time::{Duration, Instant};
@@ -68,4 +68,16 @@ fn lists_whose_product_is_a_thousand_million_cases() {
     let right = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}";
     let words = ["these lists unfold into 1000000000 cases", "expected at most 1000 in a suite"];
     refused_at_once(BAR, &[(right, &method)], &words);
+}
+
+#[test]
+fn as_many_cases_of_a_stability_study() {
+    let method = format!(
+        "- ▸mpm: {{basis: {}, transfer: {}, scheme: {}}}",
+        list("linear", 1000),
+        list("flip", 1000),
+        list("usl", 1000)
+    );
+    let right = "- mpm: {basis: linear, transfer: [flip, pic, apic], scheme: [usl, usf, musl]}";
+    refused_at_once(SWEPT, &[(right, &method)], &["more than 500 cases"]);
 }

@@ -1,6 +1,6 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
-use super::methods::{methods, named};
+use super::methods::{count, methods, named};
 use crate::mpm::{FrameName, MassName, combine, combine_bodies};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases;
@@ -139,26 +139,7 @@ fn few(
     spec: &MethodSpec,
     ends: usize,
 ) -> Result<(), Diagnostic> {
-    let optional = |length: Option<usize>| length.unwrap_or(1);
-    let lengths = match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
-            basis.as_slice().len(),
-            transfer.as_slice().len(),
-            scheme.as_slice().len(),
-            optional(start.as_ref().map(|list| list.as_slice().len())),
-            optional(mass.as_ref().map(|list| list.as_slice().len())),
-            optional(frame.as_ref().map(|list| list.as_slice().len())),
-        ],
-        MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
-        MethodSpec::Fem { element, mass, law, start, sampling } => vec![
-            element.as_slice().len(),
-            mass.as_slice().len(),
-            optional(law.as_ref().map(|list| list.as_slice().len())),
-            optional(start.as_ref().map(|list| list.as_slice().len())),
-            optional(sampling.as_ref().map(|list| list.as_slice().len())),
-        ],
-    };
-    let more = lengths.into_iter().fold(ends, usize::saturating_mul);
+    let more = count(spec).saturating_mul(ends);
     if already.saturating_add(more) <= MOST_CASES {
         return Ok(());
     }

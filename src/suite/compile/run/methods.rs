@@ -98,6 +98,29 @@ pub(crate) fn methods(entry: usize, spec: &MethodSpec, own_law: EquationName) ->
     drafts
 }
 
+/// Number of methods that an entry unfolds into.
+pub(crate) fn count(spec: &MethodSpec) -> usize {
+    let lengths = match spec {
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
+            basis.as_slice().len(),
+            transfer.as_slice().len(),
+            scheme.as_slice().len(),
+            length(start.as_ref()),
+            length(mass.as_ref()),
+            length(frame.as_ref()),
+        ],
+        MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
+        MethodSpec::Fem { element, mass, law, start, sampling } => vec![
+            element.as_slice().len(),
+            mass.as_slice().len(),
+            length(law.as_ref()),
+            length(start.as_ref()),
+            length(sampling.as_ref()),
+        ],
+    };
+    lengths.into_iter().fold(1, usize::saturating_mul)
+}
+
 /// The methods with their names. None at all, and one twice, is refused.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
@@ -158,7 +181,12 @@ fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
     list.map_or(vec![default], |list| list.as_slice().to_vec())
 }
 
+/// Number of members of an optional list.
+fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
+    list.map_or(1, |list| list.as_slice().len())
+}
+
 /// Whether an optional list has several members.
 fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
-    list.is_some_and(|list| list.as_slice().len() > 1)
+    length(list) > 1
 }

@@ -6,7 +6,7 @@ use crate::mpm::{MaterialPlan, combine};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases::{assign, because};
 use crate::suite::compile::path::Path;
-use crate::suite::compile::run::methods::{methods, named};
+use crate::suite::compile::run::methods::{count, methods, named};
 use crate::suite::compile::truth::law;
 use crate::suite::compile::wording::{shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
@@ -131,15 +131,15 @@ fn drafts(
         if matches!(spec, MethodSpec::Fem { .. }) {
             return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
         }
+        if count(spec).saturating_add(drafts.len()) > MOST {
+            return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
+        }
         for draft in methods(i, spec, own) {
             if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
                 combine(basis, transfer, mass, frame).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
                     evaluator.diagnostic(&path, &reason).with_help(help)
                 })?;
-            }
-            if drafts.len() == MOST {
-                return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
             }
             drafts.push(draft);
         }
