@@ -99,9 +99,11 @@ fn unknown(name: &str) -> Diagnostic {
 /// Names by which suites can be asked for: those of the default folder, and the embedded ones.
 fn suite_names() -> Vec<String> {
     let local = suite_files(Path::new(FOLDER)).unwrap_or_default();
-    let stem = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
-    let local = local.iter().filter_map(stem);
-    local.chain(embedded::names().map(ToOwned::to_owned)).collect()
+    let name = |path: &PathBuf| {
+        let file = path.file_name()?.to_string_lossy();
+        file.strip_suffix(".yaml").map(ToOwned::to_owned)
+    };
+    local.iter().filter_map(name).chain(embedded::names().map(ToOwned::to_owned)).collect()
 }
 
 /// The suites of a folder.
