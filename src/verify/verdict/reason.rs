@@ -111,15 +111,11 @@ fn floor(levels: &[Level], axis: Axis) -> String {
 
 fn against(verdict: Verdict, (low, high): (f64, f64), overlaps: bool) -> String {
     let (low, high) = (format_number(low), format_number(high));
-    let interval = if overlaps {
-        ", but the interval overlaps it: not decided"
-    } else {
-        " with its whole interval"
-    };
+    let undecided = if overlaps { ", but the interval overlaps it: not decided" } else { "" };
     match verdict {
         Verdict::Converging => format!("within the expected [{low}, {high}]"),
-        Verdict::TooGood => format!("above the expected [{low}, {high}]{interval}"),
-        Verdict::TooLow => format!("below the expected [{low}, {high}]{interval}"),
+        Verdict::TooGood => format!("above the expected [{low}, {high}]{undecided}"),
+        Verdict::TooLow => format!("below the expected [{low}, {high}]{undecided}"),
         _ => format!("but the interval sticks out of the expected [{low}, {high}]"),
     }
 }
