@@ -34,8 +34,9 @@ pub(crate) mod verdict;
 
 pub use conservation::{ConservationError, Conserved};
 pub use cost::{
-    Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model, Ranked,
-    Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Workload, pareto_front, rankings,
+    Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model,
+    PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,
+    Workload, by_transfers, pareto_front, rankings,
 };
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};

@@ -14,7 +14,8 @@
 //!
 //! `error` is over the size of the solution, `bytes` the particle data that the steps have passed
 //! over at least: those of a particle times particle updates. `cost` is that of reports.
-//! `best_candidate` is what came of a budget; then there is nothing else.
+//! `best_candidate` is what came of a budget; then there is nothing else. Its `error` is predicted
+//! with the ends of a 95 % interval, and measured.
 
 use super::cost::rankings;
 use super::number::number;
@@ -69,15 +70,16 @@ fn case(timed: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
 }
 
 fn candidate(best: &BestCandidate) -> Value {
-    let pair = |[predicted, measured]: [f64; 2]| json!({"predicted": number(predicted), "measured": number(measured)});
+    let ([predicted, measured], (error, found)) = (best.seconds, best.error);
     json!({
         "budget": number(best.budget),
         "case": best.case,
         "cells": best.cells,
         "dt": number(best.dt),
         "ppc": best.ppc,
-        "seconds": pair(best.seconds),
-        "error": pair(best.error),
+        "seconds": {"predicted": number(predicted), "measured": number(measured)},
+        "error": {"predicted": number(error.value), "low": number(error.low),
+            "high": number(error.high), "measured": number(found)},
         "beyond": best.beyond,
         "limit": best.limit,
         "failure": best.failure,

@@ -4,16 +4,14 @@
 
 use super::table::Table;
 use crate::report::columns::{cost as columns, short};
-use crate::verify::{CaseOutcome, LevelOutcome, Ranking, SuiteOutcome, rankings};
+use crate::verify::{self, Ranking, SuiteOutcome};
 
 /// The unit of work that is counted.
 pub(crate) const TRANSFERS: &str = "particle-node transfers";
 
 /// The rankings of a suite by transfers.
 pub(crate) fn by_transfers(outcome: &SuiteOutcome) -> Vec<Ranking> {
-    let transfers =
-        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
-    rankings(&outcome.cases, transfers)
+    verify::by_transfers(&outcome.cases)
 }
 
 /// The tables of a ranking, `work` being its unit.

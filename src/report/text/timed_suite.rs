@@ -3,7 +3,7 @@
 use super::cost::{TRANSFERS, cost};
 use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
-use crate::verify::{BestCandidate, Machine, Model, TimedSuite};
+use crate::verify::{BestCandidate, Interval, Machine, Model, TimedSuite};
 
 /// The report of a suite whose levels have been timed. `varied` says that there are cases besides
 /// the suite's own, whose best splits are shown.
@@ -85,11 +85,15 @@ pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
     let ppc = ppc.map_or(String::new(), |ppc| format!(", {ppc} particles per cell"));
     let beyond = if best.beyond { ", finer than all levels of the suite" } else { "" };
     text += &row("setting", &format!("{cells} cells, dt = {} s{ppc}{beyond}", short(*dt)));
-    let rows = [("seconds", *seconds), ("error", *error)];
+    let (interval, found) = *error;
+    let rows = [
+        ("seconds", [seconds[0], seconds[1]], None),
+        ("error", [interval.value, found], Some(interval)),
+    ];
     text += &format!("\n{}\n", lines(&Table::new(&predictions(), rows).lines()));
     text += &row("share of budget", &format!("{:.0} %", 100.0 * seconds[1] / budget));
     text += &row("model", &model(&best.model, best.fitted));
-    if let Some(limit) = best.limit {
+    if let Some(limit) = &best.limit {
         text += &row("nothing finer", limit);
     }
     if let Some(failure) = &best.failure {
@@ -98,21 +102,27 @@ pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
     text
 }
 
-type Predicted = (&'static str, [f64; 2]);
+type Predicted = (&'static str, [f64; 2], Option<Interval>);
 
-fn predictions() -> [TableColumn<'static, Predicted>; 4] {
+fn predictions() -> [TableColumn<'static, Predicted>; 5] {
     [
-        TableColumn::<Predicted>::text("", "figure", |(name, _)| *name).flush_left(),
-        TableColumn::<Predicted>::text("predicted", "by the models", |(_, [predicted, _])| {
+        TableColumn::<Predicted>::text("", "figure", |(name, ..)| *name).flush_left(),
+        TableColumn::<Predicted>::text("predicted", "by the models", |(_, [predicted, _], _)| {
             short(*predicted)
         }),
-        TableColumn::<Predicted>::text("measured", "by the run", |(_, [_, measured])| {
+        TableColumn::<Predicted>::text("95 %", "interval of the prediction", |(.., interval)| {
+            let ends = |one: &Interval| format!("[{}, {}]", short(one.low), short(one.high));
+            interval.as_ref().map_or("-".to_owned(), ends)
+        }),
+        TableColumn::<Predicted>::text("measured", "by the run", |(_, [_, measured], _)| {
             short(*measured)
         }),
         TableColumn::<Predicted>::text(
             "off",
             "relative difference",
-            |(_, [predicted, measured])| format!("{:+.0} %", 100.0 * (predicted / measured - 1.0)),
+            |(_, [predicted, measured], _)| {
+                format!("{:+.0} %", 100.0 * (predicted / measured - 1.0))
+            },
         ),
     ]
 }

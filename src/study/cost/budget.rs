@@ -1,28 +1,30 @@
 //! The most accurate setting that is done within a budget of seconds.
 //!
 //! For every method the seconds of its finest level predict the finest grid within the budget, and
-//! its order the error there; only a method that still converges is taken beyond the levels that
-//! the suite lists. The best one is then measured on ever finer grids, until one takes a twentieth
-//! of the budget; a cost model is fitted, the grid chosen, and run.
+//! its levels the error there; only a method that still converges is taken beyond the levels that
+//! the suite lists. The best one is then run on ever finer grids, until one twice as fine as the
+//! last is beyond the budget: their seconds make a cost model, and their errors are judged with
+//! those of the suite. If it promises less than another method then, that one is tried; the best
+//! one of those tried is run at the finest grid within the budget.
+//!
+//! Methods are compared by the upper ends of their errors.
 
-use super::candidate::{Candidate, candidate};
+use super::candidate::{Candidate, REACH, candidate, run};
 use super::measure::seconds;
 use crate::study::runner::Runner;
 use crate::suite::compile::check::size::too_large;
-use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Suite};
-use crate::verify::{Axis, BestCandidate, CaseOutcome, LevelOutcome, Model, Workload, rankings};
-use std::sync::Arc;
-
-/// The largest run that a model is fitted to takes this share of the budget at least, so that
-/// predictions do not reach far.
-const SHARE: f64 = 0.05;
+use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 
 /// Runs that a model is fitted to: the finest ones, the others say little of a long run.
 const FITTED: usize = 6;
 
-/// Repeats of each.
+/// Repeats of each,
 const REPEATS: usize = 3;
+
+/// unless it takes this share of the budget: then it is run once.
+const LONG: f64 = 0.05;
 
 /// Chooses a setting of `suite` for a budget of so many seconds, runs it, and says what came.
 ///
@@ -36,100 +38,137 @@ pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, Strin
         return Err("the suite does not refine its cells".to_owned());
     }
     let cases = Runner::new(suite).run(&|| ()).cases;
-    let transfers =
-        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
-    let ranked = rankings(&cases, transfers);
+    let ranked = by_transfers(&cases);
     let ranking = ranked.first().ok_or("no error of it has a size to be compared with")?;
-    let candidates: Vec<Candidate<'_>> =
+    let candidates: Vec<Candidate> =
         ranking.rows.iter().filter_map(|ranked| candidate(plan, &cases, ranked)).collect();
-    let mut best: Option<(f64, &Candidate<'_>)> = None;
+    if candidates.is_empty() {
+        return Err("no error is predicted: no method converges on three levels".to_owned());
+    }
     let mut least = f64::INFINITY;
-    for candidate in &candidates {
+    let mut open = Vec::new();
+    for candidate in candidates {
         let Ok((model, cheapest)) = candidate.rough_model() else { continue };
         least = least.min(cheapest);
-        let Some(level) = candidate.finest_within(&model, budget) else { continue };
-        let Some(error) = candidate.error(level.h) else { continue };
-        if best.as_ref().is_none_or(|(known, _)| error < *known) {
-            best = Some((error, candidate));
-        }
+        open.extend(Setting::of(candidate, (model, None), budget));
     }
     let none =
         || format!("nothing is predicted to be done in {budget} s; the least is {least:.2e} s");
-    let (_, chosen) = best.ok_or_else(none)?;
-    let runs = chosen.ladder(budget)?;
-    let model = Model::fit(&runs[runs.len().saturating_sub(FITTED)..]).ok_or_else(none)?;
-    let level = chosen.finest_within(&model, budget).ok_or_else(none)?;
-    chosen.run(suite, &model, runs.len().min(FITTED), level, budget, ranking.size)
+    loop {
+        let most = |setting: &Setting| setting.error.high;
+        let best = (0..open.len()).min_by(|a, b| most(&open[*a]).total_cmp(&most(&open[*b])));
+        let best = open.swap_remove(best.ok_or_else(none)?);
+        if let (model, Some(fitted)) = best.model {
+            return best.run(suite, (model, fitted), budget, ranking.size);
+        }
+        let (candidate, runs) = best.candidate.judged_within(suite, budget)?;
+        let fitted = &runs[runs.len().saturating_sub(FITTED)..];
+        let model = Model::fit(fitted).ok_or_else(none)?;
+        open.extend(Setting::of(candidate, (model, Some(fitted.len())), budget));
+    }
 }
 
-impl Candidate<'_> {
-    /// Ever finer levels with the seconds that they take, up to a share of the budget.
-    fn ladder(&self, budget: f64) -> Result<Vec<(Workload, f64)>, String> {
-        let listed = &self.study.levels[self.ranked.part.levels.clone()];
-        let mut cells: Vec<u64> = listed.iter().map(|level| level.cells).collect();
-        let mut runs = Vec::new();
-        let mut next = 0;
-        loop {
-            let level = self.level(cells[next]);
-            let Some(load) = self.load(level) else { break };
-            let took = median(|| seconds(self.plan, self.case, level))?;
-            runs.push((load, took));
-            let Some(rough) = Model::fit(&[(load, took)]) else { break };
-            next += 1;
-            if next == cells.len() {
-                // In space three levels are a long way.
-                let grown = (cells[next - 1] as f64 * 1.5 / self.stride as f64) as u64;
-                cells.push((grown * self.stride).max(cells[next - 1] + self.stride));
-            }
-            let finer = self.level(cells[next]);
-            let predicted = self.load(finer).map(|load| rough.predict(&load));
-            let small = predicted.is_some_and(|seconds| seconds <= 0.5 * budget);
-            if took >= SHARE * budget || !small || too_large(&self.plan.scene, finer).is_some() {
-                break;
-            }
-        }
-        Ok(runs)
+/// A method on the finest grid within the budget.
+struct Setting {
+    candidate: Candidate,
+    /// Model of the seconds, and the runs that it is fitted to; none before the method is tried.
+    model: (Model, Option<usize>),
+    level: LevelPlan,
+    error: Interval,
+}
+
+impl Setting {
+    /// None if no grid is within the budget.
+    fn of(candidate: Candidate, model: (Model, Option<usize>), budget: f64) -> Option<Self> {
+        let level = candidate.finest_within(&model.0, budget)?;
+        let error = candidate.error.at(level.h)?;
+        Some(Self { candidate, model, level, error })
     }
 
     fn run(
-        &self,
+        self,
         suite: &Suite,
-        model: &Model,
-        fitted: usize,
-        level: LevelPlan,
+        (model, fitted): (Model, usize),
         budget: f64,
         size: f64,
     ) -> Result<BestCandidate, String> {
-        let predicted = self.load(level).map_or(f64::NAN, |load| model.predict(&load));
-        let took = seconds(self.plan, self.case, level)?;
-        let mut plan = self.plan.clone();
+        let Self { candidate, level, error, .. } = self;
+        let predicted = candidate.load(level).map_or(f64::NAN, |load| model.predict(&load));
+        let took = seconds(&candidate.plan, &candidate.case, level)?;
+        let mut plan = candidate.plan.clone();
         plan.refine.levels = vec![level];
         plan.refine.usual = 1;
-        plan.cases = vec![self.case.clone()];
-        let study = Arc::new(plan);
-        let one = Suite { study, ..suite.clone() };
-        let outcome = Runner::over(&one, Extent::Usual).case(0, &|| ());
+        let outcome = run(suite, plan);
         let study = outcome.convergence().ok_or_else(|| outcome.reason.clone())?;
         let found = study.levels.first().ok_or("no level")?;
+        let listed = suite.plan::<ConvergencePlan>().map(|plan| &plan.refine.levels);
         Ok(BestCandidate {
             budget,
-            case: self.case.name.clone(),
+            case: candidate.case.name.clone(),
             cells: level.cells,
             dt: found.dt,
             ppc: found.ppc,
             seconds: [predicted, took],
-            error: [self.error(level.h).unwrap_or(f64::NAN), found.error / size],
-            beyond: level.h < self.finest().h * (1.0 - 1e-9),
-            limit: self.limit(level),
+            error: (error, found.error / size),
+            beyond: listed.is_some_and(|all| all.iter().all(|one| one.cells < level.cells)),
+            limit: candidate.limit(level),
             failure: found.run.failure.clone(),
-            model: *model,
+            model,
             fitted,
         })
     }
 }
 
-fn median(mut measure: impl FnMut() -> Result<f64, String>) -> Result<f64, String> {
-    let mut all = (0..REPEATS).map(|_| measure()).collect::<Result<Vec<f64>, String>>()?;
+impl Candidate {
+    /// The candidate with the errors of ever finer levels, and the seconds that these take.
+    fn judged_within(
+        self,
+        suite: &Suite,
+        budget: f64,
+    ) -> Result<(Self, Vec<(Workload, f64)>), String> {
+        let listed = &self.study.levels[self.ranked.part.levels.clone()];
+        let mut cells: Vec<u64> = listed.iter().map(|level| level.cells).collect();
+        let listed = cells.len();
+        let mut runs = Vec::new();
+        loop {
+            let next = runs.len();
+            if next == cells.len() {
+                // In space three levels are a long way.
+                let grown = (cells[next - 1] as f64 * 1.5 / self.stride as f64) as u64;
+                cells.push((grown * self.stride).max(cells[next - 1] + self.stride));
+            }
+            let level = self.level(cells[next]);
+            if cells[next] > self.most_cells() || too_large(&self.plan.scene, level).is_some() {
+                break;
+            }
+            let Some(load) = self.load(level) else { break };
+            let took = median(LONG * budget, || seconds(&self.plan, &self.case, level))?;
+            runs.push((load, took));
+            let Some(rough) = Model::fit(&[(load, took)]) else { break };
+            let farthest = self.load(self.level(cells[next].saturating_mul(REACH)));
+            if !farthest.is_some_and(|load| rough.predict(&load) <= budget) {
+                break;
+            }
+        }
+        let finer = cells.get(listed..runs.len()).unwrap_or_default();
+        if finer.is_empty() {
+            return Ok((Self { reach: REACH, ..self }, runs));
+        }
+        let judged = self.judged_with(suite, finer).ok_or("no error of it has a size")?;
+        Ok((judged, runs))
+    }
+}
+
+/// The median of several times, or the first one if it is long.
+fn median(long: f64, mut time: impl FnMut() -> Result<f64, String>) -> Result<f64, String> {
+    let first = time()?;
+    if first >= long {
+        return Ok(first);
+    }
+    let mut all = vec![first];
+    for _ in 1..REPEATS {
+        all.push(time()?);
+    }
     all.sort_by(f64::total_cmp);
     Ok(all[REPEATS / 2])
 }

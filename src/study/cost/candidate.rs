@@ -1,46 +1,59 @@
 //! A method that may be chosen for a budget: what its levels would take, and give.
 
 use super::measure::{load, seconds};
+use crate::study::runner::Runner;
 use crate::suite::compile::check::size::{nodes, too_large};
-use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{Case, ConvergencePlan};
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Case, ConvergencePlan, Suite};
 use crate::verify::{
-    CaseOutcome, Convergence, End, Exponent, LevelOutcome, MethodCost, Model, Ranked, Verdict,
-    Workload,
+    CaseOutcome, Convergence, LevelOutcome, Model, PredictedError, Ranked, Workload, by_transfers,
 };
+use std::sync::Arc;
 
-/// How many times finer than all levels that have run an order is trusted.
+/// How many times finer than the levels of a suite a method is tried.
 const FINER: u64 = 8;
 
+/// How many times finer than all levels that have been judged an error is predicted at last.
+pub(crate) const REACH: u64 = 2;
+
 /// A method that may be chosen.
-pub(crate) struct Candidate<'a> {
-    pub(crate) plan: &'a ConvergencePlan,
-    pub(crate) case: &'a Case,
-    pub(crate) study: &'a Convergence,
-    pub(crate) ranked: &'a Ranked,
+pub(crate) struct Candidate {
+    /// The plan of this case alone.
+    pub(crate) plan: ConvergencePlan,
+    pub(crate) case: Case,
+    pub(crate) study: Convergence,
+    pub(crate) ranked: Ranked,
+    pub(crate) error: PredictedError,
     /// Number that all cells are a multiple of, as those that the suite lists are.
     pub(crate) stride: u64,
+    /// How many times finer than its levels it may be chosen.
+    pub(crate) reach: u64,
 }
 
 /// The method of a ranking; none if it converges nowhere.
-pub(crate) fn candidate<'a>(
-    plan: &'a ConvergencePlan,
-    cases: &'a [CaseOutcome],
-    ranked: &'a Ranked,
-) -> Option<Candidate<'a>> {
+pub(crate) fn candidate(
+    plan: &ConvergencePlan,
+    cases: &[CaseOutcome],
+    ranked: &Ranked,
+) -> Option<Candidate> {
     let name = &ranked.method.name;
-    let case = plan.cases.iter().find(|case| case.name == *name)?;
-    let study = cases.iter().find(|case| case.case == *name)?.convergence()?;
+    let case = plan.cases.iter().find(|case| case.name == *name)?.clone();
+    let study = cases.iter().find(|case| case.case == *name)?.convergence()?.clone();
     let cells = plan.refine.levels.iter().map(|level| level.cells);
     let stride = cells.reduce(common_divisor)?;
-    (!ranked.part.levels.is_empty()).then_some(Candidate { plan, case, study, ranked, stride })
+    let (method, part) = (&ranked.method, &ranked.part);
+    let error = PredictedError::of(&method.samples, part, study.verdict(), method.formal_order);
+    let plan = ConvergencePlan { cases: vec![case.clone()], ..plan.clone() };
+    let ranked = ranked.clone();
+    let converges = !ranked.part.levels.is_empty();
+    converges.then_some(Candidate { plan, case, study, ranked, error, stride, reach: FINER })
 }
 
 fn common_divisor(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { common_divisor(b, a % b) }
 }
 
-impl Candidate<'_> {
+impl Candidate {
     /// The finest level that converges.
     pub(crate) fn finest(&self) -> &LevelOutcome {
         &self.study.levels[self.ranked.part.levels.end - 1]
@@ -65,9 +78,9 @@ impl Candidate<'_> {
 
     /// Predicted load of a level, from the finest one that has run.
     pub(crate) fn load(&self, level: LevelPlan) -> Option<Workload> {
-        let clock = self.case.clock(self.plan, level.dt)?;
+        let clock = self.case.clock(&self.plan, level.dt)?;
         let finest = self.finest();
-        let known = load(self.plan, finest);
+        let known = load(&self.plan, finest);
         let d = self.plan.scene.dimension() as f64;
         let steps = clock.steps as f64;
         let more = libm::pow(finest.h / level.h, d) * (steps / known.steps);
@@ -82,39 +95,45 @@ impl Candidate<'_> {
     /// A model of one run, and the seconds that it predicts of the coarsest level.
     pub(crate) fn rough_model(&self) -> Result<(Model, f64), String> {
         let level = self.level(self.finest().cells);
-        seconds(self.plan, self.case, level)?;
-        let took = seconds(self.plan, self.case, level)?;
+        seconds(&self.plan, &self.case, level)?;
+        let took = seconds(&self.plan, &self.case, level)?;
         let load = self.load(level).ok_or("the time step makes no sense")?;
         let model = Model::fit(&[(load, took)]).ok_or("no time at all")?;
         let coarsest = self.load(self.plan.refine.levels[0]).ok_or("no steps")?;
         Ok((model, model.predict(&coarsest)))
     }
 
-    /// Whether the method may be expected to converge beyond the levels that have run.
-    pub(crate) fn goes_on(&self) -> bool {
-        self.study.verdict() == Verdict::Converging && self.ranked.part.end == End::Levels
+    /// The same method with levels of `cells` too, run and judged with those of the suite.
+    pub(crate) fn judged_with(&self, suite: &Suite, cells: &[u64]) -> Option<Self> {
+        let mut plan = self.plan.clone();
+        plan.refine.levels.truncate(self.study.levels.len());
+        plan.refine.levels.extend(cells.iter().map(|cells| self.level(*cells)));
+        plan.refine.usual = plan.refine.levels.len();
+        let outcome = run(suite, plan.clone());
+        let rankings = by_transfers(std::slice::from_ref(&outcome));
+        let ranked = rankings.first()?.rows.first()?;
+        let judged = candidate(&plan, &[outcome], ranked)?;
+        Some(Self { stride: self.stride, reach: REACH, ..judged })
     }
 
     /// Cells of the finest level that is considered.
-    fn most_cells(&self) -> u64 {
+    pub(crate) fn most_cells(&self) -> u64 {
         let finest = self.finest().cells;
-        if self.goes_on() { finest.saturating_mul(FINER) } else { finest }
+        if self.error.obstacle().is_none() { finest.saturating_mul(self.reach) } else { finest }
     }
 
     /// Why a level is the finest that is considered, if it is.
-    pub(crate) fn limit(&self, level: LevelPlan) -> Option<&'static str> {
+    pub(crate) fn limit(&self, level: LevelPlan) -> Option<String> {
         let next = level.cells.saturating_add(self.stride);
         let last = next > self.most_cells();
-        let why = if self.goes_on() {
-            "no order is trusted further"
-        } else {
-            self.ranked.part.end.words()
-        };
-        last.then_some(why)
+        last.then(|| match self.error.obstacle() {
+            Some(obstacle) => format!("no error is predicted: {obstacle}"),
+            None => format!("no error is predicted beyond {} times as fine a grid", self.reach),
+        })
     }
 
     /// The finest level that is predicted to be done in time. Beyond the levels that have run only
-    /// where the method converges on all of them.
+    /// where an error is predicted.
     pub(crate) fn finest_within(&self, model: &Model, budget: f64) -> Option<LevelPlan> {
         let most = self.most_cells();
         let first = self.study.levels[self.ranked.part.levels.start].cells;
@@ -139,22 +158,10 @@ impl Candidate<'_> {
         }
         Some(self.level(low * self.stride))
     }
+}
 
-    /// The error at a spacing: between levels straight on logarithmic axes, beyond the finest by
-    /// the observed order.
-    pub(crate) fn error(&self, h: f64) -> Option<f64> {
-        let Ranked { method: MethodCost { samples, formal_order, growth, .. }, part, .. } =
-            self.ranked;
-        let levels = &samples[part.levels.clone()];
-        let finest = levels.last()?;
-        if h <= finest.spacing {
-            let (observed, formal) = Exponent::of(samples, part, *formal_order, *growth)?.order;
-            // Whatever is better than theory on coarse grids will not stay so.
-            let order = observed.min(formal);
-            return Some(finest.error * libm::pow(h / finest.spacing, order));
-        }
-        let pair = levels.windows(2).find(|pair| pair[0].spacing >= h && h >= pair[1].spacing)?;
-        let share = libm::log(pair[0].spacing / h) / libm::log(pair[0].spacing / pair[1].spacing);
-        Some(pair[0].error * libm::pow(pair[1].error / pair[0].error, share))
-    }
+/// Runs the one case of `plan` on all its levels.
+pub(crate) fn run(suite: &Suite, plan: ConvergencePlan) -> CaseOutcome {
+    let one = Suite { study: Arc::new(plan), ..suite.clone() };
+    Runner::over(&one, Extent::Usual).case(0, &|| ())
 }

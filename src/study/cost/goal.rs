@@ -4,7 +4,7 @@ use super::measure::seconds;
 use crate::study::runner::Runner;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{CaseOutcome, LevelOutcome, Ranked, rankings};
+use crate::verify::{Ranked, by_transfers};
 
 /// A level that reaches an error, run by one thread.
 #[derive(Debug)]
@@ -20,9 +20,7 @@ pub struct Goal<'a> {
 /// cheapest method first. Methods that do not reach it are left out.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
-    let transfers =
-        |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
-    let ranked = rankings(&Runner::new(suite).run(&|| ()).cases, transfers);
+    let ranked = by_transfers(&Runner::new(suite).run(&|| ()).cases);
     let goal = |row: &Ranked| {
         let case = plan.cases.iter().find(|case| case.name == row.method.name)?;
         let k = row.part.levels.clone().find(|k| row.method.samples[*k].error <= target)?;

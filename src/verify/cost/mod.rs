@@ -10,15 +10,17 @@
 //! | [`ranking`](Ranking) | all of it for the methods of one problem |
 //! | [`timing`](Timing) | seconds that were measured |
 //! | [`model`](Model) | seconds that are predicted |
+//! | [`predicted_error`](PredictedError) | errors that are predicted, with an interval |
 //! | [`priced`](TimedSuite) | a suite whose levels have been timed |
 //!
 //! Work is any number that adds up: particle-node transfers, which are the same everywhere, or
-//! seconds. Nothing is extrapolated: an error that no level reaches is not reached.
+//! seconds. Rankings extrapolate nothing: an error that no level reaches is not reached.
 
 mod exponent;
 mod front;
 mod model;
 mod part;
+mod predicted_error;
 mod ranking;
 mod reach;
 mod sample;
@@ -31,7 +33,8 @@ pub use exponent::{Agreement, Exponent};
 pub use front::pareto_front;
 pub use model::{Model, Workload};
 pub use part::{ConvergingPart, End};
-pub use ranking::{MethodCost, Ranked, Ranking, rankings};
+pub use predicted_error::{PredictedError, Unpredicted};
+pub use ranking::{MethodCost, Ranked, Ranking, by_transfers, rankings};
 pub use reach::Reach;
 pub use sample::Sample;
 pub use timed_suite::{BestCandidate, TimedSuite};

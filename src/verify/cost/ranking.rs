@@ -151,6 +151,11 @@ pub fn rankings(
     problems.into_iter().map(rank).collect()
 }
 
+/// The same by transfers, which are the same on every machine.
+pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
+    rankings(cases, |_, _, level| level.run.counters.transfers as f64)
+}
+
 fn method(
     case: &CaseOutcome,
     study: &Convergence,

@@ -1,9 +1,10 @@
 //! A suite whose levels have been timed.
 
 use super::model::{Model, Workload};
-use super::ranking::{Ranking, rankings};
+use super::ranking::{Ranking, by_transfers, rankings};
 use super::timing::{Machine, Timing};
-use crate::verify::outcome::{CaseOutcome, LevelOutcome, SuiteOutcome};
+use crate::verify::order::fit::Interval;
+use crate::verify::outcome::SuiteOutcome;
 
 /// A suite with the seconds of its levels.
 #[derive(Debug, Clone)]
@@ -27,9 +28,7 @@ impl TimedSuite {
 
     /// The rankings by transfers.
     pub fn by_transfers(&self) -> Vec<Ranking> {
-        let transfers =
-            |_: &CaseOutcome, _: usize, level: &LevelOutcome| level.run.counters.transfers as f64;
-        rankings(&self.outcome.cases, transfers)
+        by_transfers(&self.outcome.cases)
     }
 
     /// How long a level took.
@@ -66,12 +65,12 @@ pub struct BestCandidate {
     pub ppc: Option<u64>,
     /// Seconds of the steps, predicted and measured.
     pub seconds: [f64; 2],
-    /// Error over the size of the solution, predicted and measured.
-    pub error: [f64; 2],
+    /// Error over the size of the solution: predicted, and measured.
+    pub error: (Interval, f64),
     /// Whether the setting is finer than all levels that the suite lists.
     pub beyond: bool,
     /// Why nothing finer was considered, if that is not for the budget.
-    pub limit: Option<&'static str>,
+    pub limit: Option<String>,
     /// Why the run ended early, if it did.
     pub failure: Option<String>,
     /// The model that predicted.

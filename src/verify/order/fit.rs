@@ -84,6 +84,17 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
+    /// Where another point may lie at `x`, with its 95 % prediction interval: `line(x) -+ t s
+    /// sqrt(1 + 1/n + (x - mean)^2 / Sxx)`; NaN ends for fewer than three points.
+    pub(crate) fn another(&self, x: f64) -> Interval {
+        let (freedom, offset) = (self.points.saturating_sub(2), x - self.mean_x);
+        let spread = 1.0 + 1.0 / self.points as f64 + square(offset) / self.sxx;
+        let half_width =
+            t_quantile::two_sided_95(freedom) * (self.rss / freedom as f64 * spread).sqrt();
+        let value = self.mean_y + self.slope * offset;
+        Interval { value, low: value - half_width, high: value + half_width }
+    }
+
     /// The drift of the order over the points this line was put through: fits the parabola
     /// `line + c q(x)`, `q` being `x^2` made orthogonal to the line.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
@@ -146,6 +157,18 @@ mod tests {
         assert_abs_diff_eq!(order.value, 1.5, epsilon = 1e-14);
         let half_width = 12.7062 * 0.75_f64.sqrt();
         assert_abs_diff_eq!(order.half_width(), half_width, epsilon = 1e-4);
+    }
+
+    /// By hand: the line above is -1/2 + 3/2 x, and 1 + 1/3 + 2^2/2 = 10/3 at x = 3.
+    #[test]
+    fn another_point_by_hand() {
+        let y = [0.0, 0.0, 3.0];
+        let points: Vec<LogPoint> =
+            (0..3).map(|level| LogPoint { level, x: level as f64, y: y[level] }).collect();
+        let another = FittedLine::through(&points).unwrap().another(3.0);
+        assert_abs_diff_eq!(another.value, 4.0, epsilon = 1e-14);
+        assert_abs_diff_eq!(another.half_width(), 12.7062 * 5.0_f64.sqrt(), epsilon = 1e-3);
+        assert!(FittedLine::through(&points[1..]).unwrap().another(3.0).low.is_nan());
     }
 
     #[test]

@@ -26,7 +26,7 @@ use crate::verify::order::window::{FEWEST_LEVELS, Window};
 
 /// The order of a window has settled if its interval is no wider than this to each side: half of
 /// the gap between orders that differ by a half.
-const SETTLED: f64 = 0.25;
+pub(crate) const SETTLED: f64 = 0.25;
 
 /// High orders settle relatively: the same interval about the order 2, as a fraction.
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;

@@ -1,7 +1,7 @@
 //! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
 //! is what does not.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
 use serde_json::Value;
 
 fn document(folder: &Folder, arguments: &[&str]) -> Value {
@@ -127,13 +127,27 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
     let ([predicted, measured], errors) = (pair("seconds"), pair("error"));
     assert!(predicted <= 0.03 && measured > 0.0, "{best}");
     assert!(errors.iter().all(|error| *error > 0.0), "{best}");
+    let [low, high] = ["low", "high"].map(|end| best["error"][end].as_f64().expect("an end"));
+    assert!(low < errors[0] && errors[0] < high && high < 4.0 * low, "{best}");
+    assert!(low < errors[1] && errors[1] < high, "{best}");
     // Four levels of which the finest has 12 cells take a fraction of this.
     assert!(best["cells"].as_u64() > Some(12) && best["beyond"] == true, "{best}");
     assert_eq!(best["failure"], Value::Null);
     let text = folder.call(&["cost", "bar.yaml", "--budget", "30ms"]).out;
-    for words in ["predicted within 0.03 s", "predicted  measured", "share of budget", "model  "] {
+    for words in ["predicted within 0.03 s", "95 %", "measured", "share of budget", "model  "] {
         assert!(text.contains(words), "no `{words}` in\n{text}");
     }
+}
+
+/// The order is not the expected one, so that no error is predicted beyond the levels that ran.
+#[test]
+fn no_budget_buys_an_error_that_is_not_predicted() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", ambitious());
+    let found = folder.call(&["cost", "bar.yaml", "--budget", "1s"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let why = "nothing finer     no error is predicted: the levels are judged too low";
+    assert!(found.out.contains(why) && found.out.contains("12 cells"), "{}", found.out);
 }
 
 #[test]

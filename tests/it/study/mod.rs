@@ -1,3 +1,4 @@
 //! Studies, run through their runner.
 
 mod interrupted;
+mod predicted_error;

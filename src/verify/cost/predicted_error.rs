@@ -1,0 +1,130 @@
+//! The error of a level that has not run, with an interval.
+//!
+//! Beyond the finest of n levels that the judge fits an order to, with x = ln h,
+//!
+//! ```text
+//! ln error = line(x) -+ (t(0.975, n - 2) s sqrt(1 + 1/n + (x - mean)^2 / Sxx) + 0.25 (finest - x))
+//! ```
+//!
+//! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
+//! Analysis, 3rd ed., section 3.1). The second is for what noise does not cover: an order that
+//! counts as settled may change by 0.25 beyond the levels. Between levels the error is interpolated
+//! on logarithmic axes, with the second term for the distance to the nearer level.
+//!
+//! No error is predicted beyond levels that are not judged to converge, that end in a floor, or
+//! whose order falls at their end, the first that is seen of a floor.
+
+use super::part::{ConvergingPart, End};
+use super::sample::Sample;
+use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
+use crate::verify::order::hypothesis::OrderHypothesis;
+use crate::verify::verdict::judge::SETTLED;
+use crate::verify::verdict::name::Verdict;
+use std::fmt;
+
+/// Fewest levels with a prediction interval.
+const FEWEST: usize = 3;
+
+/// Predicted errors of a method.
+#[derive(Debug, Clone)]
+pub struct PredictedError {
+    /// The levels over which it converges.
+    levels: Vec<Sample>,
+    /// The line beyond them, and its order or the formal one if that is lower.
+    beyond: Result<(FittedLine, f64), Unpredicted>,
+}
+
+/// Why no error is predicted beyond the levels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unpredicted {
+    /// The levels have another verdict than converging.
+    Verdict(Verdict),
+    /// The levels over which the error falls end before the finest.
+    End(End),
+    /// Fewer than three levels.
+    TooFew,
+    /// The order between the two finest levels is below that of all.
+    Falling,
+}
+
+impl fmt::Display for Unpredicted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Verdict(verdict) => write!(f, "the levels are judged {verdict}"),
+            Self::End(end) => f.write_str(end.words()),
+            Self::TooFew => f.write_str("fewer than three levels"),
+            Self::Falling => f.write_str("the order falls on the finest level"),
+        }
+    }
+}
+
+impl PredictedError {
+    /// The prediction from levels that have a verdict and converge over `part`.
+    pub fn of(
+        samples: &[Sample],
+        part: &ConvergingPart,
+        verdict: Verdict,
+        formal_order: f64,
+    ) -> Self {
+        let levels = samples[part.levels.clone()].to_vec();
+        let beyond = match (part.end, verdict) {
+            (End::Levels, Verdict::Converging) => line(&levels, formal_order),
+            (End::Levels, verdict) => Err(Unpredicted::Verdict(verdict)),
+            (end, _) => Err(Unpredicted::End(end)),
+        };
+        Self { levels, beyond }
+    }
+
+    /// Why no error is predicted beyond the finest level; none if one is.
+    pub fn obstacle(&self) -> Option<Unpredicted> {
+        self.beyond.err()
+    }
+
+    /// The error at a spacing; none where none is predicted.
+    pub fn at(&self, spacing: f64) -> Option<Interval> {
+        let finest = self.levels.last()?;
+        if spacing < finest.spacing {
+            let (line, order) = self.beyond.ok()?;
+            let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
+            let Interval { value, low, high } = line.another(x);
+            // What is better than theory on coarse grids will not stay so.
+            let lost = (line.slope - order) * (end - x);
+            let more = SETTLED * (end - x);
+            return exp(Interval {
+                value: value + lost,
+                low: low - more,
+                high: high + lost + more,
+            });
+        }
+        let pair =
+            self.levels.windows(2).find(|p| p[0].spacing >= spacing && spacing >= p[1].spacing)?;
+        let (coarser, finer) =
+            (libm::log(pair[0].spacing / spacing), libm::log(spacing / pair[1].spacing));
+        let share = coarser / (coarser + finer);
+        let value = libm::log(pair[0].error) * (1.0 - share) + libm::log(pair[1].error) * share;
+        let distance = SETTLED * coarser.min(finer);
+        exp(Interval { value, low: value - distance, high: value + distance })
+    }
+}
+
+/// The line beyond levels whose order does not fall at their end.
+fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpredicted> {
+    let fitted = levels.iter().enumerate().filter(|(_, one)| one.asymptotic);
+    let points: Vec<LogPoint> = fitted
+        .map(|(level, one)| LogPoint { level, x: libm::log(one.spacing), y: libm::log(one.error) })
+        .collect();
+    if points.len() < FEWEST {
+        return Err(Unpredicted::TooFew);
+    }
+    let line = FittedLine::through(&points).ok_or(Unpredicted::TooFew)?;
+    let last = FittedLine::through(&points[points.len() - 2..]).ok_or(Unpredicted::TooFew)?;
+    let order = line.slope.min(formal_order);
+    let holds = last.slope >= order - OrderHypothesis::TOLERANCE;
+    holds.then_some((line, order)).ok_or(Unpredicted::Falling)
+}
+
+/// From logarithms; none if a figure is no number.
+fn exp(Interval { value, low, high }: Interval) -> Option<Interval> {
+    let [value, low, high] = [value, low, high].map(libm::exp);
+    (low <= value && value <= high).then_some(Interval { value, low, high })
+}

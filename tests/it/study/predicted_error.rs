@@ -1,0 +1,125 @@
+//! Predicted errors against what is found: the finest level of each case from the coarser ones.
+
+use mpm_verify::study::Runner;
+use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
+use mpm_verify::verify::{
+    Axis, CaseOutcome, Convergence, Level, OrderHypothesis, PredictedError, by_transfers, judge,
+};
+use std::sync::Arc;
+
+/// Fewest levels of a case, so that four remain to be judged.
+const FEWEST: usize = 5;
+
+/// A case with the error of its finest level.
+struct Found {
+    suite: &'static str,
+    cases: usize,
+    /// Upper over lower end of the predicted interval, and whether it has the error that is found.
+    predicted: Vec<(f64, bool)>,
+}
+
+/// Cases of a suite that refines cells, and their predictions.
+fn back_test(name: &'static str) -> Option<Found> {
+    let suite = Suite::load(&embedded::source(name)?.unwrap()).unwrap();
+    let plan = suite.plan::<ConvergencePlan>().filter(|plan| plan.refine.axis == Axis::Space)?;
+    let mut found = Found { suite: name, cases: 0, predicted: Vec::new() };
+    for case in Runner::new(&suite).run(&|| ()).cases {
+        let Some(study) = case.convergence().filter(|study| study.levels.len() >= FEWEST) else {
+            continue;
+        };
+        if !(study.compared && study.error_scale.size > 0.0) {
+            continue;
+        }
+        found.cases += 1;
+        found.predicted.extend(of_the_finest(plan, &case, study));
+    }
+    Some(found)
+}
+
+/// The finest level, predicted from what is judged of the coarser ones.
+fn of_the_finest(
+    plan: &ConvergencePlan,
+    case: &CaseOutcome,
+    study: &Convergence,
+) -> Option<(f64, bool)> {
+    let own = plan.cases.iter().find(|own| own.name == case.case)?;
+    let (finest, coarser) = study.levels.split_last()?;
+    if coarser.iter().any(|level| level.run.failure.is_some()) {
+        return None;
+    }
+    let (formal_order, axis) = (study.formal_order, study.axis);
+    let hypothesis = OrderHypothesis { formal_order, expected: own.expectation.order, axis };
+    let levels = coarser.iter().map(|level| {
+        let judged = Level::new(level.spacing, level.error);
+        if level.usable { judged } else { judged.unusable() }
+    });
+    let judgement = judge(&levels.collect::<Vec<_>>(), &hypothesis);
+    let verdict = judgement.verdict;
+    let levels = coarser.to_vec();
+    let cut = Arc::new(Convergence { levels, judgement, ..study.clone() });
+    let rankings = by_transfers(&[CaseOutcome { study: Some(cut), ..case.clone() }]);
+    let row = rankings.first()?.rows.first()?;
+    let error = PredictedError::of(&row.method.samples, &row.part, verdict, formal_order);
+    let error = error.at(finest.spacing)?;
+    let measured = finest.error / study.error_scale.size;
+    Some((error.high / error.low, error.low <= measured && measured <= error.high))
+}
+
+/// Share of the suites whose predictions all have what is found, and the median of the widths.
+fn covered(found: &[Found]) -> (f64, f64) {
+    let given: Vec<&Found> = found.iter().filter(|one| !one.predicted.is_empty()).collect();
+    let held = given.iter().filter(|one| one.predicted.iter().all(|(_, holds)| *holds)).count();
+    let all = || given.iter().flat_map(|one| &one.predicted);
+    let mut widths: Vec<f64> = all().map(|(width, _)| *width).collect();
+    widths.sort_by(f64::total_cmp);
+    let (cases, width) =
+        (found.iter().map(|one| one.cases).sum::<usize>(), widths[widths.len() / 2]);
+    for one in &given {
+        let holds = one.predicted.iter().filter(|(_, holds)| *holds).count();
+        println!("{}: {holds} of {} predicted of {}", one.suite, one.predicted.len(), one.cases);
+    }
+    println!(
+        "{held} of {} suites, {} of {} predictions of {cases} cases, median width {width:.3}, \
+         widest {:.3}",
+        given.len(),
+        all().filter(|(_, holds)| *holds).count(),
+        widths.len(),
+        widths[widths.len() - 1],
+    );
+    (held as f64 / given.len() as f64, width)
+}
+
+/// Suites that take a second.
+const SHORT: [&str; 11] = [
+    "mms-fixed-bar-cubic",
+    "mms-fixed-bar-plateau",
+    "mms-fixed-bar-small-cubic",
+    "mms-periodic-bar-cubic-cos",
+    "mms-periodic-bar-cubic-sin",
+    "plastic-bar",
+    "simple-wave",
+    "steffen-bar-small-load",
+    "vibrating-bar",
+    "vibrating-bar-small-amplitude",
+    "vibrating-bar-smooth-bases",
+];
+
+#[test]
+fn intervals_of_predicted_errors_have_what_is_found() {
+    let found: Vec<Found> = SHORT.into_iter().filter_map(back_test).collect();
+    let (share, width) = covered(&found);
+    assert!(share >= 0.9 && width < 1.6, "{share} of the suites, median width {width}");
+    let wave = found.iter().find(|one| one.suite == "simple-wave").unwrap();
+    assert!(wave.predicted.iter().all(|(_, holds)| *holds));
+    // The errors of linear functions rest on a floor that crossings make.
+    let floor = found.iter().find(|one| one.suite == "vibrating-bar").unwrap();
+    assert!(floor.predicted.len() < floor.cases);
+}
+
+#[test]
+#[ignore = "minutes: every suite; docs/design/cost.md has its figures"]
+fn in_all_suites() {
+    let found: Vec<Found> = embedded::names().filter_map(back_test).collect();
+    let (share, width) = covered(&found);
+    assert!(share >= 0.9 && width < 1.6, "{share} of the suites, median width {width}");
+}
