@@ -223,7 +223,7 @@ fn kept<const D: usize>(
             let damping = Damping(Box::new(|t| 0.1 * t));
             let start = |x: &Vector<D>| (x[0], Vector::zeros());
             let heat = Heat::new((0.1, 1.0), &mut setup.particles, start);
-            let source = Box::new(|_: f64, _: &[Vector<D>], into: &mut [f64]| into.fill(0.1));
+            let source = Box::new(|_: f64, _: &Particles<D>, into: &mut [f64]| into.fill(0.1));
             setup.effects = vec![
                 Box::new(gravity),
                 Box::new(force),

@@ -92,7 +92,8 @@ impl Formula {
         }
     }
 
-    pub(super) fn variables(&self) -> usize {
+    /// How many variables the formula is bound to.
+    pub fn variables(&self) -> usize {
         self.variables
     }
 

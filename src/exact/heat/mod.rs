@@ -6,6 +6,7 @@ mod equation;
 mod field;
 mod forcing;
 mod problem;
+mod source;
 #[cfg(test)]
 mod tests;
 mod weak;
@@ -14,3 +15,4 @@ pub use condition::{HeatFacePoint, ThermalCondition};
 pub use field::{Temperature, TemperatureDerivatives};
 pub use forcing::HeatForcing;
 pub use problem::{Conduction, HeatFace};
+pub use source::source_at;

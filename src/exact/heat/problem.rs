@@ -3,8 +3,9 @@
 use super::condition::ThermalCondition;
 use super::equation::{divergence, slope};
 use super::field::{Temperature, TemperatureDerivatives};
+use super::source::source_at;
 use crate::exact::formula::Formula;
-use crate::exact::motion::{Derivatives, Motion, variables};
+use crate::exact::motion::{Derivatives, Motion};
 use crate::exact::random::Random;
 use crate::exact::truth::Truth;
 use std::sync::Arc;
@@ -36,7 +37,7 @@ pub struct Conduction {
     pub conductivity: f64,
     /// c (J/(kg K)).
     pub capacity: f64,
-    /// Heat that arises, per unit mass (W/kg), a formula of the coordinates and t.
+    /// Heat that arises, per unit mass (W/kg), a formula for [`source_at`].
     pub source: Option<Formula>,
     /// Initial temperature (K), a formula of the coordinates; not stated, it is that of the claim.
     pub initial: Option<Formula>,
@@ -90,8 +91,7 @@ impl Conduction {
         if self.manufactured {
             return self.balance(motion, now);
         }
-        let all = variables(label, t);
-        self.source.as_ref().map_or(0.0, |source| source.eval(&all[..=label.len()]))
+        self.source.as_ref().map_or(0.0, |source| source_at(source, label, t, now.value))
     }
 
     /// `k J C^-1 Grad T` (W/m^(D-1)): minus the flow per reference area.

@@ -10,7 +10,11 @@ use std::sync::Arc;
 const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
 
 fn bind(source: &str, dimension: usize) -> Formula {
-    let names: Vec<&str> = NAMES[..dimension].iter().chain(&["t"]).copied().collect();
+    bind_to(&["t"], source, dimension)
+}
+
+fn bind_to(further: &[&str], source: &str, dimension: usize) -> Formula {
+    let names: Vec<&str> = NAMES[..dimension].iter().chain(further).copied().collect();
     Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), &names).unwrap()
 }
 
@@ -104,6 +108,18 @@ fn a_stated_source_is_part_of_the_equation() {
     let wrong = "3*cos(pi*X) - 3*pi^2*cos(pi*X)*(1 + t)/2";
     refused(&Conduction { source: source(wrong), ..made.clone() }, "heat equation");
     Conduction { manufactured: true, ..made }.check().unwrap();
+}
+
+/// A mode decays by 4/s faster where the air takes `rho0 c 4 (T - 5)`.
+#[rstest]
+fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension: usize) {
+    let fin = |source: &str| Conduction {
+        source: Some(bind_to(&["t", "T"], source, dimension)),
+        ..insulated(dimension, "5 + cos(pi*X)*exp(-(pi^2/2 + 4)*t)")
+    };
+    fin("-12*(T - 5)").check().unwrap();
+    refused(&fin("-12*T"), "heat equation");
+    refused(&fin("-12*(t - 5)"), "heat equation");
 }
 
 /// The equation holds on both sides of the kink, which gives off heat all the same.

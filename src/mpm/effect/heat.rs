@@ -28,9 +28,14 @@ use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure, Site};
 
-/// Writes the heat per unit mass and time (W/kg) of every particle at a time (s), from their
-/// reference positions.
-pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [f64]) + Send>;
+/// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).
+///
+/// It may depend on T_p at the start of the step. Not on T_i, which would take one more pass: s
+/// belongs to the mass of a particle, and the sum over particles is its integral whatever it is a
+/// function of. A sink s = -r c T adds its rate to that of conduction: with linear functions and
+/// equally spaced particles, forward Euler is stable while dt < 2/(4 k/(rho c h^2) + r). No step is
+/// predicted; the suite states it.
+pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Conduction of heat in the body.
 pub struct Heat<const D: usize> {
@@ -113,7 +118,7 @@ impl<const D: usize> Heat<D> {
         let (down, flow) = ((&self.slope[..], -self.conductivity), &mut self.flow);
         kernel.p2g_flow(particles, down, grid, flow);
         if let Some((source, amount)) = &mut self.source {
-            source(t, &particles.x0, amount);
+            source(t, particles, amount);
             for (p, (s, m)) in amount.iter().zip(&particles.mass).enumerate() {
                 kernel.p2g_amount(particles, p, s * m, grid, flow);
             }

@@ -13,7 +13,7 @@ pub struct SceneHeat {
     pub conductivity: f64,
     /// c (J/(kg K)).
     pub capacity: f64,
-    /// Heat that arises (W/kg), a formula of the coordinates and t.
+    /// Heat that arises (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
     /// Initial temperature (K), a formula of the coordinates and t; not stated, that of the truth.
     pub initial: Option<Formula>,

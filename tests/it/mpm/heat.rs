@@ -74,6 +74,37 @@ fn no_heat_is_lost(
     assert_relative_eq!(gained, 0.05 * (7.0 * 0.5 + 5.0 * 1.5), max_relative = 1e-12);
 }
 
+/// In a body of one temperature nothing flows, and forward Euler takes r dt of it in each step.
+#[rstest]
+fn a_source_has_the_temperature_at_the_start_of_the_step(
+    #[values(
+        BasisName::Linear,
+        BasisName::UniformGimp,
+        BasisName::ContiguousGimp,
+        BasisName::Cpdi,
+        BasisName::QuadraticBSpline,
+        BasisName::CubicBSpline
+    )]
+    basis: BasisName,
+) {
+    let (kernel, grid, mut particles) = plate(basis);
+    let (capacity, r, dt) = (2.0, 3.0, 0.1);
+    let heat = Heat::new((0.1, capacity), &mut particles, |_| (5.0, Vector::zeros()));
+    let mut heat = heat.with_source(Box::new(move |_, particles, into| {
+        for (into, value) in into.iter_mut().zip(&particles.temperature) {
+            *into = -r * capacity * value;
+        }
+    }));
+    let mut expected = 5.0;
+    for _ in 0..4 {
+        heat.integrate_state((0.0, dt), &mut particles, kernel.as_ref(), &grid).unwrap();
+        expected *= 1.0 - r * dt;
+        for value in &particles.temperature {
+            assert_relative_eq!(*value, expected, max_relative = 1e-12);
+        }
+    }
+}
+
 #[test]
 fn a_temperature_that_is_no_number_is_named() {
     let (kernel, grid, mut particles) = plate(BasisName::Linear);

@@ -6,7 +6,7 @@ use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 
 impl Evaluator<'_> {
     /// Refuses a declared name that formulas need for one of their `variables`.
-    pub(super) fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
+    pub(crate) fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
         let diagnostic = |path: &Path, name: &str| {
             let message = format!("`{name}` is a variable of formulas and cannot be declared");
             let help = format!("rename it; the variables are {}", variables.join(", "));

@@ -1,17 +1,23 @@
 //! Conduction of heat.
 
 use super::contract::{LoadEntry, LoadWords};
-use super::fields::scalar;
 use super::thermal_face;
-use crate::exact::formula::Formula;
-use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives};
+use crate::exact::formula::{Expr, Formula};
+use crate::exact::heat::{
+    Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at,
+};
 use crate::exact::{Round, Term};
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
 use crate::suite::compile::boundary::thermal::ThermalSpec;
+use crate::suite::compile::coordinates::coordinates_and_time;
+use crate::suite::compile::path::Path;
 use crate::suite::model::heat::SceneHeat;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 use std::sync::Arc;
+
+/// Name of the temperature in a source.
+const TEMPERATURE: &str = "T";
 
 /// Conduction of heat, and the conditions on the faces.
 #[derive(Debug, Clone, serde::Deserialize)]
@@ -19,7 +25,7 @@ use std::sync::Arc;
 pub(crate) struct HeatSpec {
     conductivity: NumberText,
     capacity: NumberText,
-    /// Source (W/kg), a formula of the coordinates and t.
+    /// Source (W/kg), a formula of the coordinates, t and T.
     source: Option<NumberText>,
     /// Initial temperature (K), a formula of the coordinates.
     initial: Option<NumberText>,
@@ -42,16 +48,15 @@ impl LoadWords for HeatSpec {
         if scene.heat().is_some() {
             return Err(evaluator.diagnostic_at_key(path, "heat appears twice"));
         }
-        let formula = |key: &str, text: &Option<NumberText>| {
-            text.as_ref().map(|text| entry.scalar(&path.then(key), text)).transpose()
-        };
+        let source = self.source.as_ref().map(|text| source(entry, &path.then("source"), text));
+        let initial = self.initial.as_ref().map(|text| entry.scalar(&path.then("initial"), text));
         let number =
             |key: &str, text: &NumberText, what| evaluator.positive(&path.then(key), text, what);
         Ok(Arc::new(SceneHeat {
             conductivity: number("conductivity", &self.conductivity, "the conductivity")?,
             capacity: number("capacity", &self.capacity, "the heat capacity")?,
-            source: formula("source", &self.source)?,
-            initial: formula("initial", &self.initial)?,
+            source: source.transpose()?,
+            initial: initial.transpose()?,
             faces: thermal_face::faces(entry, &self.boundary)?,
         }))
     }
@@ -63,6 +68,19 @@ impl LoadWords for HeatSpec {
     fn acts_at_rest(&self) -> bool {
         true
     }
+}
+
+/// The source. A suite may declare a `T` of its own as long as the source does not name it.
+fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
+    let evaluator = entry.evaluator;
+    let mut variables = coordinates_and_time(entry.dimension());
+    let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| name == TEMPERATURE);
+    if evaluator.refuse_taken(&[TEMPERATURE]).is_ok()
+        || Expr::parse(&text.to_string()).is_ok_and(names_it)
+    {
+        variables.push(TEMPERATURE);
+    }
+    evaluator.formula(path, text, &variables)
 }
 
 /// No force.
@@ -125,10 +143,11 @@ fn initial<const D: usize>(
 
 /// The source as the scene states it.
 fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
-    let source = scalar(formula);
-    Box::new(move |t, labels, into| {
-        for (into, label) in into.iter_mut().zip(labels) {
-            *into = source(label, t);
+    let formula = formula.clone();
+    Box::new(move |t, particles, into| {
+        let places = particles.x0.iter().zip(&particles.temperature);
+        for (into, (label, temperature)) in into.iter_mut().zip(places) {
+            *into = source_at(&formula, label.as_slice(), t, *temperature);
         }
     })
 }
