@@ -6,6 +6,9 @@ use rstest::rstest;
 /// A bar at rest that cools through one end.
 const COOLED: &str = include_str!("../../../verification/heat-convection.yaml");
 
+/// A fin at rest, whose source depends on the temperature.
+const FIN: &str = include_str!("../../../verification/thermal-fin.yaml");
+
 /// A plate at rest, manufactured.
 const PLATE: &str = include_str!("../../../verification/heat-2d.yaml");
 
@@ -17,12 +20,13 @@ const HELD: &str = include_str!("../../../verification/thermal-expansion-clamped
 
 const MODE: &str = "  temperature: \"Ta + 5*cos";
 const RIGHT: &str = "boundary: {right: {convection: {coefficient: b, ambient: Ta}}}";
+const SOURCE: &str = "source: \"-b*(T - Ta)/rho\"";
 const METHOD: &str = "  - heat: {basis: [linear, cpgimp, quadratic_bspline, cubic_bspline]}";
 const EXPANSION: &str = "    - thermal_expansion: {coefficient: alpha, reference: T0}";
 
 #[test]
 fn without_a_mistake_the_samples_are_sound() {
-    for text in [COOLED, PLATE, MOVING, HELD] {
+    for text in [COOLED, FIN, PLATE, MOVING, HELD] {
         load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
     }
 }
@@ -86,6 +90,46 @@ fn a_temperature(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 )]
 fn what_heat_says(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(COOLED, edits, words);
+}
+
+#[rstest]
+#[case::of_another_fin(
+    &[(SOURCE, "source: \"-2*b*(T - Ta)/rho\""), ("  temperature: \"Ta", "  temperature: ▸\"Ta")],
+    &["heat equation, rho0 c T_t = Div(k Grad T) + rho0 s", "this is not a solution"]
+)]
+#[case::of_something_else(
+    &[(SOURCE, "source: \"-b*(▸warmth - Ta)/rho\"")],
+    &["unknown name `warmth`", "the variables are `X`, `t`, `T`"]
+)]
+#[case::of_a_temperature_of_its_own(
+    &[("  Ta: 20", "  ▸T: 20\n  Ta: T")],
+    &["`T` is a variable of formulas and cannot be declared", "the variables are X, t, T"]
+)]
+#[case::manufactured(
+    &[("exact:\n", "manufactured:\n"), ("  temperature: \"Ta", "  ▸temperature: \"Ta")],
+    &["the source follows from the temperature, and the scene states one besides"]
+)]
+fn a_source_of_the_temperature(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(FIN, edits, words);
+}
+
+/// Only a source knows the temperature.
+#[rstest]
+#[case::start(&[(SOURCE, "initial: ▸T")])]
+#[case::conductivity(&[("conductivity: k", "conductivity: k*▸T")])]
+#[case::flux(&[("{left: {temperature: \"Ta + base\"}}", "{left: {flux: ▸T}}")])]
+#[case::truth(&[("cosh(m*L) +", "cosh(m*L) + 0*▸T +")])]
+fn no_temperature_exists(#[case] edits: Edits<'_>) {
+    refused(FIN, edits, &["unknown name `T`"]);
+}
+
+/// A `T` that a suite declares is its own as long as the source does not name it.
+#[test]
+fn a_source_without_the_temperature_leaves_the_name_alone() {
+    let own = COOLED.replace("  Ta: 20", "  T: 20\n  Ta: T");
+    let sourced = own.replace("capacity: c\n", "capacity: c\n        source: 0*X\n");
+    assert!(own != COOLED && sourced != own);
+    load(&sourced).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
 }
 
 #[rstest]
