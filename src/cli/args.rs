@@ -26,6 +26,9 @@ pub(super) enum Command {
     /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
     /// memory), and what is expected
     Explain(ExplainArgs),
+    /// Run suites and write the `expect` entries that theory gives and the runs support, each with
+    /// where it comes from; nothing is changed
+    Propose(Targets),
     /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
     /// 1 if one is off by more than 1 %
     Steps(StepsArgs),

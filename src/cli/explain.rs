@@ -40,8 +40,11 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
         page += &line(&key, &value);
     }
     for (i, case) in suite.case_names().into_iter().enumerate() {
-        let (expected, because) = suite.study.expectation(i);
-        page += &format!("\n{case}\n  expected: {expected}\n  because: {because}\n");
+        page += &format!("\n{case}\n");
+        page += &match suite.study.expectation(i) {
+            Some((expected, because)) => format!("  expected: {expected}\n  because: {because}\n"),
+            None => "  expected: nothing, so that the suite is no gate\n".to_owned(),
+        };
         page += &taken(suite, case, without);
     }
     page + "\n"

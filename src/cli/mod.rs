@@ -1,4 +1,5 @@
-//! `mpm-verify`: run, list, check and explain suites, compare runs, and what accuracy costs.
+//! `mpm-verify`: run, list, check and explain suites, propose expectations, compare runs, and what
+//! accuracy costs.
 
 mod args;
 mod compare;
@@ -6,6 +7,7 @@ mod cost;
 mod explain;
 mod output;
 mod page;
+mod propose;
 mod run;
 mod select;
 mod show;
@@ -25,6 +27,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::List(args)) => show::list(&args.targets),
         Some(Command::Check(args)) => show::check(&args.targets),
         Some(Command::Explain(args)) => explain::explain(&args),
+        Some(Command::Propose(targets)) => propose::propose(&targets.targets),
         Some(Command::Steps(args)) => steps::steps(&args),
         Some(Command::Cost(args)) => cost::cost(&args),
         Some(Command::Compare(args)) => compare::compare(&args),

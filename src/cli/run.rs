@@ -118,6 +118,11 @@ fn one(
         bar.suspend(|| output::complain(&format!("warning: {warning}")));
     }
     let outcome = runner.run(&|| bar.inc(1));
+    if suite.explores() {
+        let name = &suite.name;
+        let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
+        bar.suspend(|| output::complain(&format!("note: {name} {note}")));
+    }
     for line in kept.map(ResultCache::take_lines).unwrap_or_default() {
         bar.suspend(|| output::complain(&format!("note: {line}")));
     }

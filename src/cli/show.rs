@@ -18,7 +18,8 @@ pub(super) fn check(targets: &[PathBuf]) -> u8 {
     each(targets, |suite| {
         let cases = suite.case_names().len();
         let noun = if cases == 1 { "case" } else { "cases" };
-        format!("{}: sound, {cases} {noun}\n", suite.name)
+        let gate = if suite.explores() { "; nothing is expected, it is no gate" } else { "" };
+        format!("{}: sound, {cases} {noun}{gate}\n", suite.name)
     })
 }
 

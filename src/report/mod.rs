@@ -23,5 +23,6 @@ pub use json::timed_suite::timed_json;
 pub use text::cost::cost;
 pub use text::drift;
 pub use text::profile::{difference, profile};
+pub use text::proposal::proposals;
 pub use text::report::{case, summary, text};
 pub use text::timed_suite::{best_candidate, timed};

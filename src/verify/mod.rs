@@ -48,6 +48,7 @@ pub use error::quantity::Quantity;
 pub use error::run::{Comparison, errors, resume, run};
 pub use error::run_result::RunResult;
 pub use expectation::limits::{Limits, Measured};
+pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
 pub use order::axis::Axis;
 pub use order::fit::Interval;

@@ -45,9 +45,9 @@ pub struct CaseOutcome {
     pub settings: Vec<(String, String)>,
     /// Cost of a step on the coarsest level, from a subject that has a profile.
     pub profile: Option<Profile>,
-    /// Expectation, in one line.
-    pub expected: String,
-    /// The suite's reason for expecting it.
+    /// Expectation, in one line; none of a suite that explores, which is no gate.
+    pub expected: Option<String>,
+    /// The suite's reason for expecting it; empty if nothing is expected.
     pub because: String,
     /// The verdict, in words.
     pub verdict: String,
@@ -170,6 +170,23 @@ impl CaseOutcome {
     /// Whether everything came as expected.
     pub fn passed(&self) -> bool {
         self.unmet.is_empty()
+    }
+
+    /// One word: `pass`, `FAIL`, or `explored` where nothing is expected.
+    pub fn result(&self) -> &'static str {
+        match (self.passed(), &self.expected) {
+            (false, _) => "FAIL",
+            (true, Some(_)) => "pass",
+            (true, None) => "explored",
+        }
+    }
+
+    /// What is expected and why, in one line.
+    pub fn expectation(&self) -> String {
+        match &self.expected {
+            Some(expected) => format!("{expected}, because {}", self.because),
+            None => "nothing: the suite has no `expect`, and is no gate".to_owned(),
+        }
     }
 
     /// The convergence study, if the case is one.

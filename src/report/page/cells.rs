@@ -16,10 +16,9 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
 
 /// Whether the case is as expected: in words, not by colour alone.
 pub(super) fn result(case: &CaseOutcome) -> Html {
-    if case.passed() {
-        Html::tag("span", &[("class", "ok")], "pass")
-    } else {
-        Html::tag("b", &[("class", "bad")], "FAIL")
+    match (case.result(), case.passed()) {
+        (word, true) => Html::tag("span", &[("class", "ok")], word),
+        (word, false) => Html::tag("b", &[("class", "bad")], word),
     }
 }
 

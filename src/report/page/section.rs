@@ -50,7 +50,7 @@ fn cases(outcome: &SuiteOutcome) -> Html {
         heads.extend(figures.map(|name| head((name, "number"))));
     }
     heads.extend([("Found", "word"), ("Expected", "word")].map(head));
-    let groups = outcome.cases.chunk_by(|a, b| expected(a) == expected(b));
+    let groups = outcome.cases.chunk_by(|a, b| a.expectation() == b.expectation());
     let rows: Vec<Html> = groups.flat_map(|group| rows(outcome, group, measured)).collect();
     let mut table = Vec::new();
     table.extend(
@@ -60,10 +60,6 @@ fn cases(outcome: &SuiteOutcome) -> Html {
     table.extend([Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)]);
     let label = format!("Verdicts of {}", outcome.suite);
     scrolled(&label, Html::block("table", &[], &table))
-}
-
-fn expected(case: &CaseOutcome) -> String {
-    format!("{}, because {}", case.expected, case.because)
 }
 
 fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Html> {
@@ -82,7 +78,11 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
         cells.push(Html::tag("td", &[("class", "prose")], found));
         if k == 0 {
             let rows = group.len().to_string();
-            cells.push(Html::tag("td", &[("class", "prose"), ("rowspan", &rows)], expected(case)));
+            cells.push(Html::tag(
+                "td",
+                &[("class", "prose"), ("rowspan", &rows)],
+                case.expectation(),
+            ));
         }
         Html::tag("tr", &[], cells)
     };

@@ -14,7 +14,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
         subject: "mpm",
         settings: vec![(word(), word())],
         profile: None,
-        expected: word(),
+        expected: Some(word()),
         because: word(),
         verdict: word(),
         reason: word(),

@@ -57,7 +57,7 @@ fn row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
             order,
             error,
             transfers,
-            Html::tag("td", &[("class", "prose")], case.expected.as_str()),
+            Html::tag("td", &[("class", "prose")], case.expected.as_deref().unwrap_or("nothing")),
         ],
     )
 }

@@ -4,6 +4,7 @@ pub(crate) mod cost;
 pub mod drift;
 pub(crate) mod levels;
 pub(crate) mod profile;
+pub(crate) mod proposal;
 pub(crate) mod prose;
 pub(crate) mod report;
 pub(crate) mod stability;

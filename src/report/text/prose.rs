@@ -20,7 +20,7 @@ pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
 }
 
 /// Wraps prose at word boundaries.
-fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
+pub(crate) fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
     let mut line = String::new();
     for word in prose.split_whitespace() {
         if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > width {

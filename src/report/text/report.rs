@@ -55,7 +55,7 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
     let interval = |o: Interval| format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high);
     [
         TableColumn::<SuiteCase<'a>>::text("", "whether all is as expected", |(_, case)| {
-            if case.passed() { "pass" } else { "FAIL" }
+            case.result()
         }),
         TableColumn::<SuiteCase<'a>>::text("case", "suite and case", |(suite, case)| {
             format!("{}::{}", suite.suite, case.case)
@@ -67,7 +67,7 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
             case.convergence().and_then(|study| study.judgement.order).map(interval)
         }),
         TableColumn::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| {
-            case.expected.clone()
+            case.expected.clone().unwrap_or("nothing".to_owned())
         })
         .flush_left(),
     ]
@@ -87,9 +87,9 @@ fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
     }
     lines.push(String::new());
     row(lines, "verdict", &format!("{}: {}", case.verdict, case.reason));
-    row(lines, "expected", &format!("{}, because {}", case.expected, case.because));
+    row(lines, "expected", &case.expectation());
     if case.passed() {
-        row(lines, "result", "as expected");
+        row(lines, "result", if case.expected.is_some() { "as expected" } else { "explored" });
     }
     for unmet in &case.unmet {
         row(lines, "result", &format!("NOT AS EXPECTED: {unmet}"));

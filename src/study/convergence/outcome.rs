@@ -5,12 +5,13 @@ use super::statement;
 use crate::study::describe::profiles;
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::grammar::NormName;
+use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseFindings, CaseOutcome, ConservationError, Convergence, ErrorScale, Expectation,
-    Floor, Interval, Judgement, LevelOutcome, Measured, OrderHypothesis, Richardson, RunResult,
-    Verdict, judge, larger,
+    Axis, CaseFindings, CaseOutcome, ConservationError, Conserved, Convergence, ErrorScale,
+    Expectation, Floor, Interval, Judgement, LevelOutcome, Limits, Measured, OrderHypothesis,
+    Richardson, RunResult, Verdict, judge, larger,
 };
 use std::sync::Arc;
 
@@ -33,7 +34,7 @@ pub(crate) fn error_of(plan: &ConvergencePlan, run: &RunResult) -> f64 {
 pub(crate) fn judged(
     plan: &ConvergencePlan,
     case: &Case,
-    expectation: &Expectation,
+    expectation: Option<&Expectation>,
     mut levels: Vec<LevelOutcome>,
     judgement: Judgement,
     floor: Option<Floor>,
@@ -52,8 +53,15 @@ pub(crate) fn judged(
         measured,
         floor: floor.as_ref().and_then(Floor::cause),
     };
-    let unmet = expectation.unmet(&seen);
-    let (verdict, reason) = headline(expectation, &judgement, &measured, &unmet);
+    let unmet = expectation.map_or(Vec::new(), |expectation| expectation.unmet(&seen));
+    let (verdict, reason) = match expectation {
+        Some(expectation) => headline(expectation, &judgement, &measured, &unmet),
+        None => explored(plan, case, &judgement, &measured),
+    };
+    let drifts = match expectation {
+        Some(expectation) => expectation.limits.drifts(),
+        None => explored_drifts(plan, case),
+    };
     let found = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
     CaseOutcome {
         verdict,
@@ -70,9 +78,9 @@ pub(crate) fn judged(
             scale: plan.scale,
             error_scale,
             compared: case.against != Against::Nothing,
-            bounded: expectation.verdict.is_none(),
-            drifts: expectation.limits.drifts(),
-            rated: expectation.limits.energy_rate.is_some(),
+            bounded: expectation.is_some_and(|expectation| expectation.verdict.is_none()),
+            drifts,
+            rated: expectation.is_some_and(|expected| expected.limits.energy_rate.is_some()),
             judgement,
             levels,
         })),
@@ -84,7 +92,7 @@ pub(crate) fn judged(
 pub(crate) fn judge_levels(
     plan: &ConvergencePlan,
     case: &Case,
-    expectation: &Expectation,
+    expectation: Option<&Expectation>,
     levels: &[LevelOutcome],
 ) -> Judgement {
     let truthless = case.against == Against::Nothing;
@@ -103,7 +111,8 @@ pub(crate) fn judge_levels(
         })
         .collect();
     let (formal_order, axis) = (formal_order(plan, case), plan.refine.axis);
-    let claim = OrderHypothesis { formal_order, expected: expectation.order, axis };
+    let expected = expectation.and_then(|expectation| expectation.order);
+    let claim = OrderHypothesis { formal_order, expected, axis };
     judge(&judged, &claim)
 }
 
@@ -131,6 +140,35 @@ fn measured(levels: &[LevelOutcome]) -> Measured {
             ends.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
         }),
     }
+}
+
+/// The verdict and its reason where nothing is expected: what the judge says against the order of
+/// theory, and what drifts.
+fn explored(
+    plan: &ConvergencePlan,
+    case: &Case,
+    judgement: &Judgement,
+    measured: &Measured,
+) -> (String, String) {
+    let drift = explored_drifts(plan, case).into_iter().map(|sum| (sum, f64::INFINITY)).collect();
+    let found = Limits { drift, ..Limits::default() }.found(measured);
+    let seen = [judgement.reason.clone(), found];
+    let said: Vec<String> = seen.into_iter().filter(|part| !part.is_empty()).collect();
+    (judgement.verdict.to_string(), said.join("; "))
+}
+
+/// The sums that a case has, for an author who has not bound any.
+fn explored_drifts(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
+    let dimension = plan.scene.dimension();
+    let has_energy = plan.scene.material.properties().has_energy(dimension).is_ok();
+    let has = |sum: &Conserved| match sum {
+        Conserved::AngularMomentum => dimension > 1,
+        Conserved::Energy => has_energy,
+        Conserved::KineticEnergyGain => false,
+        Conserved::Mass | Conserved::Momentum | Conserved::KineticEnergy => true,
+    };
+    let moves = matches!(case.method, Method::Mpm { .. });
+    Conserved::ALL.iter().copied().filter(|sum| moves && has(sum)).collect()
 }
 
 /// The verdict and its reason. Where limits alone bind a case, their finding comes first, and that
@@ -183,14 +221,18 @@ fn richardson(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardso
 }
 
 /// The part of an outcome that is known before the case runs.
-fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> CaseOutcome {
+fn described(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: Option<&Expectation>,
+) -> CaseOutcome {
     CaseOutcome {
         case: case.name.clone(),
         subject: case.method.subject(),
         settings: statement::settings(plan, case),
         profile: profiles::of(plan, case),
-        expected: expectation.summary(),
-        because: expectation.because.clone(),
+        expected: expectation.map(Expectation::summary),
+        because: expectation.map_or(String::new(), |expectation| expectation.because.clone()),
         verdict: String::new(),
         reason: String::new(),
         unmet: Vec::new(),
@@ -202,7 +244,7 @@ fn described(plan: &ConvergencePlan, case: &Case, expectation: &Expectation) -> 
 pub(crate) fn refused(
     plan: &ConvergencePlan,
     case: &Case,
-    expectation: &Expectation,
+    expectation: Option<&Expectation>,
     reason: String,
 ) -> CaseOutcome {
     CaseOutcome {
@@ -217,7 +259,7 @@ pub(crate) fn refused(
 mod tests {
     use super::*;
     use crate::subject::RunCounters;
-    use crate::verify::{Limits, Norms};
+    use crate::verify::Norms;
 
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let counters = RunCounters {

@@ -14,12 +14,13 @@ use rayon::prelude::*;
 pub(crate) fn floor(
     plan: &ConvergencePlan,
     case: &Case,
-    expectation: &Expectation,
+    expectation: Option<&Expectation>,
     judgement: &Judgement,
     levels: &[LevelOutcome],
     run: impl Fn(LevelPlan) -> Result<LevelOutcome, String> + Sync,
 ) -> Option<Floor> {
-    let asked = judgement.verdict == Verdict::AtFloor || expectation.floor.is_some();
+    let expected = expectation.is_some_and(|expectation| expectation.floor.is_some());
+    let asked = judgement.verdict == Verdict::AtFloor || expected;
     let finest = levels.iter().rev().find(|level| level.usable).filter(|_| asked)?;
     if finest.run.failure.is_some() || case.against == Against::SameMethod {
         return None;

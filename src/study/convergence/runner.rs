@@ -62,8 +62,8 @@ impl CaseRunner for ConvergenceRunner<'_> {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, case) = (self.plan, &self.plan.cases[index]);
         let expectation = match (self.context.extent, &case.expectation_in_full) {
-            (Extent::Full, Some(full)) => full,
-            _ => &case.expectation,
+            (Extent::Full, Some(full)) => Some(full),
+            _ => case.expectation.as_ref(),
         };
         self.run(case, expectation, progress)
             .unwrap_or_else(|reason| refused(plan, case, expectation, reason))
@@ -86,7 +86,7 @@ impl<'a> ConvergenceRunner<'a> {
     fn run(
         &self,
         case: &Case,
-        expectation: &Expectation,
+        expectation: Option<&Expectation>,
         progress: Progress<'_>,
     ) -> Result<CaseOutcome, String> {
         let plan = self.plan;

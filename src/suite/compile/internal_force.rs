@@ -71,15 +71,14 @@ fn cases(
     }
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = cases::assign(evaluator, &selectors, &names)?;
-    let case = |((basis, name), owner): ((BasisName, &str), usize)| {
-        let path = Path::top("expect").then(owner);
-        let expected = &spec.expect[owner];
-        Ok(ForceCase {
-            name: name.to_owned(),
-            basis,
-            expected: expectation(evaluator, &path, expected)?,
-            because: cases::because(evaluator, &path, &expected.because)?,
-        })
+    let case = |((basis, name), owner): ((BasisName, &str), Option<usize>)| {
+        let (name, mut expected, mut because) = (name.to_owned(), None, String::new());
+        if let Some(owner) = owner {
+            let (path, spec) = (Path::top("expect").then(owner), &spec.expect[owner]);
+            expected = Some(expectation(evaluator, &path, spec)?);
+            because = cases::because(evaluator, &path, &spec.because)?;
+        }
+        Ok(ForceCase { name, basis, expected, because })
     };
     bases.into_iter().zip(names).zip(owners).map(case).collect()
 }

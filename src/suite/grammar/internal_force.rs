@@ -22,6 +22,8 @@ pub(crate) struct InternalForceSpec {
     pub(crate) functions: Ordered<String>,
     pub(crate) internal_force: ForceSpec,
     pub(crate) methods: Vec<ForceMethodSpec>,
+    /// Empty: the suite explores, and is no gate.
+    #[serde(default)]
     pub(crate) expect: Vec<ForceExpectSpec>,
 }
 

@@ -61,6 +61,8 @@ pub(crate) struct ConvergenceSpec {
     #[serde(default)]
     pub(crate) judge: JudgeSpec,
     pub(crate) observe: Option<ObserveSpec>,
+    /// Empty: the suite explores, and is no gate.
+    #[serde(default)]
     pub(crate) expect: Vec<ExpectSpec>,
 }
 

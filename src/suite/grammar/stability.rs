@@ -30,6 +30,8 @@ pub(crate) struct StabilitySpec {
     #[serde(default)]
     pub(crate) show: Vec<crate::verify::RunFigure>,
     pub(crate) methods: Vec<MethodSpec>,
+    /// Empty: the suite explores, and is no gate.
+    #[serde(default)]
     pub(crate) expect: Vec<StabilityExpectSpec>,
 }
 

@@ -30,8 +30,8 @@ pub struct ForceCase {
     pub name: String,
     /// Basis functions.
     pub basis: BasisName,
-    /// Expectation of the force.
-    pub expected: ForceExpectation,
+    /// Expectation of the force; none of a suite that explores.
+    pub expected: Option<ForceExpectation>,
     /// The reason for expecting it.
     pub because: String,
 }
@@ -50,9 +50,9 @@ impl StudyPlan for ForcePlan {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
-    fn expectation(&self, case: usize) -> (String, &str) {
+    fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let ForceCase { expected, because, .. } = &self.cases[case];
-        (expected.summary(), because)
+        Some((expected.as_ref()?.summary(), because))
     }
 }
 

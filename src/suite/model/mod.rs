@@ -91,8 +91,8 @@ pub struct Case {
     pub until: f64,
     /// Truth against which errors are taken.
     pub against: Against,
-    /// Expectation on a usual run.
-    pub expectation: Expectation,
+    /// Expectation on a usual run; none of a suite that explores.
+    pub expectation: Option<Expectation>,
     /// Expectation on a full run, if that differs.
     pub expectation_in_full: Option<Expectation>,
 }
@@ -151,6 +151,20 @@ impl Suite {
         self.study.case_names()
     }
 
+    /// Whether nothing is expected of any case, so that the suite is no gate.
+    pub fn explores(&self) -> bool {
+        (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
+    }
+
+    /// The same convergence study with nothing expected; none of another kind of study.
+    pub fn without_expectations(&self) -> Option<Self> {
+        let mut plan = self.plan::<ConvergencePlan>()?.clone();
+        for case in &mut plan.cases {
+            (case.expectation, case.expectation_in_full) = (None, None);
+        }
+        Some(Self { study: Arc::new(plan), ..self.clone() })
+    }
+
     /// The plan, if the study is of this kind.
     pub fn plan<P: StudyPlan>(&self) -> Option<&P> {
         let plan: &dyn Any = self.study.as_ref();
@@ -163,9 +177,9 @@ impl StudyPlan for ConvergencePlan {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
-    fn expectation(&self, case: usize) -> (String, &str) {
-        let expectation = &self.cases[case].expectation;
-        (expectation.summary(), &expectation.because)
+    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+        let expectation = self.cases[case].expectation.as_ref()?;
+        Some((expectation.summary(), &expectation.because))
     }
 }
 

@@ -48,10 +48,10 @@ pub struct StabilityCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Expectation of each row.
+    /// Expectation of each row; empty if the suite explores.
     pub expected: Vec<StabilityExpectation>,
     /// The same in one line.
-    pub summary: String,
+    pub summary: Option<String>,
     /// The reason for expecting it.
     pub because: String,
 }
@@ -61,8 +61,8 @@ impl StudyPlan for StabilityPlan {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
-    fn expectation(&self, case: usize) -> (String, &str) {
+    fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let StabilityCase { summary, because, .. } = &self.cases[case];
-        (summary.clone(), because)
+        Some((summary.clone()?, because))
     }
 }

@@ -8,9 +8,10 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     /// Names of the cases, in order.
     fn case_names(&self) -> Vec<&str>;
 
-    /// Summary of the expectation of the case with this index, and the suite's reason for it.
+    /// Summary of the expectation of the case with this index, and the suite's reason for it; none
+    /// of a suite that explores.
     ///
     /// # Panics
     /// If there is no such case.
-    fn expectation(&self, case: usize) -> (String, &str);
+    fn expectation(&self, case: usize) -> Option<(String, &str)>;
 }

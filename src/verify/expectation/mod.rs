@@ -1,6 +1,7 @@
 //! Expectations of a suite for a case, and their check.
 
 pub(crate) mod limits;
+pub(crate) mod proposal;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};
 use super::verdict::floor::FloorCause;

@@ -4,6 +4,7 @@ mod checkpoint;
 mod compare;
 mod cost;
 mod explain;
+mod explore;
 mod folder;
 mod hostile;
 mod json;

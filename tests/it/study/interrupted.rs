@@ -59,7 +59,7 @@ fn with_plan(suite: &Suite, plan: impl StudyPlan) -> Suite {
 fn of_level(suite: &Suite, plan: &ConvergencePlan, case: usize, level: usize) -> Suite {
     let mut plan = plan.clone();
     plan.cases = vec![plan.cases[case].clone()];
-    plan.cases[0].expectation.floor = None;
+    plan.cases[0].expectation.as_mut().unwrap().floor = None;
     plan.refine.levels = vec![plan.refine.levels[level]];
     plan.refine.usual = 1;
     with_plan(suite, plan)

@@ -1,4 +1,4 @@
-//! Which expectation holds for which case: exactly one for each.
+//! Which expectation holds for which case: exactly one for each, or none for any.
 
 use super::limits::limits;
 use crate::suite::compile::check::subject_support;
@@ -16,13 +16,14 @@ use std::str::FromStr;
 /// Expectation of a case, and of a full run if that differs.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
-/// One expectation for each of the `cases`, in their order.
+/// One expectation for each of the `cases`, in their order; none for any where the suite states
+/// nothing.
 pub(crate) fn expectations(
     evaluator: &Evaluator<'_>,
     spec: &[ExpectSpec],
     plan: &ConvergencePlan,
     cases: &[(&str, Method)],
-) -> Result<Vec<CaseExpectation>, Diagnostic> {
+) -> Result<Vec<Option<CaseExpectation>>, Diagnostic> {
     let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
     let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
@@ -31,22 +32,26 @@ pub(crate) fn expectations(
         Ok((expectation(evaluator, &path, spec, plan)?, in_full(evaluator, &path, spec, plan)?))
     };
     let parsed = spec.iter().enumerate().map(both).collect::<Result<Vec<CaseExpectation>, _>>()?;
-    for (&owner, (_, method)) in owners.iter().zip(cases) {
+    for (owner, (_, method)) in owners.iter().zip(cases) {
+        let Some(owner) = *owner else { continue };
         let path = Path::top("expect").then(owner);
         subject_support::check_drift(evaluator, &path, &parsed[owner].0.limits, *method)?;
         if let Some(full) = &parsed[owner].1 {
             subject_support::check_drift(evaluator, &path.then("full"), &full.limits, *method)?;
         }
     }
-    Ok(owners.into_iter().map(|owner| parsed[owner].clone()).collect())
+    Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// For each case the one entry of `expect` that speaks of it.
+/// For each case the one entry of `expect` that speaks of it; none for any where there is no entry.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
     names: &[&str],
-) -> Result<Vec<usize>, Diagnostic> {
+) -> Result<Vec<Option<usize>>, Diagnostic> {
+    if selectors.is_empty() {
+        return Ok(vec![None; names.len()]);
+    }
     let path = Path::top("expect");
     let speaks = |i: usize, name: &str| {
         selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
@@ -63,7 +68,7 @@ pub(crate) fn assign(
     let owner = |name: &&str| {
         let owners: Vec<usize> = (0..selectors.len()).filter(|i| speaks(*i, name)).collect();
         match owners[..] {
-            [only] => Ok(only),
+            [only] => Ok(Some(only)),
             [] => {
                 let message = format!("nothing is expected of the case `{name}`");
                 Err(evaluator.diagnostic_at_key(&path, &message))

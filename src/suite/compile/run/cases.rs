@@ -11,7 +11,7 @@ use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
-use crate::verify::Axis;
+use crate::verify::{Axis, Expectation};
 
 /// Most cases that a suite may unfold into.
 const MOST_CASES: usize = 1000;
@@ -58,13 +58,16 @@ pub(crate) fn cases(
     let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
     let names: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
     let expectations = cases::expectations(evaluator, &spec.expect, plan, &names)?;
-    let with = |(draft, (expectation, expectation_in_full)): (Draft, _)| Case {
-        name: draft.name,
-        method: draft.method,
-        until: draft.until,
-        against: draft.against,
-        expectation,
-        expectation_in_full,
+    let with = |(draft, expected): (Draft, Option<(Expectation, Option<Expectation>)>)| {
+        let (expectation, expectation_in_full) = expected.unzip();
+        Case {
+            name: draft.name,
+            method: draft.method,
+            until: draft.until,
+            against: draft.against,
+            expectation,
+            expectation_in_full: expectation_in_full.flatten(),
+        }
     };
     Ok(drafts.into_iter().zip(expectations).map(with).collect())
 }

@@ -171,12 +171,10 @@ fn cases(
         })
         .collect::<Result<Vec<_>, Diagnostic>>()?;
     let predicted = seeks && spec.run.frozen;
-    let case = |((name, method), owner): ((String, Method), usize)| StabilityCase {
-        name,
-        method,
-        expected: expected[owner].0.clone(),
-        summary: expect::summary(&spec.expect[owner], predicted),
-        because: expected[owner].1.clone(),
+    let case = |((name, method), owner): ((String, Method), Option<usize>)| {
+        let (expected, because) = owner.map(|owner| expected[owner].clone()).unwrap_or_default();
+        let summary = owner.map(|owner| expect::summary(&spec.expect[owner], predicted));
+        StabilityCase { name, method, expected, summary, because }
     };
     Ok(drafts.into_iter().zip(owners).map(case).collect())
 }

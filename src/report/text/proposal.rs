@@ -1,0 +1,76 @@
+//! Proposed expectations, as the part of a suite that they would be.
+
+use super::prose::wrap;
+use crate::verify::{Convergence, Proposal, ProposedKey, SuiteOutcome, propose};
+
+/// Width of a suite's text.
+const WIDTH: usize = 96;
+
+/// Indent of a list of cases that goes on.
+const LIST: &str = "           ";
+
+/// Cases with the same proposal.
+struct Group<'a> {
+    proposal: Proposal,
+    /// Name, and what was seen.
+    cases: Vec<(&'a str, String)>,
+}
+
+/// The `expect` of a suite, from what its cases gave: one entry for all cases that have the same.
+/// Comments say where each key comes from, and what would make the claim stronger.
+pub fn proposals(outcome: &SuiteOutcome) -> String {
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    for (case, study) in outcome.results::<Convergence>() {
+        let proposal = propose(study);
+        let seen = (case, proposal.seen.clone());
+        let same = |group: &&mut Group<'_>| {
+            let known = &group.proposal;
+            (&known.keys, &known.because, &known.stronger)
+                == (&proposal.keys, &proposal.because, &proposal.stronger)
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.cases.push(seen),
+            None => groups.push(Group { proposal, cases: vec![seen] }),
+        }
+    }
+    let mut lines = vec!["expect:".to_owned()];
+    let alone = groups.len() == 1;
+    for group in &groups {
+        entry(&mut lines, group, alone);
+    }
+    lines.join("\n") + "\n"
+}
+
+fn entry(lines: &mut Vec<String>, group: &Group<'_>, alone: bool) {
+    let Group { proposal, cases } = group;
+    let width = cases.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    lines.extend(cases.iter().map(|(name, seen)| format!("  # {name:width$}  {seen}")));
+    for advice in &proposal.stronger {
+        folded(lines, "  # ", advice);
+    }
+    if proposal.keys.is_empty() {
+        folded(lines, "  # ", "nothing can be expected of this case");
+        return;
+    }
+    let mut keys: Vec<(String, String)> = Vec::new();
+    if !alone {
+        let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
+        let mut list = Vec::new();
+        wrap(&mut list, WIDTH - LIST.len(), &names.join(", "));
+        keys.push((format!("case: [{}]", list.join(&format!("\n{LIST}"))), String::new()));
+    }
+    let ground = |key: &ProposedKey| format!("  # from {}", key.ground.name());
+    keys.extend(proposal.keys.iter().map(|key| (key.text.clone(), ground(key))));
+    keys.push(("because: >".to_owned(), String::new()));
+    for (i, (key, comment)) in keys.iter().enumerate() {
+        let lead = if i == 0 { "  - " } else { "    " };
+        lines.push(format!("{lead}{key}{comment}"));
+    }
+    folded(lines, "      ", &proposal.because);
+}
+
+fn folded(lines: &mut Vec<String>, lead: &str, prose: &str) {
+    let mut wrapped = Vec::new();
+    wrap(&mut wrapped, WIDTH - lead.len(), prose);
+    lines.extend(wrapped.into_iter().map(|line| format!("{lead}{line}")));
+}

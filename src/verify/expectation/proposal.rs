@@ -1,0 +1,324 @@
+//! Expectations that a run supports, for a suite that states none.
+//!
+//! Theory is asked first: where the observed order agrees with the formal one, that is what is
+//! proposed. What theory does not give is taken from the run, and says so. No interval is proposed
+//! that the run only just meets: twice its uncertainty must fit between the observed order and
+//! either end.
+
+use crate::named::named;
+use crate::verify::conservation::Conserved;
+use crate::verify::error::norm::larger;
+use crate::verify::order::axis::Axis;
+use crate::verify::order::fit::Interval;
+use crate::verify::order::format_number::format_number;
+use crate::verify::order::hypothesis::OrderHypothesis;
+use crate::verify::order::level::Level;
+use crate::verify::order::t_quantile::two_sided_95;
+use crate::verify::order::window::FEWEST_LEVELS;
+use crate::verify::outcome::{Convergence, LevelOutcome};
+use crate::verify::verdict::judge::judge;
+use crate::verify::verdict::name::Verdict;
+
+/// Share of the distance from the middle of an interval to its end that an order may take up.
+const COMFORTABLE: f64 = 0.75;
+
+/// A drift below this is rounding, which the sums of a run keep within a bound of their own.
+const ROUNDING: f64 = 1e-11;
+
+/// Ratio of a proposed bound to what was found, at least: other processors and settings of a suite
+/// sum in other orders.
+const ROOM_OF_DRIFT: f64 = 30.0;
+
+/// Ratio of a proposed bound on an error to the largest that was found.
+const ROOM_OF_ERROR: f64 = 2.0;
+
+/// An interval of the order wider than this to each side gains from more levels.
+const WIDE: f64 = 0.03;
+
+named! {
+    /// Where an expectation comes from.
+    pub enum Ground {
+        /// The formal order, or a conservation law.
+        Theory = "theory",
+        /// What the run gave.
+        Run = "the run",
+    }
+}
+
+/// One key of a proposed entry of `expect`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProposedKey {
+    /// The key, with its value as a suite writes it.
+    pub text: String,
+    /// Where the value comes from.
+    pub ground: Ground,
+}
+
+/// A proposed entry of `expect` for one case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    /// The keys, apart from `case` and `because`.
+    pub keys: Vec<ProposedKey>,
+    /// The reason, which an author has to complete where theory gives none.
+    pub because: String,
+    /// Verdict and figures of the run.
+    pub seen: String,
+    /// What keeps it from a stronger claim, and what would make one.
+    pub stronger: Vec<String>,
+}
+
+/// The claim on the order, its ground and its reason.
+struct Claim {
+    key: String,
+    ground: Ground,
+    because: String,
+}
+
+/// The entry of `expect` that the results of a case support.
+pub fn propose(study: &Convergence) -> Proposal {
+    let claim = claim(study).filter(|_| study.compared);
+    let is_claimed = claim.is_some();
+    let mut keys = Vec::new();
+    let because = match claim {
+        Some(Claim { key, ground, because }) => {
+            keys.push(ProposedKey { text: key, ground });
+            because
+        }
+        None if study.compared => {
+            "from the run: bounds that hold today, and no order is claimed; say why not, or mend \
+             the suite"
+                .to_owned()
+        }
+        None => "sums that a run keeps; nothing is compared".to_owned(),
+    };
+    let from_run = |text| ProposedKey { text, ground: Ground::Run };
+    keys.extend(crossings(study).map(from_run));
+    keys.extend(floor(study).map(from_run));
+    if study.compared && !is_claimed {
+        keys.extend(error_bound(study).map(from_run));
+    }
+    keys.extend(drifts(study));
+    let stronger = if study.compared { stronger(study) } else { Vec::new() };
+    Proposal { keys, because, seen: seen(study), stronger }
+}
+
+fn seen(study: &Convergence) -> String {
+    let order = study.judgement.order.map(|order| format!("; order {}", shown(&order)));
+    format!("{}{}", study.verdict(), order.unwrap_or_default())
+}
+
+fn shown(order: &Interval) -> String {
+    format!("{:.2} [{:.2}, {:.2}]", order.value, order.low, order.high)
+}
+
+/// The claim on the verdict, if the run gives one that a repetition would meet.
+fn claim(study: &Convergence) -> Option<Claim> {
+    let formal = study.formal_order;
+    let theory = match study.axis {
+        Axis::Particles => "theory gives no order for particles per cell".to_owned(),
+        axis => format!("theory gives the order {} in {}", format_number(formal), axis.name()),
+    };
+    let verdict = |word: &str| Claim {
+        key: format!("verdict: {word}"),
+        ground: Ground::Run,
+        because: format!("from the run; {theory}; say why this case differs, or mend the suite"),
+    };
+    let within = |order: f64, ground, because| Claim {
+        key: format!("order: {}", range(order)),
+        ground,
+        because,
+    };
+    match study.verdict() {
+        Verdict::Converging | Verdict::TooLow | Verdict::TooGood => {
+            let observed = study.judgement.order?;
+            if study.axis != Axis::Particles && is_inside(&observed, formal) {
+                return Some(within(formal, Ground::Theory, theory));
+            }
+            let nearest = (2.0 * observed.value).round() / 2.0;
+            if nearest > 0.0 && is_inside(&observed, nearest) {
+                let because = format!("from the run; {theory}; say why it is another one here");
+                return Some(within(nearest, Ground::Run, because));
+            }
+            (study.verdict() == Verdict::TooLow).then(|| verdict("too_low"))
+        }
+        Verdict::AtFloor => Some(verdict("at_floor")),
+        Verdict::Oscillatory => Some(verdict("oscillatory")),
+        Verdict::Divergent => Some(verdict("divergent")),
+        Verdict::Failed => Some(verdict("failed")),
+        Verdict::PreAsymptotic | Verdict::TooFewLevels => None,
+    }
+}
+
+/// Whether the usual range about `order` holds the observed one with room to spare.
+fn is_inside(observed: &Interval, order: f64) -> bool {
+    let room = OrderHypothesis::TOLERANCE - (observed.value - order).abs();
+    let room = room.min(COMFORTABLE * OrderHypothesis::TOLERANCE);
+    2.0 * observed.half_width() <= room
+}
+
+fn range(order: f64) -> String {
+    let (low, high) = OrderHypothesis::formal(order).range();
+    format!("[{}, {}]", format_number(low), format_number(high))
+}
+
+fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
+    study.levels.iter().filter(|level| level.usable)
+}
+
+fn crossings(study: &Convergence) -> Option<String> {
+    let crossings = study.levels.last()?.run.counters.crossings?;
+    (study.compared && study.verdict() != Verdict::Failed)
+        .then(|| format!("crossings: {}", if crossings > 0 { "some" } else { "none" }))
+}
+
+fn floor(study: &Convergence) -> Option<String> {
+    let cause = study.floor.as_ref()?.cause()?;
+    Some(format!("floor: {}", cause.name()))
+}
+
+fn error_bound(study: &Convergence) -> Option<String> {
+    let largest = counted(study).map(|level| level.error).reduce(larger)?;
+    let bound = rounded_up(ROOM_OF_ERROR * largest);
+    (bound > 0.0 && bound.is_finite()).then(|| format!("error_below: {bound:e}"))
+}
+
+/// The number with one significant digit that is no smaller.
+fn rounded_up(value: f64) -> f64 {
+    let text = format!("{value:.0e}");
+    let nearest: f64 = text.parse().unwrap_or(value);
+    if nearest >= value {
+        return nearest;
+    }
+    let (digit, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digit: u32 = digit.parse().unwrap_or(9);
+    format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
+}
+
+/// Bounds on the sums that the run kept. Mass is kept by any method whose particles carry it.
+fn drifts(study: &Convergence) -> Vec<ProposedKey> {
+    let worst = |sum: Conserved| {
+        let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));
+        let all: Option<Vec<f64>> = counted(study).map(drift).collect();
+        all?.into_iter().reduce(larger)
+    };
+    let kept = |sum: &&Conserved| worst(**sum).is_some_and(|drift| drift <= ROUNDING);
+    let (mass, others): (Vec<Conserved>, Vec<Conserved>) =
+        study.drifts.iter().filter(kept).partition(|sum| **sum == Conserved::Mass);
+    let bound = |sum: &Conserved| {
+        let drift = worst(*sum).unwrap_or(f64::NAN).max(f64::EPSILON);
+        let decade = libm::ceil(libm::log10(ROOM_OF_DRIFT * drift)) as i32;
+        format!("{}: 1e{decade}", sum.name())
+    };
+    let bounds: Vec<String> = mass.iter().chain(&others).map(bound).collect();
+    if bounds.is_empty() {
+        return Vec::new();
+    }
+    let ground = if others.is_empty() { Ground::Theory } else { Ground::Run };
+    vec![ProposedKey { text: format!("drift: {{{}}}", bounds.join(", ")), ground }]
+}
+
+/// What would make a stronger claim: more levels, or another norm.
+fn stronger(study: &Convergence) -> Vec<String> {
+    let mut advice = Vec::new();
+    let usable = counted(study).count();
+    let Some(order) = study.judgement.order else {
+        if usable < FEWEST_LEVELS {
+            let more = FEWEST_LEVELS - usable;
+            advice.push(format!("levels: an order needs {FEWEST_LEVELS} that count, {more} more"));
+        }
+        return advice;
+    };
+    if study.verdict() == Verdict::Converging && study.axis != Axis::Particles {
+        let (formal, seen) = (range(study.formal_order), shown(&order));
+        if !is_inside(&order, study.formal_order) {
+            advice.push(format!("the order {seen} meets {formal} only just, and is not proposed"));
+        }
+    }
+    let points = study.judgement.window.as_ref().map_or(0, Vec::len);
+    if order.half_width() > WIDE && points >= FEWEST_LEVELS {
+        // The same scatter about the line, with the spread of equal ratios: Sxx ~ n (n^2 - 1).
+        let width = |n: usize| {
+            let n_f = n as f64;
+            two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
+        };
+        let then = order.half_width() * width(points + 2) / width(points);
+        advice.push(format!(
+            "levels: two more would narrow the interval from -+ {:.2} to about -+ {then:.2}",
+            order.half_width()
+        ));
+    }
+    advice.extend(other_norm(study, &order));
+    advice
+}
+
+/// The norm in which the order is clearest, if that is another one than the judged, and by far.
+fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
+    const CLEARLY: f64 = 0.5;
+    if judged.half_width() <= WIDE {
+        return None;
+    }
+    let of = |norm: &str, level: &LevelOutcome| {
+        let (end, largest) = (&level.run.at_end, &level.run.largest);
+        match norm {
+            "l1" => end.l1,
+            "l2" => end.l2,
+            "linf" => end.linf,
+            "max_rms" => largest.rms,
+            "max_l1" => largest.l1,
+            "max_l2" => largest.l2,
+            "max_linf" => largest.linf,
+            _ => end.rms,
+        }
+    };
+    let norms = ["rms", "l1", "l2", "linf", "max_rms", "max_l1", "max_l2", "max_linf"];
+    let (formal_order, axis) = (study.formal_order, study.axis);
+    let order = |norm: &&'static str| {
+        let levels: Vec<Level> =
+            counted(study).map(|level| Level::new(level.spacing, of(norm, level))).collect();
+        let judgement = judge(&levels, &OrderHypothesis { formal_order, expected: None, axis });
+        let order = judgement.order.filter(|_| judgement.verdict == Verdict::Converging)?;
+        Some((*norm, order))
+    };
+    let (norm, order) = norms
+        .iter()
+        .filter(|norm| **norm != study.norm)
+        .filter_map(order)
+        .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
+    (order.half_width() <= CLEARLY * judged.half_width()).then(|| {
+        format!(
+            "norm: `judge: {{norm: {norm}}}` has the order {} on the same levels",
+            shown(&order)
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::clear(2.01, 0.01, true)]
+    #[case::only_just(2.08, 0.015, false)]
+    #[case::uncertain(2.0, 0.05, false)]
+    #[case::outside(2.11, 0.0, false)]
+    #[case::nan(f64::NAN, 0.0, false)]
+    #[case::no_interval(2.0, f64::NAN, false)]
+    fn no_interval_is_met_only_just(
+        #[case] value: f64,
+        #[case] half_width: f64,
+        #[case] is_met: bool,
+    ) {
+        let observed = Interval { value, low: value - half_width, high: value + half_width };
+        assert_eq!(is_inside(&observed, 2.0), is_met);
+    }
+
+    #[rstest]
+    #[case(1e-3, 1e-3)]
+    #[case(1.01e-3, 2e-3)]
+    #[case(9.6e-4, 1e-3)]
+    #[case(0.0, 0.0)]
+    fn bounds_have_one_digit_and_hold(#[case] value: f64, #[case] bound: f64) {
+        assert!(rounded_up(value) == bound && bound >= value, "{}", rounded_up(value));
+    }
+}

@@ -1,0 +1,99 @@
+//! Suites that expect nothing: what a run says, and the expectations that it would support.
+
+use super::{BAD_INPUT, BAR, Folder, SOUND};
+use serde_json::Value;
+
+/// The part of a suite before `expect`.
+fn open(text: &str) -> &str {
+    text.split("expect:").next().expect("the part before")
+}
+
+#[test]
+fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", open(BAR));
+    let found = folder.call(&["run", "bar.yaml"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    for words in [
+        "explored  short-bar::mpm-linear-flip-musl",
+        "expected          nothing: the suite has no `expect`, and is no gate",
+        "result            explored",
+        "drift of mass 0e0, momentum",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    let note = "note: short-bar expects nothing, and is no gate";
+    assert!(found.errors.starts_with(note), "{}", found.errors);
+    let checked = folder.call(&["check", "bar.yaml"]);
+    assert_eq!(checked.out, "short-bar: sound, 2 cases; nothing is expected, it is no gate\n");
+    let json = folder.call(&["run", "bar.yaml", "--format", "json"]).out;
+    let document: Value = serde_json::from_str(&json).expect("one document");
+    let case = &document["suites"][0]["cases"][0];
+    assert!(case["expected"].is_null() && case["passed"] == true, "{case}");
+    assert!(case["observed_order"]["value"].is_f64(), "{case}");
+}
+
+#[test]
+fn a_run_that_fails_is_no_failure_of_a_suite_that_explores() {
+    let folder = Folder::new();
+    let long = open(BAR).replace("dt: 1e-3", "dt: 0.2").replace("until: 0.05", "until: 20");
+    folder.write("bar.yaml", long);
+    let found = folder.call(&["run", "bar.yaml", "--brief"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("failed"), "{}", found.out);
+}
+
+/// Two cases of different order: FEM starts as a leapfrog, MPM with `v(0)`.
+const STEPS: &str = r#"suite: steps
+title: Steps
+source: a textbook
+parameters: {omega: "5*pi"}
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  material: {linear_elastic: {young: 100, poisson: 0, density: 1}}
+  boundary: {left: fixed}
+  initial_velocity: ["1e-3*sin(pi*X/2)"]
+exact:
+  equation: small_strain
+  displacement: ["1e-3*sin(pi*X/2)*sin(omega*t)/omega"]
+run: {until: 0.05, dt: "h/100"}
+refine: {cells: [4, 6, 8, 12, 16], ppc: 4}
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+  - fem: {element: linear, mass: lumped}
+"#;
+
+#[test]
+fn what_is_proposed_passes() {
+    let folder = Folder::new();
+    folder.write("open.yaml", STEPS);
+    let proposed = folder.call(&["propose", "open.yaml"]);
+    assert_eq!(proposed.code, SOUND, "{}", proposed.errors);
+    folder.write("gated.yaml", format!("{STEPS}{}", proposed.out));
+    let found = folder.call(&["run", "gated.yaml", "--brief"]);
+    assert_eq!(found.code, SOUND, "{}\n{}{}", proposed.out, found.out, found.errors);
+    assert!(found.out.contains("pass  steps::"), "{}", found.out);
+    assert!(!found.errors.contains("no gate"), "{}", found.errors);
+    for words in ["order: [1.9, 2.1]  # from theory", "mass: 1e-14", "# from the run"] {
+        assert!(proposed.out.contains(words), "no `{words}` in\n{}", proposed.out);
+    }
+}
+
+#[test]
+fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
+    let folder = Folder::new();
+    let wrong = "expect:\n  - order: [3.9, 4.1]\n    because: a guess\n";
+    folder.write("open.yaml", STEPS);
+    folder.write("wrong.yaml", format!("{STEPS}{wrong}"));
+    let proposals = ["open.yaml", "wrong.yaml"].map(|file| folder.call(&["propose", file]).out);
+    assert_eq!(proposals[0], proposals[1]);
+}
+
+#[test]
+fn only_convergence_studies_have_proposals() {
+    let folder = Folder::new();
+    let found = folder.call(&["propose", "courant-limit"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains("for convergence studies only"), "{}", found.errors);
+}
