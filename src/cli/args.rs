@@ -21,8 +21,9 @@ pub(super) enum Command {
     Run(RunArgs),
     /// List suites and their cases
     List(Targets),
-    /// Validate suites without running them: grammar, formulas, and the truth itself
-    Check(Targets),
+    /// Validate suites without running them: grammar, formulas, the truth itself, and whether the
+    /// runs can support what is expected; exit status 2 on bad input
+    Check(CheckArgs),
     /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
     /// memory), and what is expected
     Explain(ExplainArgs),
@@ -46,6 +47,15 @@ pub(super) struct Targets {
     /// built-in suites where there is no such folder
     #[arg(value_name = "FILE|FOLDER|NAME")]
     pub(super) targets: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Exit status 1 if there are warnings
+    #[arg(long)]
+    pub(super) strict: bool,
 }
 
 #[derive(Debug, Args)]

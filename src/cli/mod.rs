@@ -25,7 +25,7 @@ pub(crate) fn main() -> ExitCode {
         None => run::run(&cli.run),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::List(args)) => show::list(&args.targets),
-        Some(Command::Check(args)) => show::check(&args.targets),
+        Some(Command::Check(args)) => show::check(&args),
         Some(Command::Explain(args)) => explain::explain(&args),
         Some(Command::Propose(targets)) => propose::propose(&targets.targets),
         Some(Command::Steps(args)) => steps::steps(&args),

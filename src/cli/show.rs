@@ -1,8 +1,12 @@
 //! `mpm-verify list` and `check`.
 
-use super::status::{BAD_INPUT, PASSED};
+use super::args::CheckArgs;
+use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, select};
+use mpm_verify::study;
 use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Prints every suite with its cases.
@@ -13,14 +17,94 @@ pub(super) fn list(targets: &[PathBuf]) -> u8 {
     })
 }
 
-/// Says of every suite that it is sound, or what is wrong with it.
-pub(super) fn check(targets: &[PathBuf]) -> u8 {
-    each(targets, |suite| {
-        let cases = suite.case_names().len();
-        let noun = if cases == 1 { "case" } else { "cases" };
-        let gate = if suite.explores() { "; nothing is expected, it is no gate" } else { "" };
-        format!("{}: sound, {cases} {noun}{gate}\n", suite.name)
-    })
+/// Says of every suite that it is sound, or what is wrong with it, and warns of what will not do
+/// what it seems to.
+pub(super) fn check(args: &CheckArgs) -> u8 {
+    let found = select::with_sources(&args.targets.targets);
+    let mut counts = Counts::default();
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
+    for found in found {
+        let (source, suite) = match found {
+            Ok(found) => found,
+            Err(diagnostic) => {
+                output::complain(&diagnostic.to_string());
+                counts.add(Severity::Error);
+                continue;
+            }
+        };
+        output::print(&sound(&suite));
+        let mut diagnostics = study::preflight(&suite, &source);
+        let earlier = names.insert(suite.name.clone(), source.name().to_owned());
+        diagnostics.extend(earlier.map(|earlier| named_twice(&suite, &source, &earlier)));
+        for diagnostic in diagnostics {
+            output::complain(&diagnostic.to_string());
+            counts.add(diagnostic.severity());
+        }
+    }
+    counts.say();
+    match counts {
+        Counts { errors: 1.., .. } => BAD_INPUT,
+        Counts { warnings: 1.., .. } if args.strict => FAILED,
+        _ => PASSED,
+    }
+}
+
+/// Complaints by severity.
+#[derive(Debug, Default, Clone, Copy)]
+struct Counts {
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+}
+
+impl Counts {
+    fn add(&mut self, severity: Severity) {
+        *match severity {
+            Severity::Error => &mut self.errors,
+            Severity::Warning => &mut self.warnings,
+            Severity::Note => &mut self.notes,
+        } += 1;
+    }
+
+    /// One line on standard error, if there is anything to count.
+    fn say(self) {
+        let counted = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
+        let said = |(count, noun): (usize, &str)| match count {
+            0 => None,
+            1 => Some(format!("1 {noun}")),
+            _ => Some(format!("{count} {noun}s")),
+        };
+        let said: Vec<String> = counted.into_iter().filter_map(said).collect();
+        if !said.is_empty() {
+            output::complain(&said.join(", "));
+        }
+    }
+}
+
+fn sound(suite: &Suite) -> String {
+    let cases = suite.case_names().len();
+    let noun = if cases == 1 { "case" } else { "cases" };
+    let gate = if suite.explores() { "; nothing is expected, it is no gate" } else { "" };
+    let cost = study::estimate(suite).map_or(String::new(), |cost| {
+        let (seconds, mb) = (rounded(cost.seconds), rounded(cost.bytes / 1e6));
+        format!(", about {seconds} s of one thread and {mb} MB")
+    });
+    format!("{}: sound, {cases} {noun}{cost}{gate}\n", suite.name)
+}
+
+/// One significant digit: an estimate has no more.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.0e}").parse().unwrap_or(value)
+}
+
+fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
+    let message = format!("a second suite is called `{}`: {earlier} is the first", suite.name);
+    let place = source.value_at(&["suite".into()]);
+    let diagnostic = place.map_or_else(
+        || Diagnostic::about(source.name(), &message),
+        |place| source.diagnostic(place, &message),
+    );
+    diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
 }
 
 /// Prints a page of each suite that can be loaded, and the complaints about others.

@@ -8,6 +8,7 @@
 //! cost             seconds of every level, and what they buy
 //! cache            results and checkpoints kept on disk
 //! describe         the rows that state a problem in reports
+//! preflight        warnings about a suite before anything runs
 //! ```
 
 pub(crate) mod build;
@@ -17,6 +18,7 @@ pub mod cost;
 pub mod describe;
 pub(crate) mod internal_force;
 pub(crate) mod kind;
+pub(crate) mod preflight;
 pub(crate) mod runner;
 pub(crate) mod stability;
 
@@ -24,4 +26,5 @@ pub use build::setup::effects;
 pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
 pub use kind::{CheckpointStores, Progress, profile, statement};
+pub use preflight::{Estimate, estimate, preflight};
 pub use runner::Runner;

@@ -57,6 +57,7 @@ pub use order::level::Level;
 pub use order::pairwise::observed_order;
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
+pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{
     CaseOutcome, Convergence, ForceRow, InternalForce, LevelOutcome, StudyResults, SuiteOutcome,
 };

@@ -31,7 +31,7 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
 /// velocity to F before anything has moved: order 1 unless v(0) = 0. (That USL and USF keep terms
 /// of first order, of h^2 and of the strain squared, is for suites to say: temporal-order.) Where
 /// no formula tells, neither is taken as zero.
-fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
+pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),

@@ -8,6 +8,17 @@ use std::ops::Range;
 /// Longer texts in a complaint are cut: a file may hold a key of 60 000 characters.
 const MAX_WORDS: usize = 240;
 
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing; nothing needs to change.
+    Note,
+    /// The suite runs, and will not do what it seems to.
+    Warning,
+    /// The suite cannot be used.
+    Error,
+}
+
 /// One mistake in a file: what it is, where it is, and what would be right.
 ///
 /// `Display` shows it as `rustc` would, with the line and a caret; [`Diagnostic::one_line`] is
@@ -17,6 +28,7 @@ pub struct Diagnostic(Box<Parts>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Parts {
+    severity: Severity,
     file: String,
     message: String,
     label: Option<String>,
@@ -36,6 +48,7 @@ impl Diagnostic {
     /// A complaint about a file as a whole.
     pub fn about(file: &str, message: &str) -> Self {
         Self(Box::new(Parts {
+            severity: Severity::Error,
             file: printable(file),
             message: printable(message),
             label: None,
@@ -70,6 +83,18 @@ impl Diagnostic {
     pub fn with_help(mut self, help: &str) -> Self {
         self.0.help = Some(printable(help)).filter(|help| !help.is_empty());
         self
+    }
+
+    /// The same, less or more severe; a complaint is an error unless it says otherwise.
+    #[must_use]
+    pub fn with_severity(mut self, severity: Severity) -> Self {
+        self.0.severity = severity;
+        self
+    }
+
+    /// How bad it is.
+    pub fn severity(&self) -> Severity {
+        self.0.severity
     }
 
     /// The file, as the user named it.
@@ -107,7 +132,12 @@ impl Diagnostic {
     }
 
     fn group(&self) -> Group<'_> {
-        let title = Level::ERROR.primary_title(self.message());
+        let level = match self.severity() {
+            Severity::Note => Level::NOTE,
+            Severity::Warning => Level::WARNING,
+            Severity::Error => Level::ERROR,
+        };
+        let title = level.primary_title(self.message());
         let group = match &self.0.excerpt {
             None => title.element(Origin::path(self.file())),
             Some(excerpt) => title.element(

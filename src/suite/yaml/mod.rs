@@ -46,7 +46,7 @@ pub(crate) mod unwanted;
 #[cfg(test)]
 mod tests;
 
-pub use diagnostic::Diagnostic;
+pub use diagnostic::{Diagnostic, Severity};
 pub(crate) use exchange::{read_again, written};
 pub use locate::Step;
 pub use number_text::NumberText;

@@ -69,7 +69,7 @@ pub(crate) fn nodes(scene: &Scene, h: f64) -> f64 {
     (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
 }
 
-fn particles(scene: &Scene, level: LevelPlan) -> f64 {
+pub(crate) fn particles(scene: &Scene, level: LevelPlan) -> f64 {
     (0..scene.dimension()).map(|axis| along(scene, axis, level).max(1.0)).product()
 }
 

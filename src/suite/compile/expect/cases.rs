@@ -10,7 +10,7 @@ use crate::suite::grammar::{CrossingsName, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
-use crate::verify::{Expectation, Verdict};
+use crate::verify::{Expectation, OrderHypothesis, Verdict};
 use std::str::FromStr;
 
 /// Expectation of a case, and of a full run if that differs.
@@ -138,9 +138,16 @@ fn expectation(
     let bounds = |key: &str, spec: &Option<Vec<NumberText>>| {
         spec.as_ref().map(|pair| interval(evaluator, &path.then(key), pair)).transpose()
     };
+    let order = bounds("order", &spec.order)?;
+    if let Some((low, high)) = order
+        && let Some(reason) = OrderHypothesis::within(low, low, high).diagnostic()
+    {
+        let diagnostic = evaluator.diagnostic(&path.then("order"), &reason);
+        return Err(diagnostic.with_label("expected positive orders, no more than 1 apart"));
+    }
     Ok(Expectation {
         verdict,
-        order: bounds("order", &spec.order)?,
+        order,
         finest_pair: bounds("finest_pair", &spec.finest_pair)?,
         crossings: spec.crossings.map(|name| name == CrossingsName::Some),
         floor: spec.floor,

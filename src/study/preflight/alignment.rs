@@ -1,0 +1,75 @@
+//! Interfaces and loaded faces inside a cell.
+
+use super::Preflight;
+use crate::suite::compile::path::Path;
+use crate::suite::model::Scene;
+use crate::suite::model::grid_size::grid_axis;
+use crate::suite::model::load::LoadTarget;
+use crate::suite::yaml::{Diagnostic, Severity};
+
+/// Distance from a grid line that is rounding, in cells.
+const ROUNDING: f64 = 1e-6;
+
+/// A plane on which something happens.
+struct Plane {
+    axis: usize,
+    x: f64,
+    what: String,
+    path: Path,
+}
+
+/// Warns of a plane that lies inside a cell on some level of a study of space.
+pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    if preflight.of_an_order().next().is_none() {
+        return Vec::new();
+    }
+    let scene = &preflight.plan.scene;
+    let mut planes = loaded_faces(scene);
+    planes.extend(interfaces(scene));
+    planes.iter().filter_map(|plane| inside_a_cell(preflight, plane)).collect()
+}
+
+fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic> {
+    let Plane { axis, x, what, path } = plane;
+    let off = |h: f64| {
+        let line = (x - grid_axis(&preflight.plan.scene, *axis, h).0) / h;
+        (line - libm::round(line)).abs()
+    };
+    let level = preflight.levels().iter().find(|level| off(level.h) > ROUNDING)?;
+    let (cells, share) = (level.cells, off(level.h));
+    let message =
+        format!("with {cells} cells {what} at {x:.4} m is {share:.2} cells away from a grid line");
+    let found = preflight.finding(Severity::Warning, path, &message);
+    Some(found.with_help("inside a cell it costs an order: take cells of which whole numbers fit"))
+}
+
+fn loaded_faces(scene: &Scene) -> Vec<Plane> {
+    let loaded = scene.loads.iter().filter_map(|load| match load.target() {
+        LoadTarget::Face(i) => scene.faces.get(i),
+        LoadTarget::Body | LoadTarget::Set(_) => None,
+    });
+    loaded
+        .map(|face| {
+            let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
+            let what = format!("the loaded {} face", face.name);
+            Plane { axis: face.axis, x, what, path: Path::top("scene").then("loads") }
+        })
+        .collect()
+}
+
+/// Planes on which one body ends and another one begins.
+fn interfaces(scene: &Scene) -> Vec<Plane> {
+    let mut planes = Vec::new();
+    for (i, body) in scene.bodies.iter().enumerate() {
+        for axis in 0..scene.dimension() {
+            let x = body.to[axis];
+            let meets = |other: &Scene| (other.from[axis] - x).abs() <= 1e-9 * x.abs().max(1.0);
+            if scene.bodies.iter().any(meets) {
+                let path = Path::top("scene").then("bodies").then(i);
+                let what = "the interface of two bodies".to_owned();
+                planes.push(Plane { axis, x, what, path });
+            }
+        }
+    }
+    planes
+}

@@ -1,0 +1,41 @@
+//! Seconds and memory that a suite will take, before anything runs.
+
+use crate::suite::compile::check::size;
+use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::{ConvergencePlan, Suite};
+
+/// Seconds that a particle takes in a step, by dimension: the middle of the usual methods on the
+/// machine of `benches/ROOFLINE.md`, one thread. Others differ by a factor of two or three.
+const SECONDS: [f64; 3] = [4e-8, 1.2e-7, 3.5e-7];
+
+/// Bytes of a particle, and of a node, by dimension.
+const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
+
+/// Estimate of a whole suite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Particles times steps, over all cases and levels.
+    pub particle_steps: f64,
+    /// Seconds of one thread, to a factor of about three.
+    pub seconds: f64,
+    /// Memory of the largest level (bytes).
+    pub bytes: f64,
+}
+
+/// Cost of the levels of the gate of a convergence study; none of other studies.
+pub fn estimate(suite: &Suite) -> Option<Estimate> {
+    let plan = suite.plan::<ConvergencePlan>()?;
+    let scene = &plan.scene;
+    let index = scene.dimension().clamp(1, 3) - 1;
+    let (mut particle_steps, mut bytes) = (0.0, 0.0_f64);
+    for case in &plan.cases {
+        for level in plan.refine.levels(Extent::Usual) {
+            let particles = size::particles(scene, *level);
+            let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
+            particle_steps += particles * steps as f64;
+            let [particle, node] = BYTES[index];
+            bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
+        }
+    }
+    Some(Estimate { particle_steps, seconds: SECONDS[index] * particle_steps, bytes })
+}
