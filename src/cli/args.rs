@@ -30,6 +30,9 @@ pub(super) enum Command {
     /// Run suites and write the `expect` entries that theory gives and the runs support, each with
     /// where it comes from; nothing is changed
     Propose(Targets),
+    /// Find out why cases do not have the order of theory: their finest levels again, with one thing
+    /// changed at a time
+    Diagnose(DiagnoseArgs),
     /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
     /// 1 if one is off by more than 1 %
     Steps(StepsArgs),
@@ -56,6 +59,18 @@ pub(super) struct CheckArgs {
     /// Exit status 1 if there are warnings
     #[arg(long)]
     pub(super) strict: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct DiagnoseArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Cases whose name contains this
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub(super) case: String,
+    /// Predicted time for the runs of each case: `30s`, `2min`
+    #[arg(long, value_name = "TIME", value_parser = seconds, default_value = "60s")]
+    pub(super) budget: f64,
 }
 
 #[derive(Debug, Args)]

@@ -4,6 +4,7 @@
 mod args;
 mod compare;
 mod cost;
+mod diagnose;
 mod explain;
 mod output;
 mod page;
@@ -27,6 +28,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::List(args)) => show::list(&args.targets),
         Some(Command::Check(args)) => show::check(&args),
         Some(Command::Explain(args)) => explain::explain(&args),
+        Some(Command::Diagnose(args)) => diagnose::diagnose(&args),
         Some(Command::Propose(targets)) => propose::propose(&targets.targets),
         Some(Command::Steps(args)) => steps::steps(&args),
         Some(Command::Cost(args)) => cost::cost(&args),

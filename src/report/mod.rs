@@ -21,6 +21,7 @@ pub use figure::suite::svg;
 pub use json::document::json;
 pub use json::timed_suite::timed_json;
 pub use text::cost::cost;
+pub use text::diagnosis::diagnosis;
 pub use text::drift;
 pub use text::profile::{difference, profile};
 pub use text::proposal::proposals;

@@ -8,6 +8,7 @@
 //! cost             seconds of every level, and what they buy
 //! cache            results and checkpoints kept on disk
 //! describe         the rows that state a problem in reports
+//! diagnosis        why an order is not that of theory, by runs that change one thing
 //! preflight        warnings about a suite before anything runs
 //! ```
 
@@ -16,6 +17,7 @@ pub(crate) mod cache;
 pub(crate) mod convergence;
 pub mod cost;
 pub mod describe;
+pub(crate) mod diagnosis;
 pub(crate) mod internal_force;
 pub(crate) mod kind;
 pub(crate) mod preflight;
@@ -25,6 +27,7 @@ pub(crate) mod stability;
 pub use build::setup::effects;
 pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
+pub use diagnosis::{Diagnosis, Trial, diagnose};
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use preflight::{Estimate, estimate, preflight};
 pub use runner::Runner;

@@ -1,6 +1,7 @@
 //! The report as aligned text: what snapshots keep and terminals show.
 
 pub(crate) mod cost;
+pub(crate) mod diagnosis;
 pub mod drift;
 pub(crate) mod levels;
 pub(crate) mod profile;

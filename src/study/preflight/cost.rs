@@ -24,7 +24,11 @@ pub struct Estimate {
 
 /// Cost of the levels of the gate of a convergence study; none of other studies.
 pub fn estimate(suite: &Suite) -> Option<Estimate> {
-    let plan = suite.plan::<ConvergencePlan>()?;
+    suite.plan().map(estimate_of)
+}
+
+/// Cost of the levels of the gate.
+pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     let scene = &plan.scene;
     let index = scene.dimension().clamp(1, 3) - 1;
     let (mut particle_steps, mut bytes) = (0.0, 0.0_f64);
@@ -37,5 +41,5 @@ pub fn estimate(suite: &Suite) -> Option<Estimate> {
             bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
         }
     }
-    Some(Estimate { particle_steps, seconds: SECONDS[index] * particle_steps, bytes })
+    Estimate { particle_steps, seconds: SECONDS[index] * particle_steps, bytes }
 }

@@ -18,7 +18,7 @@ use crate::suite::grammar::{
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene, Suite};
-use crate::suite::yaml::{Diagnostic, Ordered, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
 use std::sync::Arc;
 
 /// Instants at which the error is taken unless a suite says otherwise.
@@ -31,7 +31,7 @@ impl Suite {
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match study_of(source)? {
-            StudyName::Convergence => convergence(source),
+            StudyName::Convergence => convergence(source, read(source, "convergence")?),
             StudyName::InternalForce => internal_force(source),
             StudyName::Stability => stability(source),
         };
@@ -44,8 +44,29 @@ fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
     read::<Head>(source, "").map(|head| head.study)
 }
 
-fn convergence(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: ConvergenceSpec = read(source, "convergence")?;
+/// The convergence study that `source` holds, with `factor` times its amplitude: of the exact motion
+/// and of the initial state, not of loads.
+///
+/// # Errors
+/// If the scaled motion is no solution, as where loads stay what they are.
+pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
+    let mut spec: ConvergenceSpec = read(source, "convergence")?;
+    let ConvergenceSpec { scene, exact, manufactured, expect, .. } = &mut spec;
+    expect.clear();
+    let exact = exact.as_mut().and_then(|exact| exact.displacement.as_mut());
+    let manufactured = manufactured.as_mut().and_then(|given| given.displacement.as_mut());
+    let bodies = scene.bodies.iter_mut().flatten();
+    let of_bodies =
+        bodies.flat_map(|body| [&mut body.initial_displacement, &mut body.initial_velocity]);
+    let of_scene = [&mut scene.initial_displacement, &mut scene.initial_velocity];
+    let fields = [exact, manufactured].into_iter().chain(of_scene.map(Option::as_mut));
+    for text in fields.flatten().chain(of_bodies.filter_map(Option::as_mut)).flatten() {
+        *text = NumberText::Formula(format!("{factor}*({text})"));
+    }
+    convergence(source, spec)
+}
+
+fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
     let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;

@@ -25,7 +25,7 @@ fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
     let note = "note: short-bar expects nothing, and is no gate";
     assert!(found.errors.starts_with(note), "{}", found.errors);
     let checked = folder.call(&["check", "bar.yaml"]);
-    assert_eq!(checked.out, "short-bar: sound, 2 cases; nothing is expected, it is no gate\n");
+    assert!(checked.out.ends_with("; nothing is expected, it is no gate\n"), "{}", checked.out);
     let json = folder.call(&["run", "bar.yaml", "--format", "json"]).out;
     let document: Value = serde_json::from_str(&json).expect("one document");
     let case = &document["suites"][0]["cases"][0];

@@ -97,7 +97,8 @@ fn a_suite_may_lie_anywhere() {
     let path = folder.write("some where/bar.yaml", BAR);
     for target in ["some where/bar.yaml", "some where", path.to_str().expect("a name")] {
         let found = folder.call(&["check", target]);
-        assert_eq!((found.code, found.out.as_str()), (SOUND, "short-bar: sound, 2 cases\n"));
+        let line = "short-bar: sound, 2 cases, about ";
+        assert!(found.code == SOUND && found.out.starts_with(line), "{}", found.out);
     }
 }
 
@@ -110,7 +111,8 @@ fn check_says_what_is_sound_and_what_is_not() {
         .write("c.yaml", BAR.replace("short-bar", "c-bar").replace("sin(omega*t)", "cos(omega*t)"));
     assert_eq!(folder.call(&["check", "a.yaml"]).code, SOUND);
     let found = folder.call(&["check", "."]);
-    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, "short-bar: sound, 2 cases\n"));
+    assert_eq!((found.code, found.out.lines().count()), (BAD_INPUT, 1));
+    assert!(found.out.starts_with("short-bar: sound, 2 cases"), "{}", found.out);
     for words in [
         "unknown key `dimensions`",
         "b.yaml:9:3",

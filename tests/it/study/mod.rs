@@ -2,3 +2,4 @@
 
 mod interrupted;
 mod predicted_error;
+mod preflight;

@@ -1,0 +1,229 @@
+//! Why a case does not have the order of theory: its finest levels again, with one thing changed at
+//! a time.
+//!
+//! A change is the cause if it restores the order; where none does, the one that takes most off the
+//! finest error is named, with what is left. Nothing is read of what the suite's author gives as a
+//! reason. (One factor at a time, as the isolating runs of Roy 2005, J. Comput. Phys. 205, 131.)
+
+pub(crate) mod probes;
+
+use self::probes::{PROBES, ProbeKind};
+use crate::study::convergence::formal_order::formal_order;
+use crate::study::kind::{RunContext, Storage, Study};
+use crate::study::preflight::cost::estimate_of;
+use crate::suite::compile::suite::with_amplitude;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Against, Case, ConvergencePlan, Suite};
+use crate::suite::yaml::Source;
+use crate::verify::{
+    Axis, Convergence, FEWEST_LEVELS, Interval, Judgement, Level, LevelOutcome, OrderHypothesis,
+    Verdict, judge,
+};
+
+/// Finest levels that are run again.
+const LEVELS: usize = 5;
+
+/// An order that is restored is no further below that of theory.
+const NEAR: f64 = 0.2;
+
+/// And no further above: a case may be better than its theory.
+const ABOVE: f64 = 0.8;
+
+/// Share of the finest error that a change must leave at most, to be named where none restores the
+/// order.
+const FALL: f64 = 0.75;
+
+/// Factor of the amplitude in the probe that makes the motion smaller.
+pub(crate) const SMALLER: f64 = 0.1;
+
+/// The finest levels of a case, run with one thing changed.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// The thing that is changed, and into what.
+    pub change: String,
+    /// The cause, if the change is what helps.
+    pub cause: &'static str,
+    /// Change of the suite that keeps the order.
+    pub remedy: &'static str,
+    /// Verdict on these levels, against an order near that of theory.
+    pub verdict: Verdict,
+    /// Observed order on these levels.
+    pub order: Option<Interval>,
+    /// The finest error over that of the case itself, both over their amplitude.
+    pub ratio: f64,
+}
+
+/// The finding on one case.
+#[derive(Debug, Clone)]
+pub struct Diagnosis {
+    /// Name of the case.
+    pub case: String,
+    /// Order of theory.
+    pub formal_order: f64,
+    /// The case as it is, all levels of the gate.
+    pub judgement: Judgement,
+    /// The same on the levels that are run again.
+    pub finest: Judgement,
+    /// Levels that are run again, by name.
+    pub levels: Vec<String>,
+    /// Every trial that ran.
+    pub trials: Vec<Trial>,
+    /// Changes that were possible, and too expensive.
+    pub skipped: Vec<String>,
+    /// Index of the trial that shows the cause.
+    pub cause: Option<usize>,
+}
+
+impl Diagnosis {
+    /// Whether the case has the order of theory, so that there is nothing to explain.
+    pub fn is_sound(&self) -> bool {
+        self.judgement.verdict == Verdict::Converging
+    }
+
+    /// The trial that shows the cause, and whether it restores the order.
+    pub fn found(&self) -> Option<(&Trial, bool)> {
+        self.cause.map(|i| (&self.trials[i], self.trials[i].verdict == Verdict::Converging))
+    }
+}
+
+/// The finding on the case number `index` of a suite, within a predicted time (s) for all trials.
+/// `None` for a case that has no order to explain: of another kind of study, without a truth, or with
+/// too few levels.
+///
+/// # Errors
+/// One line that says why the case itself cannot be run.
+pub fn diagnose(
+    suite: &Suite,
+    source: &Source,
+    index: usize,
+    budget: f64,
+) -> Result<Option<Diagnosis>, String> {
+    let Some(exploring) = suite.without_expectations() else { return Ok(None) };
+    let Some(plan) = exploring.plan::<ConvergencePlan>() else { return Ok(None) };
+    let case = &plan.cases[index];
+    if case.against == Against::Nothing || plan.refine.usual < FEWEST_LEVELS {
+        return Ok(None);
+    }
+    let context = Context { suite: &suite.name, case, formal_order: formal_order(plan, case) };
+    let all = only(plan, case, plan.refine.levels(Extent::Usual));
+    let found = context.run(&all)?;
+    let first = found.levels.len().saturating_sub(LEVELS);
+    let levels = &found.levels[first..];
+    let mut diagnosis = Diagnosis {
+        case: case.name.clone(),
+        formal_order: context.formal_order,
+        finest: context.judge(levels, plan.refine.axis),
+        levels: levels.iter().map(|level| level.name(found.axis)).collect(),
+        judgement: found.judgement.clone(),
+        trials: Vec::new(),
+        skipped: Vec::new(),
+        cause: None,
+    };
+    if diagnosis.is_sound() {
+        return Ok(Some(diagnosis));
+    }
+    let finest = only(plan, case, &plan.refine.levels(Extent::Usual)[first..]);
+    context.try_all(source, &finest, levels, budget, &mut diagnosis);
+    diagnosis.cause = cause(&diagnosis);
+    Ok(Some(diagnosis))
+}
+
+/// The plan with one case and some levels.
+fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {
+    let mut plan = plan.clone();
+    plan.refine.levels = levels.to_vec();
+    plan.refine.usual = levels.len();
+    plan.cases = vec![case.clone()];
+    plan
+}
+
+/// A change that restores the order, in the order of the list; otherwise the one that takes most off
+/// the error.
+fn cause(diagnosis: &Diagnosis) -> Option<usize> {
+    let trials = &diagnosis.trials;
+    if diagnosis.finest.verdict == Verdict::Converging {
+        return None;
+    }
+    let restores = |trial: &Trial| trial.verdict == Verdict::Converging;
+    trials.iter().position(restores).or_else(|| {
+        let falls = trials.iter().enumerate().filter(|(_, trial)| trial.ratio <= FALL);
+        falls.min_by(|(_, a), (_, b)| a.ratio.total_cmp(&b.ratio)).map(|(i, _)| i)
+    })
+}
+
+/// What all trials of a case share.
+struct Context<'a> {
+    suite: &'a str,
+    case: &'a Case,
+    formal_order: f64,
+}
+
+impl Context<'_> {
+    fn run(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
+        let (suite, extent, storage) = (self.suite, Extent::Usual, Storage::Nowhere);
+        let context = RunContext { suite, fingerprint: 0, extent, storage };
+        let outcome = plan.runner(context).case(0, &|| ());
+        outcome.convergence().cloned().ok_or(outcome.reason)
+    }
+
+    fn judge(&self, levels: &[LevelOutcome], axis: Axis) -> Judgement {
+        let plain = |level: &LevelOutcome| match &level.run.failure {
+            Some(reason) => Level::new(level.spacing, level.error).failing(reason.clone()),
+            None => Level::new(level.spacing, level.error),
+        };
+        let levels: Vec<Level> = levels.iter().map(plain).collect();
+        let p = self.formal_order;
+        judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
+    }
+
+    fn try_all(
+        &self,
+        source: &Source,
+        finest: &ConvergencePlan,
+        levels: &[LevelOutcome],
+        budget: f64,
+        into: &mut Diagnosis,
+    ) {
+        let error = |levels: &[LevelOutcome]| levels.last().map_or(f64::NAN, |level| level.error);
+        let mut left = budget;
+        for (kind, plan, scale) in self.changed(source, finest) {
+            let cost = estimate_of(&plan).seconds;
+            if cost > left {
+                into.skipped.push(kind.change.to_owned());
+                continue;
+            }
+            left -= cost;
+            // What cannot be set up is no evidence.
+            let Ok(found) = self.run(&plan) else { continue };
+            let judgement = self.judge(&found.levels, found.axis);
+            into.trials.push(Trial {
+                change: kind.change.to_owned(),
+                cause: (kind.cause)(self.case),
+                remedy: kind.remedy,
+                verdict: judgement.verdict,
+                order: judgement.order,
+                ratio: error(&found.levels) / scale / error(levels),
+            });
+        }
+    }
+
+    /// Every change that means something, with the factor of the amplitude that it brings.
+    fn changed(
+        &self,
+        source: &Source,
+        finest: &ConvergencePlan,
+    ) -> Vec<(&'static ProbeKind, ConvergencePlan, f64)> {
+        let mut changed = Vec::new();
+        for kind in PROBES {
+            let plan = (kind.apply)(finest).map(|plan| (kind, plan, 1.0));
+            changed.extend(plan);
+        }
+        let smaller = with_amplitude(source, SMALLER).ok();
+        let plan = smaller.as_ref().and_then(Suite::plan::<ConvergencePlan>);
+        changed.extend(plan.map(|plan| {
+            let plan = only(plan, self.case, &finest.refine.levels);
+            (&probes::AMPLITUDE, plan, SMALLER)
+        }));
+        changed
+    }
+}

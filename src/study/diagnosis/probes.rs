@@ -1,0 +1,220 @@
+//! Changes of one thing, the most specific first.
+//!
+//! A member is one entry of [`PROBES`].
+
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, combine};
+use crate::subject::Start;
+use crate::suite::compile::check::size;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::verify::Axis;
+
+/// A change of one thing.
+pub(crate) struct ProbeKind {
+    /// The thing, and into what it is changed.
+    pub(crate) change: &'static str,
+    /// What is the matter if the change helps.
+    pub(crate) cause: fn(&Case) -> &'static str,
+    /// What an author can do about it.
+    pub(crate) remedy: &'static str,
+    /// The plan with the change; `None` where it means nothing.
+    pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
+}
+
+/// A smaller motion. The plan comes from the text of the suite, with its amplitude scaled.
+pub(crate) const AMPLITUDE: ProbeKind = ProbeKind {
+    change: "a tenth of the amplitude",
+    cause: |_| {
+        "an error of the size of the strain, which no grid removes: of a truth of small strain, or of \
+         particles that a large motion carries out of their places"
+    },
+    remedy: "a smaller amplitude, or an exact solution of the finite-strain equations",
+    apply: |_| None,
+};
+
+/// Every change that a plan can carry out.
+pub(crate) const PROBES: &[ProbeKind] = &[
+    ProbeKind {
+        change: "the reference in place of the formula",
+        cause: |_| "the exact formula solves another model than the method does",
+        remedy: "hold the method against a truth of its own model",
+        apply: |plan| {
+            let has_both = plan.reference.is_some() && plan.cases[0].against == Against::Exact;
+            has_both.then(|| with_case(plan, |case| case.against = Against::Reference))
+        },
+    },
+    ProbeKind {
+        change: "the formula in place of the reference",
+        cause: |_| "the reference solves another model than the method does",
+        remedy: "hold the method against a truth of its own model",
+        apply: |plan| {
+            let has_both = plan.has_formulas() && plan.cases[0].against == Against::Reference;
+            has_both.then(|| with_case(plan, |case| case.against = Against::Exact))
+        },
+    },
+    ProbeKind {
+        change: "`start: half_step_back`",
+        cause: |_| "the start: v(0) stands in for v(-dt/2), an error of first order in time",
+        remedy: "`start: half_step_back`",
+        apply: |plan| match plan.cases[0].method {
+            Method::Mpm { start: Start::AtZero, .. } | Method::Fem { start: Start::AtZero, .. } => {
+                with_method(plan, |method| match method {
+                    Method::Mpm { start, .. } | Method::Fem { start, .. } => {
+                        *start = Start::HalfStepBack;
+                    }
+                    Method::Heat { .. } => {}
+                })
+            }
+            _ => None,
+        },
+    },
+    ProbeKind {
+        change: "`scheme: musl`",
+        cause: |_| "the scheme: USF updates the stress half a step late, first order in time",
+        remedy: "`scheme: musl` or `usl`, or shorter steps",
+        apply: |plan| match plan.cases[0].method {
+            Method::Mpm { scheme: SchemeName::Usf, .. } => with_method(plan, |method| {
+                if let Method::Mpm { scheme, .. } = method {
+                    *scheme = SchemeName::Musl;
+                }
+            }),
+            _ => None,
+        },
+    },
+    ProbeKind {
+        change: "`basis: cpgimp`",
+        cause: |_| {
+            "domains of fixed width: they part and overlap where the body is stretched and \
+             compressed, an error of the order of the strain"
+        },
+        remedy: "`basis: cpgimp`, whose domains follow the deformation",
+        apply: |plan| match plan.cases[0].method {
+            Method::Mpm { basis: BasisName::UniformGimp, .. } => with_method(plan, |method| {
+                if let Method::Mpm { basis, .. } = method {
+                    *basis = BasisName::ContiguousGimp;
+                }
+            }),
+            _ => None,
+        },
+    },
+    ProbeKind {
+        change: "twice as many particles along each axis of a cell",
+        cause: |_| "too few particles per cell: the integrals are those of the particles",
+        remedy: "more particles per cell",
+        apply: |plan| {
+            let dimension = plan.scene.dimension();
+            (plan.refine.axis != Axis::Particles).then_some(())?;
+            changed_levels(plan, |level| level.halved(Axis::Particles, dimension))
+        },
+    },
+    ProbeKind {
+        change: "the consistent mass matrix",
+        cause: |_| "lumping: row sums are not the mass that a smooth acceleration sees",
+        remedy: "`mass: consistent`",
+        apply: |plan| {
+            let walls = plan.scene.faces.iter();
+            let mut refuses = walls.filter_map(|face| face.hold.against_consistent_mass());
+            (refuses.next().is_none()).then_some(())?;
+            with_method(plan, |method| {
+                if let Method::Mpm { mass, .. } = method {
+                    *mass = MassName::Consistent;
+                }
+            })
+        },
+    },
+    ProbeKind {
+        change: "`frame: total_lagrangian`",
+        cause: |case| match case.method {
+            Method::Mpm { basis: BasisName::Linear, .. } => {
+                "grid crossing: the nodal forces of linear functions jump whenever a particle changes \
+                 its cell"
+            }
+            _ => {
+                "the motion carries particles out of their places: they change cells and are drawn \
+                 apart, and integrate badly what they integrated well at the start"
+            }
+        },
+        remedy: "`frame: total_lagrangian`, a smoother basis, or a smaller motion",
+        apply: |plan| {
+            with_method(plan, |method| {
+                if let Method::Mpm { frame, .. } = method {
+                    *frame = FrameName::Total;
+                }
+            })
+        },
+    },
+    ProbeKind {
+        change: "`basis: quadratic_bspline`",
+        cause: |_| "grid crossing: linear functions have gradients that jump from cell to cell",
+        remedy: "a basis with continuous gradients",
+        apply: |plan| match plan.cases[0].method {
+            Method::Mpm { basis: BasisName::Linear, .. } => with_method(plan, |method| {
+                if let Method::Mpm { basis, .. } = method {
+                    *basis = BasisName::QuadraticBSpline;
+                }
+            }),
+            _ => None,
+        },
+    },
+    ProbeKind {
+        change: "a quarter of the time step",
+        cause: |_| "the error of the time step",
+        remedy: "shorter steps, or steps that follow h",
+        apply: |plan| {
+            (plan.refine.axis != Axis::Time).then_some(())?;
+            let mut plan = changed_levels(plan, |mut level| {
+                level.dt *= 0.25;
+                Some(level)
+            })?;
+            plan.refine.rule = plan.refine.rule.map(|share| 0.25 * share);
+            Some(plan)
+        },
+    },
+    ProbeKind {
+        change: "cells of half the size",
+        cause: |_| "the cells: the levels are still too coarse",
+        remedy: "finer levels",
+        apply: |plan| {
+            let is_of_space = plan.refine.axis == Axis::Space;
+            let dimension = plan.scene.dimension();
+            changed_levels(plan, |level| {
+                let finer = level.halved(Axis::Space, dimension)?;
+                if is_of_space { finer.halved(Axis::Time, dimension) } else { Some(finer) }
+            })
+        },
+    },
+];
+
+/// The plan with its case changed.
+fn with_case(plan: &ConvergencePlan, change: impl Fn(&mut Case)) -> ConvergencePlan {
+    let mut plan = plan.clone();
+    plan.cases.iter_mut().for_each(change);
+    plan
+}
+
+/// The plan with the method of its case changed; `None` if that is no change, or a method that means
+/// nothing.
+fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
+    let before = plan.cases[0].method;
+    let plan = with_case(plan, |case| change(&mut case.method));
+    let after = plan.cases[0].method;
+    let combined = match after {
+        Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame),
+        Method::Fem { .. } | Method::Heat { .. } => Ok(()),
+    };
+    (after != before && combined.is_ok()).then_some(plan)
+}
+
+/// The plan with every level changed; `None` if one cannot be, or is too large.
+fn changed_levels(
+    plan: &ConvergencePlan,
+    change: impl Fn(LevelPlan) -> Option<LevelPlan>,
+) -> Option<ConvergencePlan> {
+    let mut plan = plan.clone();
+    for level in &mut plan.refine.levels {
+        *level = change(*level)?;
+        size::too_large(&plan.scene, *level).is_none().then_some(())?;
+    }
+    Some(plan)
+}

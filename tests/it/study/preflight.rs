@@ -1,0 +1,161 @@
+//! Warnings about a suite before anything runs: for each rule a suite that trips it, and one that
+//! just does not.
+
+use mpm_verify::study::preflight;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
+use rstest::rstest;
+
+/// A suite of which nothing is to be said.
+const BAR: &str = r#"suite: bar
+title: Bar
+source: a textbook
+parameters: {a: 1e-8, c: 10, omega: "pi/2*c", end: 0.05}
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  grid: {from: [0], to: [1.5]}
+  material: {linear_elastic: {young: "c^2", poisson: 0, density: 1}}
+  boundary: {left: fixed}
+  initial_velocity: ["a*omega*sin(pi*X/2)"]
+exact:
+  equation: small_strain
+  displacement: ["a*sin(pi*X/2)*sin(omega*t)"]
+run: {until: end, dt: "0.2*h/c"}
+refine: {cells: [6, 12, 18, 24], ppc: 2}
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+judge: {crossing_levels: excluded}
+expect:
+  - order: [1.9, 2.1]
+    because: linear functions
+"#;
+
+/// A bar of two bodies, in which a pulse is watched.
+const TWO: &str = r#"suite: two
+title: Two bars
+source: a textbook
+scene:
+  dimension: 1
+  bodies:
+    - body: {box: {from: [0], to: [0.5]}}
+      material: {linear_elastic: {young: 100, poisson: 0, density: 1}}
+    - body: {box: {from: [0.5], to: [1]}}
+      material: {linear_elastic: {young: 100, poisson: 0, density: 1}}
+  grid: {from: [0], to: [1.5]}
+  boundary: {left: fixed}
+manufactured:
+  displacement: ["1e-6*X*sin(t)"]
+run: {until: 0.05, dt: "0.2*h/10"}
+refine: {cells: [6, 12, 18, 24], ppc: 2}
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+"#;
+
+fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
+    let mut text = sound.to_owned();
+    for (right, other) in edits {
+        assert!(text.contains(right), "the suite does not say `{right}`");
+        text = text.replacen(right, other, 1);
+    }
+    let source = Source::from_text("bar.yaml", text).expect("a text");
+    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    preflight(&suite, &source)
+}
+
+/// The findings but for the note on the size of a truth of small strain.
+fn others(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
+    let mut found = findings(sound, edits);
+    found.retain(|found| {
+        found.severity() == Severity::Warning || !found.message().contains("small strain")
+    });
+    found
+}
+
+#[rstest]
+#[case::too_few_levels(
+    &[("[6, 12, 18, 24]", "[6, 12, 18]")],
+    Severity::Warning, ("cells", "3 levels support no order", "at least 4")
+)]
+#[case::too_few_that_count(
+    &[("a: 1e-8", "a: 0.04"), ("equation: small_strain", "equation: small_strain\n  tolerance: 1")],
+    Severity::Warning, ("cells", "change their cell on", "at least 4 levels that count")
+)]
+#[case::a_step_beyond_the_cell(
+    &[("0.2*h/c", "1.001*h/c")],
+    Severity::Warning, ("dt", "1.00 times what a wave takes to cross a cell", "stable step")
+)]
+#[case::steps_that_do_not_follow_the_cells(
+    &[("\"0.2*h/c\"", "1e-3")],
+    Severity::Note, ("dt", "the same on every level", "refines both")
+)]
+#[case::beyond_the_grid(
+    &[("to: [1.5]", "to: [1.0]"), ("a: 1e-8", "a: 1e-5")],
+    Severity::Warning, ("displacement", "the grid goes from 0.0000 to 1.0000 m", "larger `grid`")
+)]
+#[case::small_strain_that_shows(
+    &[("a: 1e-8", "a: 1e-3")],
+    Severity::Warning, ("displacement", "shows from about", "a tenth of the amplitude")
+)]
+#[case::small_strain_that_does_not(
+    &[],
+    Severity::Note, ("displacement", "at a strain of 1.1e-8", "below that of the cells")
+)]
+#[case::a_loaded_face_inside_a_cell(
+    &[
+        ("boundary: {left: fixed}", "boundary: {left: fixed}\n  loads: [{traction: {on: right, value: [\"1e-9*t\"]}}]"),
+        ("to: [1.5]", "to: [1.6]"),
+        ("exact:\n  equation: small_strain\n", "manufactured:\n"),
+    ],
+    Severity::Warning, ("scene", "the loaded right face at 1.0000 m", "cells away from a grid line")
+)]
+fn trips(
+    #[case] edits: &[(&str, &str)],
+    #[case] severity: Severity,
+    #[case] (key, message, words): (&str, &str, &str),
+) {
+    let found = findings(BAR, edits);
+    let tripped = found.iter().find(|found| found.message().contains(message));
+    let tripped = tripped.unwrap_or_else(|| panic!("no `{message}` in {found:#?}"));
+    assert_eq!(tripped.severity(), severity);
+    let shown = tripped.to_string();
+    assert!(shown.contains(words) && shown.contains(key), "{shown}");
+    assert!(tripped.place().is_some(), "{shown}");
+}
+
+#[rstest]
+#[case::as_it_is(&[])]
+#[case::four_levels_of_five(&[("[6, 12, 18, 24]", "[6, 12, 18, 24, 30]")])]
+#[case::a_motion_within_the_spacing(&[("a: 1e-8", "a: 1e-7")])]
+#[case::a_step_that_just_fits(&[("0.2*h/c", "0.999*h/c")])]
+#[case::a_step_by_rule(&[("\"0.2*h/c\"", "{courant: 0.5}")])]
+#[case::a_grid_that_just_holds_it(&[("to: [1.5]", "to: [1.00001]"), ("a: 1e-8", "a: 1e-6")])]
+#[case::a_bound_needs_no_four_levels(
+    &[("[6, 12, 18, 24]", "[6, 12]"), ("order: [1.9, 2.1]", "error_below: 1e-3")]
+)]
+fn just_does_not_trip(#[case] edits: &[(&str, &str)]) {
+    let found = others(BAR, edits);
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn an_interface_must_lie_on_a_grid_line() {
+    let found = others(TWO, &[]);
+    assert!(found.is_empty(), "{found:#?}");
+    let found = others(TWO, &[("[6, 12, 18, 24]", "[6, 12, 16, 24]")]);
+    let words = "with 16 cells the interface of two bodies at 0.5000 m is 0.33 cells away";
+    assert!(found[0].message().contains(words), "{found:#?}");
+    assert_eq!((found.len(), found[0].severity()), (1, Severity::Warning));
+}
+
+#[test]
+fn an_interval_too_wide_to_test_anything_is_refused_at_its_place() {
+    let text = BAR.replace("[1.9, 2.1]", "[1.4, 2.6]");
+    let source = Source::from_text("bar.yaml", text).expect("a text");
+    let refused = Suite::load(&source).expect_err("an interval of 1.2");
+    let message = "the expected range [1.4, 2.6] is too wide to test anything";
+    assert_eq!(refused.message(), message);
+    assert_eq!(refused.place().map(|place| place.line()), Some(22));
+    let just = BAR.replace("[1.9, 2.1]", "[1.5, 2.5]");
+    assert!(Suite::load(&Source::from_text("bar.yaml", just).expect("a text")).is_ok());
+}
