@@ -6,6 +6,7 @@ use super::{output, select};
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -23,8 +24,13 @@ pub(super) fn check(args: &CheckArgs) -> u8 {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
     let mut names: BTreeMap<String, String> = BTreeMap::new();
-    for found in found {
-        let (source, suite) = match found {
+    let checked = found.into_par_iter().map(|found| {
+        let (source, suite) = found?;
+        let diagnostics = study::preflight(&suite, &source);
+        Ok((source, suite, diagnostics))
+    });
+    for found in checked.collect::<Vec<Result<_, Diagnostic>>>() {
+        let (source, suite, mut diagnostics) = match found {
             Ok(found) => found,
             Err(diagnostic) => {
                 output::complain(&diagnostic.to_string());
@@ -33,7 +39,6 @@ pub(super) fn check(args: &CheckArgs) -> u8 {
             }
         };
         output::print(&sound(&suite));
-        let mut diagnostics = study::preflight(&suite, &source);
         let earlier = names.insert(suite.name.clone(), source.name().to_owned());
         diagnostics.extend(earlier.map(|earlier| named_twice(&suite, &source, &earlier)));
         for diagnostic in diagnostics {

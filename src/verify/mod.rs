@@ -66,6 +66,7 @@ pub use stability::{
     StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,
     spectral_radius, stability_limit, trial,
 };
+pub use verdict::diagnosis::{ChangedRun, Diagnosis, Evidence};
 pub use verdict::floor::{Floor, FloorCause, Probe};
 pub use verdict::judge::{Judgement, judge};
 pub use verdict::name::{UnknownVerdict, Verdict};

@@ -3,16 +3,16 @@
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use crate::report::columns::TableColumn;
-use crate::study::{Diagnosis, Trial};
-use crate::verify::{Interval, Verdict};
+
+use crate::verify::{ChangedRun, Diagnosis, Evidence, Interval, Verdict};
 
 /// The finding on one case: a paragraph, and a table of the runs behind it.
 pub fn diagnosis(found: &Diagnosis) -> String {
     let mut lines = vec![format!("== {} ==", found.case)];
     paragraph_lines(&mut lines, &paragraph(found));
-    if !found.trials.is_empty() {
+    if !found.runs.is_empty() {
         lines.push(String::new());
-        lines.extend(Table::new(&columns(), found.trials.iter()).lines());
+        lines.extend(Table::new(&columns(), found.runs.iter()).lines());
     }
     if !found.skipped.is_empty() {
         row(&mut lines, "beyond the budget", &found.skipped.join("; "));
@@ -34,25 +34,41 @@ fn paragraph(found: &Diagnosis) -> String {
     };
     let order = |order: Option<Interval>| order.map_or("none".to_owned(), shown);
     let of_case = order(found.finest.order);
-    match found.found() {
-        None if found.finest.verdict == Verdict::Converging => format!(
-            "{seen} From {levels} the order is {of_case}: coarser levels are not asymptotic, or are \
-             too few to tell."
+    let kink = found.kink.map_or(String::new(), |function| {
+        format!(
+            " The exact solution calls `{function}`: where it has a kink, the order of theory, which \
+             is that of a smooth solution, is not to be had."
+        )
+    });
+    let Some((run, evidence)) = found.found() else {
+        return if found.finest.verdict == Verdict::Converging {
+            format!(
+                "{seen} From {levels} the order is {of_case}: coarser levels are not asymptotic, or \
+                 are too few to tell."
+            )
+        } else {
+            format!(
+                "{seen} No change of one thing brings the order back on the levels from {levels}, or \
+                 takes a quarter off the finest error: the cause is not among those that are \
+                 tried.{kink}"
+            )
+        };
+    };
+    let ChangedRun { change, cause, remedy, order: with, ratio, .. } = run;
+    let with = order(*with);
+    match evidence {
+        Evidence::Restored => format!(
+            "{seen} Cause: {cause}. With {change} the order from {levels} is {with}, where it was \
+             {of_case}; the finest error is {ratio:.2} times as large. What restores it: {remedy}."
         ),
-        None => format!(
-            "{seen} No change of one thing restores the order on the levels from {levels} or takes a \
-             quarter off the finest error: the cause is not among those that are tried."
+        Evidence::Raised => format!(
+            "{seen} Cause: {cause}. With {change} the order from {levels} is {with}, where it was \
+             {of_case}, which is not yet that of theory.{kink} What helps: {remedy}."
         ),
-        Some((Trial { change, cause, remedy, order: with, ratio, .. }, true)) => format!(
-            "{seen} Cause: {cause}. With {change} the order from {levels} is {}, where it was \
-             {of_case}, and the finest error {ratio:.2} times as large. What restores it: {remedy}.",
-            order(*with)
-        ),
-        Some((Trial { change, cause, remedy, order: with, ratio, .. }, false)) => format!(
+        Evidence::Lowered => format!(
             "{seen} Largest part: {cause}. With {change} the finest error is {ratio:.2} times as \
-             large; the order from {levels} is {} then, so that this is not all. What helps: \
-             {remedy}.",
-            order(*with)
+             large; the order from {levels} is {with} then, so that this is not all.{kink} What \
+             helps: {remedy}."
         ),
     }
 }
@@ -61,15 +77,15 @@ fn shown(order: Interval) -> String {
     format!("{:.2} [{:.2}, {:.2}]", order.value, order.low, order.high)
 }
 
-fn columns<'a>() -> [TableColumn<'a, &'a Trial>; 4] {
+fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
     [
-        TableColumn::<&Trial>::text("changed", "the one thing", |trial| trial.change.clone())
+        TableColumn::<&ChangedRun>::text("changed", "the one thing", |run| run.change.clone())
             .flush_left(),
-        TableColumn::<&Trial>::text("verdict", "verdict", |trial| trial.verdict.to_string())
+        TableColumn::<&ChangedRun>::text("verdict", "verdict", |run| run.verdict.to_string())
             .flush_left(),
-        TableColumn::<&Trial>::text("order", "observed order", |trial| trial.order.map(shown)),
-        TableColumn::<&Trial>::text("error/before", "finest error over that before", |trial| {
-            format!("{:.3}", trial.ratio)
+        TableColumn::<&ChangedRun>::text("order", "observed order", |run| run.order.map(shown)),
+        TableColumn::<&ChangedRun>::text("error/before", "finest error over that before", |run| {
+            format!("{:.3}", run.ratio)
         }),
     ]
 }

@@ -16,8 +16,8 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, Suite};
 use crate::suite::yaml::Source;
 use crate::verify::{
-    Axis, Convergence, FEWEST_LEVELS, Interval, Judgement, Level, LevelOutcome, OrderHypothesis,
-    Verdict, judge,
+    Axis, ChangedRun, Convergence, Diagnosis, FEWEST_LEVELS, Judgement, Level, LevelOutcome,
+    OrderHypothesis, judge,
 };
 
 /// Finest levels that are run again.
@@ -29,64 +29,10 @@ const NEAR: f64 = 0.2;
 /// And no further above: a case may be better than its theory.
 const ABOVE: f64 = 0.8;
 
-/// Share of the finest error that a change must leave at most, to be named where none restores the
-/// order.
-const FALL: f64 = 0.75;
-
 /// Factor of the amplitude in the probe that makes the motion smaller.
 pub(crate) const SMALLER: f64 = 0.1;
 
-/// The finest levels of a case, run with one thing changed.
-#[derive(Debug, Clone)]
-pub struct Trial {
-    /// The thing that is changed, and into what.
-    pub change: String,
-    /// The cause, if the change is what helps.
-    pub cause: &'static str,
-    /// Change of the suite that keeps the order.
-    pub remedy: &'static str,
-    /// Verdict on these levels, against an order near that of theory.
-    pub verdict: Verdict,
-    /// Observed order on these levels.
-    pub order: Option<Interval>,
-    /// The finest error over that of the case itself, both over their amplitude.
-    pub ratio: f64,
-}
-
-/// The finding on one case.
-#[derive(Debug, Clone)]
-pub struct Diagnosis {
-    /// Name of the case.
-    pub case: String,
-    /// Order of theory.
-    pub formal_order: f64,
-    /// The case as it is, all levels of the gate.
-    pub judgement: Judgement,
-    /// The same on the levels that are run again.
-    pub finest: Judgement,
-    /// Levels that are run again, by name.
-    pub levels: Vec<String>,
-    /// Every trial that ran.
-    pub trials: Vec<Trial>,
-    /// Changes that were possible, and too expensive.
-    pub skipped: Vec<String>,
-    /// Index of the trial that shows the cause.
-    pub cause: Option<usize>,
-}
-
-impl Diagnosis {
-    /// Whether the case has the order of theory, so that there is nothing to explain.
-    pub fn is_sound(&self) -> bool {
-        self.judgement.verdict == Verdict::Converging
-    }
-
-    /// The trial that shows the cause, and whether it restores the order.
-    pub fn found(&self) -> Option<(&Trial, bool)> {
-        self.cause.map(|i| (&self.trials[i], self.trials[i].verdict == Verdict::Converging))
-    }
-}
-
-/// The finding on the case number `index` of a suite, within a predicted time (s) for all trials.
+/// The finding on the case number `index` of a suite, within a predicted time (s) for all runs.
 /// `None` for a case that has no order to explain: of another kind of study, without a truth, or with
 /// too few levels.
 ///
@@ -107,25 +53,37 @@ pub fn diagnose(
     let context = Context { suite: &suite.name, case, formal_order: formal_order(plan, case) };
     let all = only(plan, case, plan.refine.levels(Extent::Usual));
     let found = context.run(&all)?;
-    let first = found.levels.len().saturating_sub(LEVELS);
-    let levels = &found.levels[first..];
+    // Levels that do not count show another error than the one that is judged.
+    let end = found.levels.iter().rposition(|level| level.usable).map_or(0, |last| last + 1);
+    let range = end.saturating_sub(LEVELS)..end;
+    let levels = &found.levels[range.clone()];
     let mut diagnosis = Diagnosis {
         case: case.name.clone(),
         formal_order: context.formal_order,
         finest: context.judge(levels, plan.refine.axis),
         levels: levels.iter().map(|level| level.name(found.axis)).collect(),
         judgement: found.judgement.clone(),
-        trials: Vec::new(),
+        kink: kink(suite, plan),
+        runs: Vec::new(),
         skipped: Vec::new(),
-        cause: None,
     };
     if diagnosis.is_sound() {
         return Ok(Some(diagnosis));
     }
-    let finest = only(plan, case, &plan.refine.levels(Extent::Usual)[first..]);
+    let finest = only(plan, case, &plan.refine.levels(Extent::Usual)[range]);
     context.try_all(source, &finest, levels, budget, &mut diagnosis);
-    diagnosis.cause = cause(&diagnosis);
     Ok(Some(diagnosis))
+}
+
+/// Functions with a kink or a jump.
+const KINKED: [&str; 7] = ["max", "min", "abs", "sign", "step", "floor", "where"];
+
+/// The first function with a kink that the exact motion calls.
+fn kink(suite: &Suite, plan: &ConvergencePlan) -> Option<&'static str> {
+    let bodies = suite.functions.iter().map(|(_, body)| body.clone());
+    let texts: Vec<String> =
+        plan.exact.iter().map(|problem| problem.motion.source()).chain(bodies).collect();
+    KINKED.into_iter().find(|name| texts.iter().any(|text| text.contains(&format!("{name}("))))
 }
 
 /// The plan with one case and some levels.
@@ -137,21 +95,7 @@ fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> Convergenc
     plan
 }
 
-/// A change that restores the order, in the order of the list; otherwise the one that takes most off
-/// the error.
-fn cause(diagnosis: &Diagnosis) -> Option<usize> {
-    let trials = &diagnosis.trials;
-    if diagnosis.finest.verdict == Verdict::Converging {
-        return None;
-    }
-    let restores = |trial: &Trial| trial.verdict == Verdict::Converging;
-    trials.iter().position(restores).or_else(|| {
-        let falls = trials.iter().enumerate().filter(|(_, trial)| trial.ratio <= FALL);
-        falls.min_by(|(_, a), (_, b)| a.ratio.total_cmp(&b.ratio)).map(|(i, _)| i)
-    })
-}
-
-/// What all trials of a case share.
+/// What all runs of a case share.
 struct Context<'a> {
     suite: &'a str,
     case: &'a Case,
@@ -187,6 +131,8 @@ impl Context<'_> {
         let error = |levels: &[LevelOutcome]| levels.last().map_or(f64::NAN, |level| level.error);
         let mut left = budget;
         for (kind, plan, scale) in self.changed(source, finest) {
+            let h = |plan: &ConvergencePlan| plan.refine.levels.last().map_or(0.0, |level| level.h);
+            let finer = plan.refine.axis == Axis::Space && h(&plan) < h(finest);
             let cost = estimate_of(&plan).seconds;
             if cost > left {
                 into.skipped.push(kind.change.to_owned());
@@ -196,13 +142,14 @@ impl Context<'_> {
             // What cannot be set up is no evidence.
             let Ok(found) = self.run(&plan) else { continue };
             let judgement = self.judge(&found.levels, found.axis);
-            into.trials.push(Trial {
+            into.runs.push(ChangedRun {
                 change: kind.change.to_owned(),
                 cause: (kind.cause)(self.case),
                 remedy: kind.remedy,
                 verdict: judgement.verdict,
                 order: judgement.order,
                 ratio: error(&found.levels) / scale / error(levels),
+                is_finer: finer,
             });
         }
     }

@@ -16,13 +16,11 @@ struct Plane {
     x: f64,
     what: String,
     path: Path,
+    severity: Severity,
 }
 
-/// Warns of a plane that lies inside a cell on some level of a study of space.
+/// Speaks of a plane that lies inside a cell on some level.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
-    if preflight.of_an_order().next().is_none() {
-        return Vec::new();
-    }
     let scene = &preflight.plan.scene;
     let mut planes = loaded_faces(scene);
     planes.extend(interfaces(scene));
@@ -30,7 +28,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 }
 
 fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic> {
-    let Plane { axis, x, what, path } = plane;
+    let Plane { axis, x, what, path, .. } = plane;
     let off = |h: f64| {
         let line = (x - grid_axis(&preflight.plan.scene, *axis, h).0) / h;
         (line - libm::round(line)).abs()
@@ -39,8 +37,11 @@ fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic>
     let (cells, share) = (level.cells, off(level.h));
     let message =
         format!("with {cells} cells {what} at {x:.4} m is {share:.2} cells away from a grid line");
-    let found = preflight.finding(Severity::Warning, path, &message);
-    Some(found.with_help("inside a cell it costs an order: take cells of which whole numbers fit"))
+    let found = preflight.finding(plane.severity, path, &message);
+    Some(
+        found
+            .with_help("inside a cell it may cost an order: take cells of which whole numbers fit"),
+    )
 }
 
 fn loaded_faces(scene: &Scene) -> Vec<Plane> {
@@ -52,7 +53,9 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
         .map(|face| {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
-            Plane { axis: face.axis, x, what, path: Path::top("scene").then("loads") }
+            let path = Path::top("scene").then("loads");
+            // Particles carry the load; where their weights take it is a matter of the method.
+            Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })
         .collect()
 }
@@ -67,7 +70,7 @@ fn interfaces(scene: &Scene) -> Vec<Plane> {
             if scene.bodies.iter().any(meets) {
                 let path = Path::top("scene").then("bodies").then(i);
                 let what = "the interface of two bodies".to_owned();
-                planes.push(Plane { axis, x, what, path });
+                planes.push(Plane { axis, x, what, path, severity: Severity::Warning });
             }
         }
     }

@@ -2,8 +2,11 @@
 
 use crate::exact::{Derivatives, Problem};
 
-/// Intervals of the raster along each axis, and over the run.
-const INTERVALS: usize = 8;
+/// Intervals of the raster along each axis, by dimension.
+const ALONG: [usize; 3] = [16, 8, 4];
+
+/// Intervals of the raster over the run.
+const OVER: usize = 8;
 
 /// The largest values that a motion takes.
 #[derive(Debug, Clone, Default)]
@@ -26,15 +29,16 @@ impl Extremes {
     /// Extremes of the motion that `problem` claims.
     pub(crate) fn of(problem: &Problem) -> Self {
         let d = problem.dimension();
+        let intervals = ALONG[d.clamp(1, 3) - 1];
         let label = |point: usize| -> Vec<f64> {
             let along = |axis: usize| {
-                let index = point / (INTERVALS + 1).pow(axis as u32) % (INTERVALS + 1);
-                let share = index as f64 / INTERVALS as f64;
+                let index = point / (intervals + 1).pow(axis as u32) % (intervals + 1);
+                let share = index as f64 / intervals as f64;
                 problem.from[axis] + (problem.to[axis] - problem.from[axis]) * share
             };
             (0..d).map(along).collect()
         };
-        let labels: Vec<Vec<f64>> = (0..(INTERVALS + 1).pow(d as u32))
+        let labels: Vec<Vec<f64>> = (0..(intervals + 1).pow(d as u32))
             .map(label)
             .filter(|label| problem.holds(label))
             .collect();
@@ -42,8 +46,8 @@ impl Extremes {
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let mut all = Self { reach: [none; 3], ..Self::default() };
         let mut now = Derivatives::default();
-        for step in 0..=INTERVALS {
-            motion.set_time(problem.until * (step as f64 / INTERVALS as f64));
+        for step in 0..=OVER {
+            motion.set_time(problem.until * (step as f64 / OVER as f64));
             for (place, label) in labels.iter().enumerate() {
                 motion.derivatives(place, &mut now);
                 all.take(label, &now);

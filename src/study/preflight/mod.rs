@@ -35,7 +35,7 @@ use crate::verify::{Axis, Verdict};
 /// A convergence study before it runs.
 pub(crate) struct Preflight<'a> {
     pub(crate) plan: &'a ConvergencePlan,
-    /// Extremes of the exact motion, where formulas give one.
+    /// Extremes of the exact motion, where formulas give one and an order is claimed.
     pub(crate) extremes: Option<Extremes>,
     source: &'a Source,
 }
@@ -50,7 +50,11 @@ const RULES: [Rule; 5] =
 /// Warnings and notes about `suite`, read from `source`; none about studies that refine nothing.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
-    let preflight = Preflight { plan, extremes: plan.exact.as_ref().map(Extremes::of), source };
+    let mut preflight = Preflight { plan, extremes: None, source };
+    if preflight.of_an_order().next().is_none() {
+        return Vec::new();
+    }
+    preflight.extremes = plan.exact.as_ref().map(Extremes::of);
     RULES.iter().flat_map(|rule| rule(&preflight)).collect()
 }
 

@@ -1,5 +1,6 @@
 //! The verdict: from levels and their orders to one word, with the reason.
 
+pub(crate) mod diagnosis;
 pub(crate) mod error_trend;
 pub(crate) mod floor;
 pub(crate) mod judge;

@@ -107,7 +107,7 @@ fn others(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
         ("to: [1.5]", "to: [1.6]"),
         ("exact:\n  equation: small_strain\n", "manufactured:\n"),
     ],
-    Severity::Warning, ("scene", "the loaded right face at 1.0000 m", "cells away from a grid line")
+    Severity::Note, ("scene", "the loaded right face at 1.0000 m", "cells away from a grid line")
 )]
 fn trips(
     #[case] edits: &[(&str, &str)],

@@ -1,0 +1,104 @@
+//! Why a case does not have the order of theory: what runs that change one thing have shown.
+
+use crate::verify::order::fit::Interval;
+use crate::verify::verdict::judge::Judgement;
+use crate::verify::verdict::name::Verdict;
+
+/// Share of the finest error that a change must leave at most, to be named where none restores the
+/// order.
+const FALL: f64 = 0.75;
+
+/// Half of the width of the interval of an order that is settled.
+const SETTLED: f64 = 0.15;
+
+/// An order that is raised rises by this.
+const RISE: f64 = 0.25;
+
+/// Orders that differ by less are the same.
+const ALIKE: f64 = 0.1;
+
+/// Effect of a change that shows the cause.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// The order is that of theory.
+    Restored,
+    /// The order is higher, and settled.
+    Raised,
+    /// The finest error is smaller.
+    Lowered,
+}
+
+/// The finest levels of a case, run with one thing changed.
+#[derive(Debug, Clone)]
+pub struct ChangedRun {
+    /// The thing that is changed, and into what.
+    pub change: String,
+    /// The cause, if the change is what helps.
+    pub cause: &'static str,
+    /// Change of the suite that keeps the order.
+    pub remedy: &'static str,
+    /// Verdict on these levels, against an order near that of theory.
+    pub verdict: Verdict,
+    /// Observed order on these levels.
+    pub order: Option<Interval>,
+    /// The finest error over that of the case itself, both over their amplitude.
+    pub ratio: f64,
+    /// Whether levels are finer, so that their error is smaller whatever the cause.
+    pub is_finer: bool,
+}
+
+/// The finding on one case.
+#[derive(Debug, Clone)]
+pub struct Diagnosis {
+    /// Name of the case.
+    pub case: String,
+    /// Order of theory.
+    pub formal_order: f64,
+    /// The case as it is, all levels of the gate.
+    pub judgement: Judgement,
+    /// The same on the levels that are run again.
+    pub finest: Judgement,
+    /// Levels that are run again, by name.
+    pub levels: Vec<String>,
+    /// A function with a kink that the exact solution calls: theory's order is that of a smooth one.
+    pub kink: Option<&'static str>,
+    /// The runs that change one thing.
+    pub runs: Vec<ChangedRun>,
+    /// Changes that were possible, and too expensive.
+    pub skipped: Vec<String>,
+}
+
+impl Diagnosis {
+    /// Whether the case has the order of theory, so that there is nothing to explain.
+    pub fn is_sound(&self) -> bool {
+        self.judgement.verdict == Verdict::Converging
+    }
+
+    /// The run that shows the cause, and what it shows. The first that restores the order, in the
+    /// order of the runs; where none does the first of those that raise it most, if it is settled
+    /// then; otherwise the one that takes most off the error.
+    pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
+        if self.finest.verdict == Verdict::Converging {
+            return None;
+        }
+        let restores = |run: &&ChangedRun| run.verdict == Verdict::Converging;
+        if let Some(run) = self.runs.iter().find(restores) {
+            return Some((run, Evidence::Restored));
+        }
+        let before = self.finest.order.map_or(0.0, |order| order.value.max(0.0));
+        let settled = |run: &ChangedRun| {
+            let order = run.order.filter(|order| order.half_width() <= SETTLED)?;
+            (run.verdict == Verdict::TooLow && order.value >= before + RISE).then_some(order.value)
+        };
+        let highest = self.runs.iter().filter_map(settled).reduce(f64::max);
+        let raises = |run: &&ChangedRun| {
+            settled(run).zip(highest).is_some_and(|(order, most)| order >= most - ALIKE)
+        };
+        if let Some(run) = self.runs.iter().find(raises) {
+            return Some((run, Evidence::Raised));
+        }
+        let falls = self.runs.iter().filter(|run| !run.is_finer && run.ratio <= FALL);
+        let most = falls.min_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        most.map(|run| (run, Evidence::Lowered))
+    }
+}
