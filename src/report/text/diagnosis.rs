@@ -55,21 +55,30 @@ fn paragraph(found: &Diagnosis) -> String {
         };
     };
     let ChangedRun { change, cause, remedy, order: with, ratio, .. } = run;
-    let with = order(*with);
+    let (with, ratio) = (order(*with), times(*ratio));
     match evidence {
         Evidence::Restored => format!(
             "{seen} Cause: {cause}. With {change} the order from {levels} is {with}, where it was \
-             {of_case}; the finest error is {ratio:.2} times as large. What restores it: {remedy}."
+             {of_case}; the finest error is {ratio}. What restores it: {remedy}."
         ),
         Evidence::Raised => format!(
             "{seen} Cause: {cause}. With {change} the order from {levels} is {with}, where it was \
              {of_case}, which is not yet that of theory.{kink} What helps: {remedy}."
         ),
         Evidence::Lowered => format!(
-            "{seen} Largest part: {cause}. With {change} the finest error is {ratio:.2} times as \
-             large; the order from {levels} is {with} then, so that this is not all.{kink} What \
+            "{seen} Largest part: {cause}. With {change} the finest error is {ratio}; the order \
+             from {levels} is {with} then, so that this is not all.{kink} What \
              helps: {remedy}."
         ),
+    }
+}
+
+/// A ratio to what was before.
+fn times(ratio: f64) -> String {
+    if ratio < 0.1 {
+        format!("1/{:.0} of that", 1.0 / ratio)
+    } else {
+        format!("{ratio:.2} times that")
     }
 }
 

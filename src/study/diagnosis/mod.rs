@@ -165,7 +165,8 @@ impl Context<'_> {
             let plan = (kind.apply)(finest).map(|plan| (kind, plan, 1.0));
             changed.extend(plan);
         }
-        let smaller = with_amplitude(source, SMALLER).ok();
+        let has_motion = finest.exact.is_some() && finest.refine.axis != Axis::Particles;
+        let smaller = has_motion.then(|| with_amplitude(source, SMALLER).ok()).flatten();
         let plan = smaller.as_ref().and_then(Suite::plan::<ConvergencePlan>);
         changed.extend(plan.map(|plan| {
             let plan = only(plan, self.case, &finest.refine.levels);

@@ -1,6 +1,7 @@
 //! Why a case does not have the order of theory: what runs that change one thing have shown.
 
 use crate::verify::order::fit::Interval;
+use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
@@ -78,12 +79,18 @@ impl Diagnosis {
     /// order of the runs; where none does the first of those that raise it most, if it is settled
     /// then; otherwise the one that takes most off the error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
-        if self.finest.verdict == Verdict::Converging {
-            return None;
-        }
-        let restores = |run: &&ChangedRun| run.verdict == Verdict::Converging;
+        let least = self.formal_order - OrderHypothesis::TOLERANCE;
+        let is_near = self.finest.verdict == Verdict::Converging;
+        // An order that is nearly that of theory is restored only by one that is within its range.
+        let restores = |run: &&ChangedRun| {
+            let is_within = run.order.is_some_and(|order| order.low >= least);
+            run.verdict == Verdict::Converging && (is_within || !is_near)
+        };
         if let Some(run) = self.runs.iter().find(restores) {
             return Some((run, Evidence::Restored));
+        }
+        if is_near {
+            return None;
         }
         let before = self.finest.order.map_or(0.0, |order| order.value.max(0.0));
         let settled = |run: &ChangedRun| {

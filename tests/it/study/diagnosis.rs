@@ -1,0 +1,114 @@
+//! Diagnoses of cases of our own suites, whose causes their authors state in `because`, which a
+//! diagnosis does not read.
+
+use mpm_verify::study::diagnose;
+use mpm_verify::suite::{Suite, embedded};
+use mpm_verify::verify::Diagnosis;
+use rstest::rstest;
+
+/// Predicted time for the runs of a case (s).
+const BUDGET: f64 = 60.0;
+
+fn diagnosis(suite: &str, case: &str) -> Option<Diagnosis> {
+    let source = embedded::source(suite).expect("a built-in suite").expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let names = suite.case_names();
+    let index = names.iter().position(|name| *name == case).unwrap_or_else(|| {
+        panic!("no case `{case}` among {names:?}");
+    });
+    diagnose(&suite, &source, index, BUDGET).expect("a case that runs")
+}
+
+fn names(suite: &str, case: &str, cause: &str) {
+    let found = diagnosis(suite, case).expect("an order to explain");
+    assert!(!found.is_sound(), "{suite}::{case} has the order of theory");
+    let (run, evidence) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
+    assert!(run.cause.starts_with(cause), "{evidence:?} by {}: {}", run.change, run.cause);
+}
+
+#[rstest]
+#[case("vibrating-bar", "mpm-linear-flip-usf", "the scheme")]
+#[case("fem-oedometer-fixed-step", "fem-linear-lumped-at-zero", "the start")]
+#[case("heat-temporal-order", "heat-cubic-bspline", "too few particles per cell")]
+#[case("local-damping-bar", "mpm-quadratic-bspline-flip-musl-lumped", "lumping")]
+#[case("mms-periodic-bar-sin", "mpm-linear-flip-usl", "grid crossing")]
+#[case("mms-periodic-bar-sin", "mpm-quadratic-bspline-flip-usl", "the motion carries particles")]
+fn a_cause_is_found(#[case] suite: &str, #[case] case: &str, #[case] cause: &str) {
+    names(suite, case, cause);
+}
+
+/// The rest of the known causes, which take longer than a gate should.
+#[rstest]
+#[case("mms-periodic-bar-sin", "mpm-ugimp-flip-usl", "domains of fixed width")]
+#[case("mms-periodic-bar-cos", "mpm-cpgimp-flip-musl-at-zero", "the start")]
+#[case("mms-fixed-bar-cubic", "mpm-cubic-bspline-flip-musl-consistent", "too few particles")]
+#[case("mms-fixed-bar-cubic-consistent", "mpm-cubic-bspline-flip-musl-lumped", "lumping")]
+#[case("heat-mms", "heat-cubic-bspline", "too few particles per cell")]
+#[case("oedometer", "mpm-cpgimp-flip-musl-vs-exact", "the exact formula solves another model")]
+#[case("oedometer", "fem-linear-lumped-small-strain-vs-reference", "the reference solves another")]
+#[case("oedometer-small-strain", "mpm-linear-flip-musl-at-zero", "the start")]
+#[case("thermal-expansion-mms", "mpm-linear-flip-musl", "grid crossing")]
+#[case("simple-wave", "mpm-linear-flip-musl", "grid crossing")]
+#[ignore = "a minute and a half"]
+fn a_cause_is_found_in_time(#[case] suite: &str, #[case] case: &str, #[case] cause: &str) {
+    names(suite, case, cause);
+}
+
+#[rstest]
+fn no_cause_is_named_where_there_is_none(
+    #[values(
+        ("damped-bar", "mpm-linear-flip-musl"),
+        ("damped-bar", "mpm-linear-apic-musl"),
+        ("damped-bar", "mpm-cpgimp-flip-musl"),
+        ("damped-bar", "mpm-quadratic-bspline-apic-musl"),
+        ("damped-bar", "mpm-linear-flip-usf"),
+        ("heat-temporal-order", "heat-linear"),
+        ("heat-temporal-order", "heat-cpdi"),
+        ("heat-temporal-order", "heat-quadratic-bspline"),
+        ("vibrating-bar", "mpm-linear-flip-musl"),
+        ("vibrating-bar", "mpm-linear-flip-usl"),
+    )]
+    (suite, case): (&str, &str),
+) {
+    let found = diagnosis(suite, case).expect("an order");
+    assert!(found.is_sound() && found.runs.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn what_is_beyond_the_budget_is_said() {
+    let source = embedded::source("vibrating-bar").expect("a suite").expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let usf = suite.case_names().iter().position(|name| name.ends_with("usf")).expect("USF");
+    let found = diagnose(&suite, &source, usf, 1e-9).expect("a run").expect("an order");
+    assert!(found.runs.is_empty() && found.skipped.len() > 5, "{found:#?}");
+    let said = mpm_verify::report::diagnosis(&found);
+    assert!(said.contains("beyond the budget"), "{said}");
+}
+
+/// Small strains of 1e-2 are an error of that size, which a tenth of the amplitude takes away.
+#[test]
+fn a_truth_of_small_strain_is_told_by_the_amplitude() {
+    let text = r#"suite: bar
+title: Bar
+source: a textbook
+parameters: {a: 0.02, c: 10, omega: "pi/2*c"}
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  material: {linear_elastic: {young: "c^2", poisson: 0, density: 1}}
+  boundary: {left: fixed}
+  initial_velocity: ["a*omega*sin(pi*X/2)"]
+exact:
+  equation: small_strain
+  displacement: ["a*sin(pi*X/2)*sin(omega*t)"]
+run: {until: 0.1, dt: "0.1*h/c"}
+refine: {cells: [8, 12, 16, 24, 32], ppc: 2}
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl, frame: total_lagrangian, start: half_step_back}
+"#;
+    let source = mpm_verify::suite::yaml::Source::from_text("bar.yaml", text).expect("a text");
+    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let found = diagnose(&suite, &source, 0, BUDGET).expect("a run").expect("an order");
+    let (run, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
+    assert!(run.change == "a tenth of the amplitude" && run.ratio < 0.2, "{found:#?}");
+}
