@@ -30,7 +30,7 @@ pub(super) enum Command {
     /// Run suites and write the `expect` entries that theory gives and the runs support, each with
     /// where it comes from; nothing is changed
     Propose(Targets),
-    /// Find out why cases do not have the order of theory: their finest levels again, with one thing
+    /// Find out why cases do not have the order of theory: the finest levels again, with one thing
     /// changed at a time
     Diagnose(DiagnoseArgs),
     /// Print the time step of every level, as the suite asks for it and as it is taken; exit status

@@ -33,8 +33,8 @@ const ABOVE: f64 = 0.8;
 pub(crate) const SMALLER: f64 = 0.1;
 
 /// The finding on the case number `index` of a suite, within a predicted time (s) for all runs.
-/// `None` for a case that has no order to explain: of another kind of study, without a truth, or with
-/// too few levels.
+/// `None` for a case that has no order to explain: of another kind of study, without a truth, or
+/// with too few levels.
 ///
 /// # Errors
 /// One line that says why the case itself cannot be run.
@@ -95,7 +95,7 @@ fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> Convergenc
     plan
 }
 
-/// What all runs of a case share.
+/// The parts that all runs of a case share.
 struct Context<'a> {
     suite: &'a str,
     case: &'a Case,
@@ -139,7 +139,7 @@ impl Context<'_> {
                 continue;
             }
             left -= cost;
-            // What cannot be set up is no evidence.
+            // A change that cannot be set up is no evidence.
             let Ok(found) = self.run(&plan) else { continue };
             let judgement = self.judge(&found.levels, found.axis);
             into.runs.push(ChangedRun {

@@ -14,9 +14,9 @@ use crate::verify::Axis;
 pub(crate) struct ProbeKind {
     /// The thing, and into what it is changed.
     pub(crate) change: &'static str,
-    /// What is the matter if the change helps.
+    /// The cause, if the change helps.
     pub(crate) cause: fn(&Case) -> &'static str,
-    /// What an author can do about it.
+    /// The remedy for an author.
     pub(crate) remedy: &'static str,
     /// The plan with the change; `None` where it means nothing.
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
@@ -193,8 +193,8 @@ fn with_case(plan: &ConvergencePlan, change: impl Fn(&mut Case)) -> ConvergenceP
     plan
 }
 
-/// The plan with the method of its case changed; `None` if that is no change, or a method that means
-/// nothing.
+/// The plan with the method of its case changed; `None` if that is no change, or a method that
+/// means nothing.
 fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
     let before = plan.cases[0].method;
     let plan = with_case(plan, |case| change(&mut case.method));

@@ -1,6 +1,6 @@
 //! Interfaces and loaded faces inside a cell.
 
-use super::Preflight;
+use super::subject::Preflight;
 use crate::suite::compile::path::Path;
 use crate::suite::model::Scene;
 use crate::suite::model::grid_size::grid_axis;

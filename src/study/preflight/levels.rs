@@ -1,6 +1,6 @@
 //! Levels that can count for an order.
 
-use super::{Preflight, moves_on_grid};
+use super::subject::{Preflight, moves_on_grid};
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::grid_size::per_axis;
 use crate::suite::model::refine_plan::LevelPlan;

@@ -1,6 +1,7 @@
-//! What can be said of a suite before anything runs: warnings and notes, each with its place.
+//! Warnings and notes about a suite before anything runs, each with its place.
 //!
 //! ```text
+//! subject      the study, and places in its file
 //! extremes     the exact motion on a raster: strain, speed, reach
 //! levels       levels that can count for an order
 //! time_step    steps beyond the stable one, and steps that do not follow the cells
@@ -19,88 +20,25 @@ pub(crate) mod extremes;
 pub(crate) mod levels;
 pub(crate) mod reach;
 pub(crate) mod strain;
+pub(crate) mod subject;
 pub(crate) mod time_step;
 
 pub use cost::{Estimate, estimate};
 
-use self::extremes::Extremes;
-use crate::mpm::FrameName;
-use crate::suite::compile::path::Path;
-use crate::suite::model::method::Method;
-use crate::suite::model::refine_plan::{Extent, LevelPlan};
-use crate::suite::model::{Against, Case, ConvergencePlan, Suite};
-use crate::suite::yaml::{Diagnostic, Severity, Source};
-use crate::verify::{Axis, Verdict};
-
-/// A convergence study before it runs.
-pub(crate) struct Preflight<'a> {
-    pub(crate) plan: &'a ConvergencePlan,
-    /// Extremes of the exact motion, where formulas give one and an order is claimed.
-    pub(crate) extremes: Option<Extremes>,
-    source: &'a Source,
-}
+use self::subject::Preflight;
+use crate::suite::model::{ConvergencePlan, Suite};
+use crate::suite::yaml::{Diagnostic, Source};
 
 /// Findings of one rule.
-type Rule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
+type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
 /// Every rule.
-const RULES: [Rule; 5] =
+const RULES: [PreflightRule; 5] =
     [levels::check, time_step::check, reach::check, strain::check, alignment::check];
 
 /// Warnings and notes about `suite`, read from `source`; none about studies that refine nothing.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
-    let mut preflight = Preflight { plan, extremes: None, source };
-    if preflight.of_an_order().next().is_none() {
-        return Vec::new();
-    }
-    preflight.extremes = plan.exact.as_ref().map(Extremes::of);
+    let Some(preflight) = Preflight::of_an_order_in(plan, source) else { return Vec::new() };
     RULES.iter().flat_map(|rule| rule(&preflight)).collect()
-}
-
-impl Preflight<'_> {
-    /// Levels of the gate.
-    pub(crate) fn levels(&self) -> &[LevelPlan] {
-        self.plan.refine.levels(Extent::Usual)
-    }
-
-    /// Cases whose expectation is an order, stated or that of theory.
-    pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
-        let claims = |case: &&Case| match &case.expectation {
-            Some(expected) => expected.verdict == Some(Verdict::Converging),
-            None => case.against != Against::Nothing,
-        };
-        self.plan.cases.iter().filter(claims)
-    }
-
-    /// Where the sizes of the refined axis stand.
-    pub(crate) fn sizes(&self) -> Path {
-        Path::top("refine").then(match self.plan.refine.axis {
-            Axis::Space => "cells",
-            Axis::Time => "dt",
-            Axis::Particles => "ppc",
-        })
-    }
-
-    /// Where the exact motion stands.
-    pub(crate) fn motion(&self) -> Path {
-        let of = |key: &str| Path::top(key).then("displacement");
-        let keys = ["exact", "manufactured", "equilibrium"].map(of);
-        let stands = |path: &Path| self.source.value_at(path.steps()).is_some();
-        keys.into_iter().find(stands).unwrap_or_else(|| Path::top("exact"))
-    }
-
-    /// A finding about the value at `path`.
-    pub(crate) fn finding(&self, severity: Severity, path: &Path, message: &str) -> Diagnostic {
-        let diagnostic = match self.source.value_at(path.steps()) {
-            Some(place) => self.source.diagnostic(place, message),
-            None => Diagnostic::about(self.source.name(), message),
-        };
-        diagnostic.with_severity(severity)
-    }
-}
-
-/// Whether the particles of a case move through the grid.
-pub(crate) fn moves_on_grid(case: &Case) -> bool {
-    matches!(case.method, Method::Mpm { frame: FrameName::Updated, .. })
 }

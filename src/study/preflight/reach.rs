@@ -1,6 +1,6 @@
 //! A motion that leaves the grid.
 
-use super::{Preflight, moves_on_grid};
+use super::subject::{Preflight, moves_on_grid};
 use crate::suite::model::grid_size::grid_axis;
 use crate::suite::yaml::{Diagnostic, Severity};
 

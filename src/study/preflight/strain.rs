@@ -1,6 +1,6 @@
 //! A truth of small strain beside a solver of finite strain.
 
-use super::Preflight;
+use super::subject::Preflight;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
@@ -11,8 +11,8 @@ const SEEN: f64 = 0.3;
 
 /// Estimated error (m) of a truth of small strain, and the largest strain.
 ///
-/// The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a time
-/// t comes to e u_tt t^2/2, and over a long run to no more than about e u.
+/// The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
+/// time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
 pub(crate) fn small_strain_error(preflight: &Preflight<'_>, until: f64) -> Option<(f64, f64)> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;

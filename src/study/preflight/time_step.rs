@@ -1,6 +1,6 @@
 //! Time steps beyond the stable one, and steps that do not follow the cells.
 
-use super::Preflight;
+use super::subject::Preflight;
 use crate::study::convergence::formal_order::in_time;
 use crate::suite::compile::path::Path;
 use crate::suite::model::method::Method;

@@ -44,8 +44,8 @@ fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
     read::<Head>(source, "").map(|head| head.study)
 }
 
-/// The convergence study that `source` holds, with `factor` times its amplitude: of the exact motion
-/// and of the initial state, not of loads.
+/// The convergence study that `source` holds, with `factor` times its amplitude: of the exact
+/// motion and of the initial state, not of loads.
 ///
 /// # Errors
 /// If the scaled motion is no solution, as where loads stay what they are.

@@ -1,6 +1,8 @@
 //! Expectations of a suite for a case, and their check.
 
+pub(crate) mod advice;
 pub(crate) mod limits;
+pub(crate) mod observed;
 pub(crate) mod proposal;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};

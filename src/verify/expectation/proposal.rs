@@ -5,22 +5,15 @@
 //! that the run only just meets: twice its uncertainty must fit between the observed order and
 //! either end.
 
+use super::advice::advice;
+use super::observed::{counted, is_inside, range, shown};
 use crate::named::named;
 use crate::verify::conservation::Conserved;
 use crate::verify::error::norm::larger;
 use crate::verify::order::axis::Axis;
-use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::format_number;
-use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::order::level::Level;
-use crate::verify::order::t_quantile::two_sided_95;
-use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::outcome::{Convergence, LevelOutcome};
-use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
-
-/// Share of the distance from the middle of an interval to its end that an order may take up.
-const COMFORTABLE: f64 = 0.75;
 
 /// A drift below this is rounding, which the sums of a run keep within a bound of their own.
 const ROUNDING: f64 = 1e-11;
@@ -32,15 +25,12 @@ const ROOM_OF_DRIFT: f64 = 30.0;
 /// Ratio of a proposed bound on an error to the largest that was found.
 const ROOM_OF_ERROR: f64 = 2.0;
 
-/// An interval of the order wider than this to each side gains from more levels.
-const WIDE: f64 = 0.03;
-
 named! {
     /// Where an expectation comes from.
     pub enum Ground {
         /// The formal order, or a conservation law.
         Theory = "theory",
-        /// What the run gave.
+        /// The figures of the run.
         Run = "the run",
     }
 }
@@ -63,12 +53,12 @@ pub struct Proposal {
     pub because: String,
     /// Verdict and figures of the run.
     pub seen: String,
-    /// What keeps it from a stronger claim, and what would make one.
+    /// Reasons why the claim is no stronger, and ways to a stronger one.
     pub stronger: Vec<String>,
 }
 
 /// The claim on the order, its ground and its reason.
-struct Claim {
+struct ProposedOrder {
     key: String,
     ground: Ground,
     because: String,
@@ -80,7 +70,7 @@ pub fn propose(study: &Convergence) -> Proposal {
     let is_claimed = claim.is_some();
     let mut keys = Vec::new();
     let because = match claim {
-        Some(Claim { key, ground, because }) => {
+        Some(ProposedOrder { key, ground, because }) => {
             keys.push(ProposedKey { text: key, ground });
             because
         }
@@ -98,7 +88,7 @@ pub fn propose(study: &Convergence) -> Proposal {
         keys.extend(error_bound(study).map(from_run));
     }
     keys.extend(drifts(study));
-    let stronger = if study.compared { stronger(study) } else { Vec::new() };
+    let stronger = if study.compared { advice(study) } else { Vec::new() };
     Proposal { keys, because, seen: seen(study), stronger }
 }
 
@@ -107,23 +97,19 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-fn shown(order: &Interval) -> String {
-    format!("{:.2} [{:.2}, {:.2}]", order.value, order.low, order.high)
-}
-
 /// The claim on the verdict, if the run gives one that a repetition would meet.
-fn claim(study: &Convergence) -> Option<Claim> {
+fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {
         Axis::Particles => "theory gives no order for particles per cell".to_owned(),
         axis => format!("theory gives the order {} in {}", format_number(formal), axis.name()),
     };
-    let verdict = |word: &str| Claim {
+    let verdict = |word: &str| ProposedOrder {
         key: format!("verdict: {word}"),
         ground: Ground::Run,
         because: format!("from the run; {theory}; say why this case differs, or mend the suite"),
     };
-    let within = |order: f64, ground, because| Claim {
+    let within = |order: f64, ground, because| ProposedOrder {
         key: format!("order: {}", range(order)),
         ground,
         because,
@@ -147,22 +133,6 @@ fn claim(study: &Convergence) -> Option<Claim> {
         Verdict::Failed => Some(verdict("failed")),
         Verdict::PreAsymptotic | Verdict::TooFewLevels => None,
     }
-}
-
-/// Whether the usual range about `order` holds the observed one with room to spare.
-fn is_inside(observed: &Interval, order: f64) -> bool {
-    let room = OrderHypothesis::TOLERANCE - (observed.value - order).abs();
-    let room = room.min(COMFORTABLE * OrderHypothesis::TOLERANCE);
-    2.0 * observed.half_width() <= room
-}
-
-fn range(order: f64) -> String {
-    let (low, high) = OrderHypothesis::formal(order).range();
-    format!("[{}, {}]", format_number(low), format_number(high))
-}
-
-fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
-    study.levels.iter().filter(|level| level.usable)
 }
 
 fn crossings(study: &Convergence) -> Option<String> {
@@ -217,101 +187,10 @@ fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     vec![ProposedKey { text: format!("drift: {{{}}}", bounds.join(", ")), ground }]
 }
 
-/// What would make a stronger claim: more levels, or another norm.
-fn stronger(study: &Convergence) -> Vec<String> {
-    let mut advice = Vec::new();
-    let usable = counted(study).count();
-    let Some(order) = study.judgement.order else {
-        if usable < FEWEST_LEVELS {
-            let more = FEWEST_LEVELS - usable;
-            advice.push(format!("levels: an order needs {FEWEST_LEVELS} that count, {more} more"));
-        }
-        return advice;
-    };
-    if study.verdict() == Verdict::Converging && study.axis != Axis::Particles {
-        let (formal, seen) = (range(study.formal_order), shown(&order));
-        if !is_inside(&order, study.formal_order) {
-            advice.push(format!("the order {seen} meets {formal} only just, and is not proposed"));
-        }
-    }
-    let points = study.judgement.window.as_ref().map_or(0, Vec::len);
-    if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // The same scatter about the line, with the spread of equal ratios: Sxx ~ n (n^2 - 1).
-        let width = |n: usize| {
-            let n_f = n as f64;
-            two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
-        };
-        let then = order.half_width() * width(points + 2) / width(points);
-        advice.push(format!(
-            "levels: two more would narrow the interval from -+ {:.2} to about -+ {then:.2}",
-            order.half_width()
-        ));
-    }
-    advice.extend(other_norm(study, &order));
-    advice
-}
-
-/// The norm in which the order is clearest, if that is another one than the judged, and by far.
-fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
-    const CLEARLY: f64 = 0.5;
-    if judged.half_width() <= WIDE {
-        return None;
-    }
-    let of = |norm: &str, level: &LevelOutcome| {
-        let (end, largest) = (&level.run.at_end, &level.run.largest);
-        match norm {
-            "l1" => end.l1,
-            "l2" => end.l2,
-            "linf" => end.linf,
-            "max_rms" => largest.rms,
-            "max_l1" => largest.l1,
-            "max_l2" => largest.l2,
-            "max_linf" => largest.linf,
-            _ => end.rms,
-        }
-    };
-    let norms = ["rms", "l1", "l2", "linf", "max_rms", "max_l1", "max_l2", "max_linf"];
-    let (formal_order, axis) = (study.formal_order, study.axis);
-    let order = |norm: &&'static str| {
-        let levels: Vec<Level> =
-            counted(study).map(|level| Level::new(level.spacing, of(norm, level))).collect();
-        let judgement = judge(&levels, &OrderHypothesis { formal_order, expected: None, axis });
-        let order = judgement.order.filter(|_| judgement.verdict == Verdict::Converging)?;
-        Some((*norm, order))
-    };
-    let (norm, order) = norms
-        .iter()
-        .filter(|norm| **norm != study.norm)
-        .filter_map(order)
-        .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
-    (order.half_width() <= CLEARLY * judged.half_width()).then(|| {
-        format!(
-            "norm: `judge: {{norm: {norm}}}` has the order {} on the same levels",
-            shown(&order)
-        )
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use rstest::rstest;
-
-    #[rstest]
-    #[case::clear(2.01, 0.01, true)]
-    #[case::only_just(2.08, 0.015, false)]
-    #[case::uncertain(2.0, 0.05, false)]
-    #[case::outside(2.11, 0.0, false)]
-    #[case::nan(f64::NAN, 0.0, false)]
-    #[case::no_interval(2.0, f64::NAN, false)]
-    fn no_interval_is_met_only_just(
-        #[case] value: f64,
-        #[case] half_width: f64,
-        #[case] is_met: bool,
-    ) {
-        let observed = Interval { value, low: value - half_width, high: value + half_width };
-        assert_eq!(is_inside(&observed, 2.0), is_met);
-    }
 
     #[rstest]
     #[case(1e-3, 1e-3)]

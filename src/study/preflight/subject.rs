@@ -1,0 +1,73 @@
+//! The study that rules speak of, and the places in its file.
+
+use super::extremes::Extremes;
+use crate::mpm::FrameName;
+use crate::suite::compile::path::Path;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::yaml::{Diagnostic, Severity, Source};
+use crate::verify::{Axis, Verdict};
+
+/// A convergence study before it runs.
+pub(crate) struct Preflight<'a> {
+    pub(crate) plan: &'a ConvergencePlan,
+    /// Extremes of the exact motion, where formulas give one and an order is claimed.
+    pub(crate) extremes: Option<Extremes>,
+    source: &'a Source,
+}
+
+impl<'a> Preflight<'a> {
+    /// The study, if it claims an order.
+    pub(crate) fn of_an_order_in(plan: &'a ConvergencePlan, source: &'a Source) -> Option<Self> {
+        let mut preflight = Self { plan, extremes: None, source };
+        preflight.of_an_order().next()?;
+        preflight.extremes = plan.exact.as_ref().map(Extremes::of);
+        Some(preflight)
+    }
+
+    /// Levels of the gate.
+    pub(crate) fn levels(&self) -> &[LevelPlan] {
+        self.plan.refine.levels(Extent::Usual)
+    }
+
+    /// Cases whose expectation is an order, stated or that of theory.
+    pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
+        let claims = |case: &&Case| match &case.expectation {
+            Some(expected) => expected.verdict == Some(Verdict::Converging),
+            None => case.against != Against::Nothing,
+        };
+        self.plan.cases.iter().filter(claims)
+    }
+
+    /// Where the sizes of the refined axis stand.
+    pub(crate) fn sizes(&self) -> Path {
+        Path::top("refine").then(match self.plan.refine.axis {
+            Axis::Space => "cells",
+            Axis::Time => "dt",
+            Axis::Particles => "ppc",
+        })
+    }
+
+    /// Where the exact motion stands.
+    pub(crate) fn motion(&self) -> Path {
+        let of = |key: &str| Path::top(key).then("displacement");
+        let keys = ["exact", "manufactured", "equilibrium"].map(of);
+        let stands = |path: &Path| self.source.value_at(path.steps()).is_some();
+        keys.into_iter().find(stands).unwrap_or_else(|| Path::top("exact"))
+    }
+
+    /// A finding about the value at `path`.
+    pub(crate) fn finding(&self, severity: Severity, path: &Path, message: &str) -> Diagnostic {
+        let diagnostic = match self.source.value_at(path.steps()) {
+            Some(place) => self.source.diagnostic(place, message),
+            None => Diagnostic::about(self.source.name(), message),
+        };
+        diagnostic.with_severity(severity)
+    }
+}
+
+/// Whether the particles of a case move through the grid.
+pub(crate) fn moves_on_grid(case: &Case) -> bool {
+    matches!(case.method, Method::Mpm { frame: FrameName::Updated, .. })
+}

@@ -1,0 +1,90 @@
+//! Advice on a claim: what keeps it from being stronger.
+
+use super::observed::{counted, is_inside, range, shown};
+use crate::verify::order::axis::Axis;
+use crate::verify::order::fit::Interval;
+use crate::verify::order::hypothesis::OrderHypothesis;
+use crate::verify::order::level::Level;
+use crate::verify::order::t_quantile::two_sided_95;
+use crate::verify::order::window::FEWEST_LEVELS;
+use crate::verify::outcome::{Convergence, LevelOutcome};
+use crate::verify::verdict::judge::judge;
+use crate::verify::verdict::name::Verdict;
+
+/// An interval of the order wider than this to each side gains from more levels.
+const WIDE: f64 = 0.03;
+
+/// The reasons why a claim is no stronger, and what would make it so: more levels, or another norm.
+pub(crate) fn advice(study: &Convergence) -> Vec<String> {
+    let mut advice = Vec::new();
+    let usable = counted(study).count();
+    let Some(order) = study.judgement.order else {
+        if usable < FEWEST_LEVELS {
+            let more = FEWEST_LEVELS - usable;
+            advice.push(format!("levels: an order needs {FEWEST_LEVELS} that count, {more} more"));
+        }
+        return advice;
+    };
+    if study.verdict() == Verdict::Converging && study.axis != Axis::Particles {
+        let (formal, seen) = (range(study.formal_order), shown(&order));
+        if !is_inside(&order, study.formal_order) {
+            advice.push(format!("the order {seen} meets {formal} only just, and is not proposed"));
+        }
+    }
+    let points = study.judgement.window.as_ref().map_or(0, Vec::len);
+    if order.half_width() > WIDE && points >= FEWEST_LEVELS {
+        // The same scatter about the line, with the spread of equal ratios: Sxx ~ n (n^2 - 1).
+        let width = |n: usize| {
+            let n_f = n as f64;
+            two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
+        };
+        let then = order.half_width() * width(points + 2) / width(points);
+        advice.push(format!(
+            "levels: two more would narrow the interval from -+ {:.2} to about -+ {then:.2}",
+            order.half_width()
+        ));
+    }
+    advice.extend(other_norm(study, &order));
+    advice
+}
+
+/// The norm in which the order is clearest, if that is another one than the judged, and by far.
+fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
+    const CLEARLY: f64 = 0.5;
+    if judged.half_width() <= WIDE {
+        return None;
+    }
+    let of = |norm: &str, level: &LevelOutcome| {
+        let (end, largest) = (&level.run.at_end, &level.run.largest);
+        match norm {
+            "l1" => end.l1,
+            "l2" => end.l2,
+            "linf" => end.linf,
+            "max_rms" => largest.rms,
+            "max_l1" => largest.l1,
+            "max_l2" => largest.l2,
+            "max_linf" => largest.linf,
+            _ => end.rms,
+        }
+    };
+    let norms = ["rms", "l1", "l2", "linf", "max_rms", "max_l1", "max_l2", "max_linf"];
+    let (formal_order, axis) = (study.formal_order, study.axis);
+    let order = |norm: &&'static str| {
+        let levels: Vec<Level> =
+            counted(study).map(|level| Level::new(level.spacing, of(norm, level))).collect();
+        let judgement = judge(&levels, &OrderHypothesis { formal_order, expected: None, axis });
+        let order = judgement.order.filter(|_| judgement.verdict == Verdict::Converging)?;
+        Some((*norm, order))
+    };
+    let (norm, order) = norms
+        .iter()
+        .filter(|norm| **norm != study.norm)
+        .filter_map(order)
+        .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
+    (order.half_width() <= CLEARLY * judged.half_width()).then(|| {
+        format!(
+            "norm: `judge: {{norm: {norm}}}` has the order {} on the same levels",
+            shown(&order)
+        )
+    })
+}
