@@ -181,7 +181,7 @@ impl CaseOutcome {
         }
     }
 
-    /// What is expected and why, in one line.
+    /// The expectation and its reason, in one line.
     pub fn expectation(&self) -> String {
         match &self.expected {
             Some(expected) => format!("{expected}, because {}", self.because),

@@ -61,7 +61,7 @@ pub struct Diagnosis {
     pub finest: Judgement,
     /// Levels that are run again, by name.
     pub levels: Vec<String>,
-    /// A function with a kink that the exact solution calls: theory's order is that of a smooth one.
+    /// A function with a kink that the exact solution calls: theory's order is for smooth ones.
     pub kink: Option<&'static str>,
     /// The runs that change one thing.
     pub runs: Vec<ChangedRun>,
