@@ -80,6 +80,9 @@ pub(super) struct ExplainArgs {
     /// Say what a step would no longer take without this effect of the scene
     #[arg(long, value_name = "EFFECT")]
     pub(super) without: Option<String>,
+    /// Draw the scene of one suite into this file (SVG), and print nothing
+    #[arg(long, value_name = "FILE")]
+    pub(super) sketch: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -1,13 +1,18 @@
 //! `mpm-verify explain`: the problem, what a step of each case takes, and what is expected.
 
 use super::args::ExplainArgs;
-use super::status::BAD_INPUT;
-use super::{output, show};
+use super::status::{BAD_INPUT, PASSED};
+use super::{output, select, show};
 use mpm_verify::nearest;
 use mpm_verify::report;
 use mpm_verify::study;
+use mpm_verify::study::Estimate;
+use mpm_verify::study::describe::level_list::{PlannedLevel, planned_levels};
 use mpm_verify::study::describe::profiles::Dispensable;
+use mpm_verify::study::describe::sketch::{sketch_svg, sketch_text};
 use mpm_verify::suite::Suite;
+use std::fs;
+use std::path::Path;
 
 /// Prints the page of each suite.
 pub(super) fn explain(args: &ExplainArgs) -> u8 {
@@ -18,7 +23,32 @@ pub(super) fn explain(args: &ExplainArgs) -> u8 {
             return BAD_INPUT;
         }
     };
+    if let Some(file) = &args.sketch {
+        return draw(args, file);
+    }
     show::each(&args.targets.targets, |suite| explanation(suite, without))
+}
+
+/// Writes the sketch of the only suite that is named into `file`.
+fn draw(args: &ExplainArgs, file: &Path) -> u8 {
+    let mut suites = select::suites(&args.targets.targets);
+    let drawn = match (suites.pop(), suites.is_empty()) {
+        (Some(Ok(suite)), true) => sketch_svg(&suite)
+            .ok_or_else(|| format!("error: --sketch: `{}` has no levels to draw", suite.name))
+            .and_then(|svg| {
+                let failed = |error| format!("error: --sketch {}: {error}", file.display());
+                fs::write(file, svg).map_err(failed)
+            }),
+        (Some(Err(diagnostic)), true) => Err(diagnostic.to_string()),
+        _ => Err("error: --sketch: name one suite".to_owned()),
+    };
+    match drawn {
+        Ok(()) => PASSED,
+        Err(message) => {
+            output::complain(&message);
+            BAD_INPUT
+        }
+    }
 }
 
 fn named(name: &str) -> Result<Dispensable, String> {
@@ -35,6 +65,18 @@ fn named(name: &str) -> Result<Dispensable, String> {
 
 fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());
+    for (row, text) in sketch_text(suite).iter().enumerate() {
+        page += &line(if row == 0 { "sketch" } else { "" }, text);
+    }
+    page += &levels(suite);
+    if let Some(cost) = study::estimate(suite) {
+        let Estimate { particle_steps, seconds, bytes } = cost;
+        let mb = bytes / 1e6;
+        let text = format!(
+            "{particle_steps:.0e} particle steps, about {seconds:.0e} s of one thread; {mb:.0e} MB"
+        );
+        page += &line("cost", &text);
+    }
     page += &line("source", &suite.source);
     for (key, value) in study::statement(suite) {
         page += &line(&key, &value);
@@ -48,6 +90,32 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
         page += &taken(suite, case, without);
     }
     page + "\n"
+}
+
+/// The levels, once for all cases that have the same.
+fn levels(suite: &Suite) -> String {
+    let mut page = String::new();
+    let planned = planned_levels(suite);
+    let mut groups: Vec<(Vec<&str>, &[PlannedLevel])> = Vec::new();
+    for (case, levels) in &planned {
+        match groups.iter_mut().find(|(_, known)| known == levels) {
+            Some((cases, _)) => cases.push(case),
+            None => groups.push((vec![case], levels)),
+        }
+    }
+    for (cases, levels) in &groups {
+        let whose = if groups.len() == 1 { "all cases".to_owned() } else { cases.join(", ") };
+        page += &line("levels", &whose);
+        page += &line("", "  cells      h (m)  particles     dt (s)    steps  Courant number");
+        for level in *levels {
+            let PlannedLevel { cells, h, particles, dt, steps, courant } = level;
+            let text = format!(
+                "{cells:>7} {h:>10.4e} {particles:>10.0} {dt:>10.4e} {steps:>8} {courant:>8.4}"
+            );
+            page += &line("", &text);
+        }
+    }
+    page
 }
 
 fn line(key: &str, value: &str) -> String {

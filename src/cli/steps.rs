@@ -26,7 +26,8 @@ fn beyond(step: &TimeStep) -> bool {
 }
 
 fn row(step: &TimeStep) -> String {
-    let TimeStep { case, cells, wanted, clock } = step;
+    let TimeStep { case, level, wanted, clock } = step;
+    let cells = level.cells;
     let note = if beyond(step) { "  off by more than 1 %" } else { "" };
     format!(
         "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} of {wanted:.4e} s, {} instants{note}\n",

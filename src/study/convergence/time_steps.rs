@@ -1,7 +1,7 @@
 //! The time steps that a suite asks for, beside those that its runs take.
 
 use super::stable_step::StableSteps;
-use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::Clock;
 
@@ -10,8 +10,8 @@ use crate::verify::Clock;
 pub struct TimeStep {
     /// Name of the case.
     pub case: String,
-    /// Cells of the level.
-    pub cells: u64,
+    /// The level.
+    pub level: LevelPlan,
     /// Step that the suite asks for (s).
     pub wanted: f64,
     /// Steps that are taken.
@@ -35,8 +35,8 @@ pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
         for level in plan.refine.levels(extent) {
             let Ok((level, _)) = steps.of(plan, case, *level) else { continue };
             let Some(clock) = case.clock(plan, level.dt) else { continue };
-            let (case, cells, wanted) = (case.name.clone(), level.cells, level.dt);
-            found.push(TimeStep { case, cells, wanted, clock });
+            let (case, wanted) = (case.name.clone(), level.dt);
+            found.push(TimeStep { case, level, wanted, clock });
         }
     }
     found

@@ -2,5 +2,7 @@
 
 pub(crate) mod amplitude;
 pub(crate) mod heat;
+pub mod level_list;
 pub mod profiles;
+pub mod sketch;
 pub(crate) mod statement;

@@ -82,3 +82,30 @@ fn an_effect_that_is_not_known(#[case] name: &str, #[case] hint: &str) {
     assert!(found.errors.contains("there is no such effect"), "{}", found.errors);
     assert!(found.errors.contains(hint), "{}", found.errors);
 }
+
+#[test]
+fn what_a_mechanician_looks_for_comes_first() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let found = folder.call(&["explain", "bar.yaml"]);
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    for words in [
+        "sketch            ################",
+        "grid from 0.0000 to ",
+        "left: fixed; right: free",
+        "levels            mpm-linear-flip-musl",
+        "  cells      h (m)  particles     dt (s)    steps  Courant number",
+        "12 8.3333e-2         48  1.0000e-3       50   0.1200",
+        "particle steps, about",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    let sketch = found.out.find("sketch").expect("a sketch");
+    assert!(sketch < found.out.find("source").expect("a source"));
+    let drawn = folder.call(&["explain", "bar.yaml", "--sketch", "bar.svg"]);
+    assert_eq!((drawn.code, drawn.out.as_str()), (SOUND, ""), "{}", drawn.errors);
+    let svg = folder.read("bar.svg");
+    assert!(svg.starts_with("<svg ") && svg.contains("left: fixed"), "{svg}");
+    let none = folder.call(&["explain", "courant-limit", "--sketch", "x.svg"]);
+    assert!(none.code != SOUND && none.errors.contains("has no levels to draw"));
+}
