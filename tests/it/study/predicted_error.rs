@@ -48,7 +48,8 @@ fn of_the_finest(
         return None;
     }
     let (formal_order, axis) = (study.formal_order, study.axis);
-    let hypothesis = OrderHypothesis { formal_order, expected: own.expectation.order, axis };
+    let expected = own.expectation.as_ref().and_then(|expectation| expectation.order);
+    let hypothesis = OrderHypothesis { formal_order, expected, axis };
     let levels = coarser.iter().map(|level| {
         let judged = Level::new(level.spacing, level.error);
         if level.usable { judged } else { judged.unusable() }
