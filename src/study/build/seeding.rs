@@ -1,8 +1,9 @@
 //! Bodies filled with particles, see [`lattice`](crate::suite::model::lattice).
 
+use crate::exact::Random;
 use crate::mpm::{Particles, Vector};
 use crate::suite::model::Scene;
-use crate::suite::model::lattice::block;
+use crate::suite::model::lattice::{Scatter, block};
 use crate::suite::model::stability::LatticeEdits;
 
 /// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
@@ -27,6 +28,15 @@ impl LatticeEdits {
             |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));
         let shift = vector(&self.shift);
         particles.x0.iter_mut().for_each(|x| *x += shift);
+        if !self.scatter.is_none() {
+            let Scatter { shift, perturb, seed } = &self.scatter;
+            let (shift, spacing) = (vector(shift), particles.spacing);
+            let mut random = Random::new(*seed);
+            for x in &mut particles.x0 {
+                let mut share = |axis: usize| shift[axis] + perturb * random.between(-1.0, 1.0);
+                *x += Vector::from_fn(|axis, _| share(axis) * spacing[axis]);
+            }
+        }
         for place in &self.extra {
             particles.add(vector(place));
         }

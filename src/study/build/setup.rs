@@ -42,7 +42,7 @@ impl<'a> Body<'a> {
             manufactured: plan.manufactured(),
             heat: plan.heat_problem(),
             keeps_deformation: plan.of.needs_deformation_gradient(),
-            lattice: LatticeEdits::default(),
+            lattice: LatticeEdits { scatter: plan.scatter.clone(), ..LatticeEdits::default() },
         }
     }
 }

@@ -5,7 +5,8 @@ use crate::study::describe::heat;
 use crate::study::describe::statement::{Rows, push, scene};
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::compile::wording::shown;
-use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::model::lattice::Scatter;
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::verify::Axis;
 
@@ -39,7 +40,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         let text = format!("the same method, started half a step back, with dt = {} s", shown(dt));
         push(&mut rows, "reference", &text);
     }
-    refinement(&plan.refine, plan.instants, &mut rows);
+    refinement(plan, &mut rows);
     if !conservation_only::is_truthless(plan) {
         push(&mut rows, "judged", &judged(plan));
     }
@@ -53,7 +54,8 @@ fn judged(plan: &ConvergencePlan) -> String {
 }
 
 /// Time steps and particles; and cells, where it is not they that are refined.
-fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
+fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
+    let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
         let mut texts: Vec<String> =
             levels.iter().filter_map(of).map(|count| count.to_string()).collect();
@@ -76,7 +78,8 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
     push(rows, "dt", &format!("{dt}, to a whole number of steps"));
     push(rows, "instants", &format!("{instants}"));
     if plan.has_particles() {
-        push(rows, "particles", &format!("{} per cell, equally spaced", ppc(usual)));
+        let placed = placed(&study.scatter);
+        push(rows, "particles", &format!("{} per cell, {placed}", ppc(usual)));
     }
     let full = match plan.axis {
         _ if further.is_empty() => String::new(),
@@ -85,6 +88,20 @@ fn refinement(plan: &RefinePlan, instants: u64, rows: &mut Rows) {
         Axis::Particles => format!("{} particles per cell", ppc(further)),
     };
     push(rows, "--full adds", &full);
+}
+
+/// Places of the particles, in words.
+fn placed(scatter: &Scatter) -> String {
+    let Scatter { shift, perturb, seed } = scatter;
+    if scatter.is_none() {
+        return "equally spaced".to_owned();
+    }
+    let shares: Vec<String> = shift.iter().map(|share| shown(*share)).collect();
+    let shifted = (!shares.is_empty()).then(|| format!("shifted by ({})", shares.join(", ")));
+    let perturbed = (*perturb > 0.0)
+        .then(|| format!("moved at random by up to {} (seed {seed})", shown(*perturb)));
+    let both: Vec<String> = [shifted, perturbed].into_iter().flatten().collect();
+    format!("{} of their spacing", both.join(" and "))
 }
 
 /// Rows of one case.

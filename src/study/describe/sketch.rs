@@ -6,7 +6,7 @@ use crate::suite::model::grid_size::grid_axis;
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 
-/// Characters along the first axis, and at most along the second.
+/// Most characters along the first axis, and along the second.
 const COLUMNS: usize = 60;
 const ROWS: usize = 14;
 
@@ -78,15 +78,16 @@ fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
 pub fn sketch_text(suite: &Suite) -> Vec<String> {
     let Some(view) = View::of(suite) else { return Vec::new() };
     let size = [view.to[0] - view.from[0], view.to[1] - view.from[1]];
-    let rows = if view.scene.dimension() == 1 {
-        1
-    } else {
-        let rows = ASPECT * COLUMNS as f64 * size[1] / size[0];
-        (libm::round(rows) as usize).clamp(1, ROWS)
+    let whole = |number: f64, most: usize| (libm::round(number) as usize).clamp(1, most);
+    let ratio = ASPECT * size[1] / size[0];
+    let (columns, rows) = match view.scene.dimension() {
+        1 => (COLUMNS, 1),
+        _ if ratio * COLUMNS as f64 > ROWS as f64 => (whole(ROWS as f64 / ratio, COLUMNS), ROWS),
+        _ => (COLUMNS, whole(ratio * COLUMNS as f64, ROWS)),
     };
     let several = view.scene.bodies.len() > 1;
     let character = |column: usize, row: usize| {
-        let x = view.from[0] + size[0] * (column as f64 + 0.5) / COLUMNS as f64;
+        let x = view.from[0] + size[0] * (column as f64 + 0.5) / columns as f64;
         let y = view.to[1] - size[1] * (row as f64 + 0.5) / rows as f64;
         match view.body_at(x, y) {
             None => '.',
@@ -95,7 +96,7 @@ pub fn sketch_text(suite: &Suite) -> Vec<String> {
         }
     };
     let mut lines: Vec<String> =
-        (0..rows).map(|row| (0..COLUMNS).map(|column| character(column, row)).collect()).collect();
+        (0..rows).map(|row| (0..columns).map(|column| character(column, row)).collect()).collect();
     let coordinates = |at: [f64; 2]| match view.scene.dimension() {
         1 => format!("{:.4}", at[0]),
         _ => format!("({:.4}, {:.4})", at[0], at[1]),

@@ -9,6 +9,9 @@ use crate::verify::Axis;
 /// Share of the error of the cells from which on another one bends its order.
 const SEEN: f64 = 0.3;
 
+/// Share from which on a few refinements more will show it.
+const SOON: f64 = 0.003;
+
 /// Estimated error (m) of a truth of small strain, and the largest strain.
 ///
 /// The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
@@ -23,7 +26,7 @@ pub(crate) fn small_strain_error(preflight: &Preflight<'_>, until: f64) -> Optio
 }
 
 /// Says how large the error is that a truth of small strain leaves, and from which level on it
-/// shows: as a warning, if an order is claimed of that level.
+/// shows: a warning, if that is one of the suite's, and a note, if it is soon to come.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let finite =
         |case: &&Case| matches!(case.method, Method::Mpm { .. }) && case.against == Against::Exact;
@@ -39,9 +42,17 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     // Interpolation by linear functions: h^2/8 times the second derivative.
     let of_cells = |h: f64| 0.125 * h * h * curvature;
     let shows = preflight.levels().iter().find(|level| left > SEEN * of_cells(level.h));
-    let (severity, level) = match shows {
-        Some(level) => (Severity::Warning, format!("shows from about {} cells on", level.cells)),
-        None => (Severity::Note, "is below that of the cells on every level".to_owned()),
+    let (severity, level) = match (shows, preflight.levels().last()) {
+        (Some(level), _) => {
+            (Severity::Warning, format!("shows from about {} cells on", level.cells))
+        }
+        (None, Some(finest)) if left > SOON * of_cells(finest.h) => {
+            let times = (SEEN * of_cells(finest.h) / left).sqrt();
+            let cells = format!("{:.0e}", times * finest.cells as f64);
+            let cells: f64 = cells.parse().unwrap_or(f64::NAN);
+            (Severity::Note, format!("will show from about {cells} cells on"))
+        }
+        _ => return Vec::new(),
     };
     let message = format!(
         "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e} \

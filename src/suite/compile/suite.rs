@@ -5,7 +5,7 @@ use super::check::{fem_support, size, subject_support};
 use super::evaluator::{DeclaredParameter, Evaluator};
 use super::load::{LoadEntry, LoadSpec, StudyFacts};
 use super::path::Path;
-use super::run::{cases, refine, steps};
+use super::run::{cases, refine, scatter, steps};
 use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, law};
@@ -96,6 +96,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
+    let scatter = scatter::scatter(&evaluator, &spec, &scene)?;
     let mut plan = ConvergencePlan {
         observe: observe.transpose()?,
         scene,
@@ -104,6 +105,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         reference,
         same_method_dt,
         refine,
+        scatter,
         instants,
         norm: spec.judge.norm,
         of: spec.judge.of,

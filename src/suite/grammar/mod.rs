@@ -17,7 +17,7 @@ pub(crate) mod truth;
 pub(crate) use drift::DriftSpec;
 pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
-pub(crate) use refine::{RefineSpec, RunSpec};
+pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
 pub(crate) use sample::read;
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
@@ -57,6 +57,7 @@ pub(crate) struct ConvergenceSpec {
     pub(crate) reference: Option<ReferenceSpec>,
     pub(crate) run: RunSpec,
     pub(crate) refine: RefineSpec,
+    pub(crate) particles: Option<ScatterSpec>,
     pub(crate) methods: Vec<MethodSpec>,
     #[serde(default)]
     pub(crate) judge: JudgeSpec,

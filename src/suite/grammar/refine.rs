@@ -23,3 +23,14 @@ pub(crate) struct RefineSpec {
     /// Finer levels of the list, for full runs only.
     pub(crate) full: Option<OneOrMany<NumberText>>,
 }
+
+/// Places of particles beside their lattice, in shares of their spacing.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ScatterSpec {
+    /// Translation of all particles along each axis.
+    pub(crate) shift: Option<Vec<NumberText>>,
+    /// Largest random displacement of each along an axis.
+    pub(crate) perturb: Option<NumberText>,
+    pub(crate) seed: Option<NumberText>,
+}

@@ -11,6 +11,24 @@ use super::grid_size::grid_axis;
 use crate::dimension::with_dimension;
 use crate::mpm::{Block, Vector};
 
+/// Places of particles beside their lattice, in shares of their spacing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Scatter {
+    /// Translation of all, a share for each axis; empty: none.
+    pub shift: Vec<f64>,
+    /// Largest random displacement of each along an axis.
+    pub perturb: f64,
+    /// Seed of the random displacements.
+    pub seed: u64,
+}
+
+impl Scatter {
+    /// Whether particles stay on the lattice.
+    pub fn is_none(&self) -> bool {
+        self.perturb == 0.0 && self.shift.iter().all(|share| *share == 0.0)
+    }
+}
+
 /// The box that is filled: the body's own or, around a round body, whole cells of the grid that
 /// starts at `origin`.
 pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {

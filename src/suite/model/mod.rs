@@ -16,6 +16,7 @@ pub(crate) mod study_plan;
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use scene::{Scene, SceneFace};
 
+use self::lattice::Scatter;
 use self::method::Method;
 use self::refine_plan::RefinePlan;
 use self::study_plan::StudyPlan;
@@ -64,6 +65,8 @@ pub struct ConvergencePlan {
     pub same_method_dt: Option<f64>,
     /// The levels of refinement.
     pub refine: RefinePlan,
+    /// Places of particles beside the lattice.
+    pub scatter: Scatter,
     /// Instants at which the error is taken.
     pub instants: u64,
     /// The error that is judged.

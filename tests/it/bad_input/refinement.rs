@@ -103,3 +103,28 @@ const NO_STEP: &str = ", instants";
 fn a_plan_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
 }
+
+#[rstest]
+#[case::beyond_the_middle(
+    &[("refine:", "particles: ▸{shift: [0.4], perturb: 0.2}\nrefine:")],
+    &["particles are moved by up to 0.6", "expected at most 0.5"]
+)]
+#[case::a_seed_of_nothing(
+    &[("refine:", "particles: {shift: [0.1], ▸seed: 3}\nrefine:")],
+    &["nothing here is random", "add `perturb: 0.2`"]
+)]
+#[case::nothing_moved(
+    &[("refine:", "▸particles: {shift: [0]}\nrefine:")],
+    &["this moves no particle"]
+)]
+#[case::a_shift_in_the_plane(
+    &[("refine:", "particles: {shift: ▸[0.1, 0.1]}\nrefine:")],
+    &["2 components in a scene of dimension 1"]
+)]
+#[case::not_a_number(
+    &[("refine:", "particles: {perturb: ▸-0.1}\nrefine:")],
+    &["the share of the spacing"]
+)]
+fn particles_off_their_lattice(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}

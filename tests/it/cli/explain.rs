@@ -93,7 +93,7 @@ fn what_a_mechanician_looks_for_comes_first() {
         "sketch            ################",
         "grid from 0.0000 to ",
         "left: fixed; right: free",
-        "levels            mpm-linear-flip-musl",
+        "levels            all cases",
         "  cells      h (m)  particles     dt (s)    steps  Courant number",
         "12 8.3333e-2         48  1.0000e-3       50   0.1200",
         "particle steps, about",

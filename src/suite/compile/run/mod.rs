@@ -3,5 +3,6 @@
 pub(crate) mod cases;
 pub(crate) mod methods;
 pub(crate) mod refine;
+pub(crate) mod scatter;
 pub(crate) mod step_rule;
 pub(crate) mod steps;

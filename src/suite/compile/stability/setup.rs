@@ -177,7 +177,7 @@ fn lattice(
         }
         extra.push(place);
     }
-    Ok(LatticeEdits { shift: shift.unwrap_or_default(), extra })
+    Ok(LatticeEdits { shift: shift.unwrap_or_default(), extra, ..LatticeEdits::default() })
 }
 
 fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, Diagnostic> {

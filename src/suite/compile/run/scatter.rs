@@ -1,0 +1,57 @@
+//! Particles beside their lattice.
+
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{ConvergenceSpec, ScatterSpec};
+use crate::suite::model::Scene;
+use crate::suite::model::lattice::Scatter;
+use crate::suite::yaml::{Diagnostic, NumberText};
+
+/// Share of the spacing by which a particle may be moved: the middle between two of them.
+const MOST: f64 = 0.5;
+
+/// The seed of a suite that states none.
+const SEED: u64 = 1;
+
+/// Places of particles as the suite states them.
+pub(crate) fn scatter(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<Scatter, Diagnostic> {
+    let Some(ScatterSpec { shift, perturb, seed }) = &spec.particles else {
+        return Ok(Scatter::default());
+    };
+    let path = Path::top("particles");
+    let is_box = |body: &Scene| body.round.is_none() && body.quadrilateral.is_none();
+    if !scene.each().iter().all(is_box) {
+        let message = "particles are moved off the lattice of a box, and this body is none";
+        return Err(evaluator.diagnostic_at_key(&path, message));
+    }
+    let numbers =
+        |texts: &[NumberText]| evaluator.point(&path.then("shift"), texts, scene.dimension());
+    let shift = shift.as_deref().map(numbers).transpose()?.unwrap_or_default();
+    let at = path.then("perturb");
+    let number = |text: &NumberText| evaluator.positive(&at, text, "the share of the spacing");
+    let perturb = perturb.as_ref().map(number).transpose()?.unwrap_or(0.0);
+    let at = path.then("seed");
+    let count = |text: &NumberText| evaluator.count(&at, text, "the seed");
+    if seed.is_some() && perturb == 0.0 {
+        let diagnostic = evaluator.diagnostic_at_key(&at, "nothing here is random");
+        return Err(diagnostic.with_help("add `perturb: 0.2`, or remove the seed"));
+    }
+    let seed = seed.as_ref().map(count).transpose()?.unwrap_or(SEED);
+    let furthest = shift.iter().fold(0.0_f64, |most, share| most.max(share.abs())) + perturb;
+    if !(furthest <= MOST) {
+        let message = format!("particles are moved by up to {} of their spacing", shown(furthest));
+        let label = format!("expected at most {MOST}, so that they stay in the body and apart");
+        return Err(evaluator.diagnostic(&path, &message).with_label(&label));
+    }
+    let scatter = Scatter { shift, perturb, seed };
+    if scatter.is_none() {
+        let diagnostic = evaluator.diagnostic_at_key(&path, "this moves no particle");
+        return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
+    }
+    Ok(scatter)
+}
