@@ -17,7 +17,6 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("run", "{until: 1, dt: 1e-3}"),
     ("refine", "{cells: [8, 16, 32, 64], ppc: 4}"),
     ("methods", "[{mpm: {basis: linear, transfer: flip, scheme: musl}}]"),
-    ("expect", "[{order: [1.9, 2.1], because: theory says so}]"),
     ("because", "theory says so"),
     // A scene.
     ("dimension", "1"),
@@ -64,7 +63,6 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("at", "[0.5]"),
     // A stability study.
     ("stability.run", "{dt: 1e-3, steps: 1000}"),
-    ("stability.expect", "[{verdict: stable, because: theory says so}]"),
     ("particles", "{cells: 16, ppc: 4}"),
     ("ppc", "4"),
     ("steps", "1000"),
@@ -78,7 +76,6 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
         "{cell: 1, ppc: 4, volume: 0.25, stress: 1, positions: 16, prediction: n_left - n_right}",
     ),
     ("internal_force.methods", "[{mpm: {basis: linear}}]"),
-    ("internal_force.expect", "[{agrees_within: 1e-12, because: theory says so}]"),
     ("cell", "1"),
     ("volume", "0.25"),
     ("stress", "1"),
