@@ -95,7 +95,7 @@ fn what_a_mechanician_looks_for_comes_first() {
         "left: fixed; right: free",
         "levels            all cases",
         "  cells      h (m)  particles     dt (s)    steps  Courant number",
-        "12 8.3333e-2         48  1.0000e-3       50   0.1200",
+        "12  8.3333e-2         48  1.0000e-3       50   0.1200",
         "particle steps, about",
     ] {
         assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
