@@ -59,6 +59,9 @@ pub(super) struct CheckArgs {
     /// Exit status 1 if there are warnings
     #[arg(long)]
     pub(super) strict: bool,
+    /// Check again whenever one of the files changes, until Ctrl-C
+    #[arg(long)]
+    pub(super) watch: bool,
 }
 
 #[derive(Debug, Args)]
@@ -149,6 +152,9 @@ pub(super) struct RunArgs {
     /// Threads to use; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N")]
     pub(super) jobs: Option<usize>,
+    /// Run again whenever one of the files changes, until Ctrl-C
+    #[arg(long)]
+    pub(super) watch: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

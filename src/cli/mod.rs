@@ -14,6 +14,7 @@ mod select;
 mod show;
 mod status;
 mod steps;
+mod watch;
 
 use args::{Cli, Command};
 use clap::Parser;

@@ -2,7 +2,7 @@
 
 use super::args::{Format, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, page, select};
+use super::{output, page, select, watch};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::report;
 use mpm_verify::study::{ResultCache, Runner};
@@ -13,13 +13,19 @@ use std::path::Path;
 use std::time::Duration;
 use std::{fs, io};
 
-/// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
-/// if something later cannot be used.
+/// Runs suites, once or whenever their files change.
 pub(super) fn run(args: &RunArgs) -> u8 {
+    // The threads can be made only once.
     if let Err(message) = threads(args.jobs) {
         output::complain(&message);
         return BAD_INPUT;
     }
+    if args.watch { watch::repeat(&args.targets.targets, || all(args)) } else { all(args) }
+}
+
+/// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
+/// if something later cannot be used.
+fn all(args: &RunArgs) -> u8 {
     if let Err(message) = args.out.as_deref().map_or(Ok(()), prepare) {
         output::complain(&message);
         return BAD_INPUT;
@@ -160,7 +166,7 @@ fn unwritable(folder: &Path, error: &io::Error) -> String {
 /// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
 fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
     let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
-    let all = || -> io::Result<()> {
+    let every_file = || -> io::Result<()> {
         save("report.json", &report::json(outcomes))?;
         for outcome in outcomes {
             save(&format!("{}.txt", outcome.suite), &report::text(outcome))?;
@@ -170,5 +176,5 @@ fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
         }
         Ok(())
     };
-    all().map_err(|error| unwritable(folder, &error))
+    every_file().map_err(|error| unwritable(folder, &error))
 }

@@ -43,24 +43,51 @@ fn everything() -> Sources {
     }
 }
 
-fn sources(target: &Path) -> Sources {
-    if target.is_dir() {
-        return files_in(target);
+/// Files and folders that `targets` name: what can change.
+///
+/// # Errors
+/// If one of them names no file: a suite that is built in, or none.
+pub(super) fn places(targets: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostic> {
+    if targets.is_empty() {
+        let folder = Path::new(FOLDER);
+        let message = format!("there is no folder `{FOLDER}/` to watch");
+        let help = "name a file or a folder: suites that are built in do not change";
+        let found = folder.is_dir().then(|| vec![folder.to_path_buf()]);
+        return found.ok_or_else(|| Diagnostic::about("--watch", &message).with_help(help));
     }
+    targets.iter().map(|target| place(target).ok_or_else(|| no_file(target))).collect()
+}
+
+fn no_file(target: &Path) -> Diagnostic {
+    let name = target.to_string_lossy();
+    if embedded::source(&name).is_none() {
+        return unknown(&name);
+    }
+    let message = format!("`{name}` is built in: there is no file to watch");
+    Diagnostic::about("--watch", &message).with_help("name a file or a folder")
+}
+
+/// File or folder that `target` names, there or not; none for a name alone.
+fn place(target: &Path) -> Option<PathBuf> {
     let name = target.to_string_lossy();
     let looks_like_a_path = target.extension().is_some() || name.contains(['/', '\\']);
-    if target.exists() {
-        return vec![Source::read(target)];
+    if target.exists() || looks_like_a_path {
+        return Some(target.to_path_buf());
     }
-    if looks_like_a_path {
-        let help = meant_by_path(target);
-        return vec![Source::read(target).map_err(|diagnostic| diagnostic.with_help(&help))];
+    Some(Path::new(FOLDER).join(format!("{name}.yaml"))).filter(|local| local.is_file())
+}
+
+fn sources(target: &Path) -> Sources {
+    let name = target.to_string_lossy();
+    match place(target) {
+        Some(folder) if folder.is_dir() => files_in(&folder),
+        Some(file) if file.exists() => vec![Source::read(file)],
+        Some(file) => {
+            let help = meant_by_path(&file);
+            vec![Source::read(file).map_err(|diagnostic| diagnostic.with_help(&help))]
+        }
+        None => vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))],
     }
-    let local = Path::new(FOLDER).join(format!("{name}.yaml"));
-    if local.is_file() {
-        return vec![Source::read(local)];
-    }
-    vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))]
 }
 
 /// Meaning of the path of a file that is not there: a file beside it, or a suite by its name.
@@ -122,7 +149,7 @@ fn files_in(folder: &Path) -> Sources {
 }
 
 /// Every `.yaml` file of a folder, sorted by name.
-fn suite_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+pub(super) fn suite_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     let mut files: Vec<PathBuf> =
         paths.filter(|path| path.extension().is_some_and(|e| e == "yaml" || e == "yml")).collect();

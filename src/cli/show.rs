@@ -2,7 +2,7 @@
 
 use super::args::CheckArgs;
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, select};
+use super::{output, select, watch};
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
@@ -18,9 +18,14 @@ pub(super) fn list(targets: &[PathBuf]) -> u8 {
     })
 }
 
+/// Checks suites, once or whenever their files change.
+pub(super) fn check(args: &CheckArgs) -> u8 {
+    if args.watch { watch::repeat(&args.targets.targets, || all(args)) } else { all(args) }
+}
+
 /// Says of every suite that it is sound, or what is wrong with it, and warns of what will not do
 /// what it seems to.
-pub(super) fn check(args: &CheckArgs) -> u8 {
+fn all(args: &CheckArgs) -> u8 {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
     let mut names: BTreeMap<String, String> = BTreeMap::new();

@@ -12,6 +12,7 @@ mod page;
 mod plans;
 mod run;
 mod steps;
+mod watch;
 
 use folder::Folder;
 use rstest::rstest;
