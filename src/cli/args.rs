@@ -1,5 +1,6 @@
 //! The words of the command line.
 
+use super::new::args::NewArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use mpm_verify::report::compare;
 use std::path::PathBuf;
@@ -19,6 +20,8 @@ pub(super) enum Command {
     /// Run suites and judge them (the default); exit status 1 if an expectation is not met, 2 on
     /// bad input
     Run(RunArgs),
+    /// Write a suite that runs; what no option says is asked for, if a terminal is there to answer
+    New(NewArgs),
     /// List suites and their cases
     List(Targets),
     /// Validate suites without running them: grammar, formulas, the truth itself, and whether the

@@ -1,11 +1,12 @@
-//! `mpm-verify`: run, list, check and explain suites, propose expectations, compare runs, and what
-//! accuracy costs.
+//! `mpm-verify`: write, run, list, check and explain suites, propose expectations, compare runs,
+//! and what accuracy costs.
 
 mod args;
 mod compare;
 mod cost;
 mod diagnose;
 mod explain;
+mod new;
 mod output;
 mod page;
 mod propose;
@@ -26,6 +27,7 @@ pub(crate) fn main() -> ExitCode {
     let code = match cli.command {
         None => run::run(&cli.run),
         Some(Command::Run(args)) => run::run(&args),
+        Some(Command::New(args)) => new::new(&args),
         Some(Command::List(args)) => show::list(&args.targets),
         Some(Command::Check(args)) => show::check(&args),
         Some(Command::Explain(args)) => explain::explain(&args),

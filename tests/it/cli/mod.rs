@@ -8,6 +8,7 @@ mod explore;
 mod folder;
 mod hostile;
 mod json;
+mod new;
 mod page;
 mod plans;
 mod run;

@@ -1,0 +1,155 @@
+//! `new`: suites that run as they are written.
+
+use super::{BAD_INPUT, Folder, SOUND};
+use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
+use rstest::rstest;
+use serde_json::Value;
+
+#[rstest]
+fn a_new_suite_is_sound_and_shows_an_order(
+    #[values("1", "2", "3")] dimension: &str,
+    #[values("linear_elastic", "neo_hookean", "hencky")] material: &str,
+) {
+    let folder = Folder::new();
+    let made = folder.call(&["new", "first", "--dimension", dimension, "--material", material]);
+    let said = "wrote first.yaml\nnext: mpm-verify check first.yaml\n";
+    assert_eq!((made.code, made.out.as_str(), made.errors.as_str()), (SOUND, said, ""));
+    let checked = folder.call(&["check", "--strict", "first.yaml"]);
+    assert_eq!((checked.code, checked.errors.as_str()), (SOUND, ""));
+    let run = folder.call(&["run", "--format", "json", "first.yaml"]);
+    assert_eq!(run.code, SOUND, "{}{}", run.out, run.errors);
+    let document: Value = serde_json::from_str(&run.out).expect("one document");
+    let case = &document["suites"][0]["cases"][0];
+    let order = case["observed_order"]["value"].as_f64().expect("an order");
+    assert!((1.9..=2.1).contains(&order), "{order}");
+    // In space it takes finer levels to settle.
+    assert!(case["verdict"] == "converging" || dimension == "3", "{}", case["verdict"]);
+    let long = folder.read("first.yaml").lines().find(|line| line.len() > 100).map(str::to_owned);
+    assert_eq!(long, None);
+}
+
+#[test]
+fn without_options_the_defaults_hold() {
+    let folder = Folder::new();
+    folder.call(&["new", "first"]);
+    let text = folder.read("first.yaml");
+    for words in [
+        "  dimension: 1\n",
+        "{neo_hookean: {young: E, poisson: nu, density: rho}}",
+        "      basis: quadratic_bspline\n",
+        "      transfer: flip\n",
+        "      scheme: musl\n",
+    ] {
+        assert!(text.contains(words), "no `{words}` in\n{text}");
+    }
+}
+
+#[test]
+fn the_truth_settles_the_material_that_is_not_named() {
+    let folder = Folder::new();
+    folder.call(&["new", "wave", "--truth", "standing_wave"]);
+    assert!(folder.read("wave.yaml").contains("{linear_elastic: "));
+    folder.call(&["new", "motion", "--truth", "manufactured"]);
+    assert!(folder.read("motion.yaml").contains("{neo_hookean: "));
+}
+
+#[rstest]
+#[case("manufactured", "linear_elastic", "a law in rate form has no stress of the deformation")]
+#[case("standing_wave", "hencky", "waves of finite strain steepen")]
+fn a_truth_that_the_material_does_not_have_is_refused(
+    #[case] truth: &str,
+    #[case] material: &str,
+    #[case] reason: &str,
+) {
+    let folder = Folder::new();
+    let found = folder.call(&["new", "first", "--truth", truth, "--material", material]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains(reason), "{}", found.errors);
+    assert!(folder.files(".").is_empty());
+}
+
+/// Whatever is offered makes a suite, or is refused as the pair that it is.
+#[test]
+fn every_choice_that_is_offered_makes_a_suite() {
+    let bases = BasisName::ALL.iter().map(|basis| ("--basis", basis.name()));
+    let transfers = TransferName::ALL.iter().map(|transfer| ("--transfer", transfer.name()));
+    let schemes = SchemeName::ALL.iter().map(|scheme| ("--scheme", scheme.name()));
+    let folder = Folder::new();
+    for (option, value) in bases.chain(transfers).chain(schemes) {
+        let name = format!("first-{}", value.replace('_', "-"));
+        let found = folder.call(&["new", &name, option, value]);
+        assert_eq!((found.code, found.errors.as_str()), (SOUND, ""), "{value}");
+        assert!(folder.read(&format!("{name}.yaml")).contains(&format!(": {value}\n")), "{value}");
+    }
+}
+
+#[test]
+fn lists_and_parameters_are_taken_as_suites_have_them() {
+    let folder = Folder::new();
+    let basis = ["--basis", "[linear, cpdi]", "--transfer", "{fmpm: 8}"];
+    let found = folder.call(&[&["new", "first"], basis.as_slice()].concat());
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    assert!(folder.call(&["check", "first.yaml"]).out.contains("sound, 2 cases"));
+}
+
+#[test]
+fn what_is_proposed_for_a_new_suite_makes_it_a_gate() {
+    let folder = Folder::new();
+    folder.call(&["new", "first", "--output", "suites of mine.yaml"]);
+    let path = "suites of mine.yaml";
+    let proposed = folder.call(&["propose", path]);
+    folder.write(path, folder.read(path) + &proposed.out);
+    let found = folder.call(&["run", "--brief", path]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""), "{}", proposed.out);
+    assert!(found.out.contains("  pass  first::"), "{}", found.out);
+    let checked = folder.call(&["check", "--strict", path]);
+    assert_eq!(checked.code, SOUND, "{}", checked.errors);
+}
+
+#[test]
+fn a_file_that_is_there_is_left_alone() {
+    let folder = Folder::new();
+    folder.write("first.yaml", "mine");
+    let found = folder.call(&["new", "first"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains("first.yaml is there already"), "{}", found.errors);
+    assert_eq!(folder.read("first.yaml"), "mine");
+}
+
+#[rstest]
+#[case::basis(&["first", "--basis", "quadratc_bspline"], "--basis:1:1", "`quadratic_bspline`?")]
+#[case::transfer(&["first", "--transfer", "flp"], "--transfer:1:1", "did you mean `flip`?")]
+#[case::scheme(&["first", "--scheme", "muls"], "--scheme:1:1", "did you mean `musl`?")]
+#[case::one_of_a_list(&["first", "--basis", "[linear, cpdy]"], "--basis:1:10", "`cpdi`?")]
+#[case::out_of_range(&["first", "--transfer", "{fmpm: 0}"], "--transfer:1:", "expected a whole")]
+#[case::nothing(&["first", "--basis", ""], "--basis", "expected")]
+#[case::material(&["first", "--material", "neo_hooken"], "--material", "'neo_hookean'")]
+#[case::dimension(&["first", "--dimension", "4"], "--dimension", "1, 2, 3")]
+#[case::capitals(&["First"], "NAME:1:1", "expected lower-case letters, digits and hyphens")]
+#[case::a_path(&["../first"], "NAME:1:1", "this is not a name for a suite")]
+#[case::quotes(&["a\"b"], "NAME:1:1", "this is not a name for a suite")]
+#[case::no_name(&[""], "NAME:1:1", "this is not a name for a suite")]
+#[case::no_folder(&["first", "--output", "none/first.yaml"], "none/first.yaml", "error: ")]
+fn what_cannot_be_used_is_shown_where_it_was_given(
+    #[case] words: &[&str],
+    #[case] place: &str,
+    #[case] help: &str,
+) {
+    let folder = Folder::new();
+    let found = folder.call(&[&["new"], words].concat());
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    for words in [place, help] {
+        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    }
+    assert!(folder.files(".").is_empty());
+}
+
+/// Not taken for other values of YAML.
+#[rstest]
+fn names_that_look_like_numbers_are_names(#[values("2", "1e3", "true", "null")] name: &str) {
+    let folder = Folder::new();
+    let found = folder.call(&["new", name]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let listed = folder.call(&["list", &format!("{name}.yaml")]);
+    assert!(listed.out.starts_with(&format!("{name}: ")), "{}{}", listed.out, listed.errors);
+}
