@@ -3,7 +3,7 @@
 use crate::exact::Random;
 use crate::mpm::{Particles, Vector};
 use crate::suite::model::Scene;
-use crate::suite::model::lattice::{Scatter, block};
+use crate::suite::model::lattice::{LatticeOffsets, block};
 use crate::suite::model::stability::LatticeEdits;
 
 /// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
@@ -29,7 +29,7 @@ impl LatticeEdits {
         let shift = vector(&self.shift);
         particles.x0.iter_mut().for_each(|x| *x += shift);
         if !self.scatter.is_none() {
-            let Scatter { shift, perturb, seed } = &self.scatter;
+            let LatticeOffsets { shift, perturb, seed } = &self.scatter;
             let (shift, spacing) = (vector(shift), particles.spacing);
             let mut random = Random::new(*seed);
             for x in &mut particles.x0 {

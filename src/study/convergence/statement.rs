@@ -5,7 +5,7 @@ use crate::study::describe::heat;
 use crate::study::describe::statement::{Rows, push, scene};
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::compile::wording::shown;
-use crate::suite::model::lattice::Scatter;
+use crate::suite::model::lattice::LatticeOffsets;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::verify::Axis;
@@ -91,8 +91,8 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
 }
 
 /// Places of the particles, in words.
-fn placed(scatter: &Scatter) -> String {
-    let Scatter { shift, perturb, seed } = scatter;
+fn placed(scatter: &LatticeOffsets) -> String {
+    let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
         return "equally spaced".to_owned();
     }

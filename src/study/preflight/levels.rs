@@ -1,5 +1,6 @@
 //! Levels that can count for an order.
 
+use super::extremes::Extremes;
 use super::subject::{Preflight, moves_on_grid};
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::grid_size::per_axis;
@@ -40,6 +41,6 @@ fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     let dimension = preflight.plan.scene.dimension();
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, dimension)).unwrap_or(1);
     let room = 0.5 * level.h / per_axis as f64;
-    let largest = preflight.extremes.as_ref().map_or(0.0, |motion| motion.largest_displacement());
+    let largest = preflight.extremes.as_ref().map_or(0.0, Extremes::largest_displacement);
     largest > room
 }

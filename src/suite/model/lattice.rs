@@ -13,7 +13,7 @@ use crate::mpm::{Block, Vector};
 
 /// Places of particles beside their lattice, in shares of their spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Scatter {
+pub struct LatticeOffsets {
     /// Translation of all, a share for each axis; empty: none.
     pub shift: Vec<f64>,
     /// Largest random displacement of each along an axis.
@@ -22,7 +22,7 @@ pub struct Scatter {
     pub seed: u64,
 }
 
-impl Scatter {
+impl LatticeOffsets {
     /// Whether particles stay on the lattice.
     pub fn is_none(&self) -> bool {
         self.perturb == 0.0 && self.shift.iter().all(|share| *share == 0.0)

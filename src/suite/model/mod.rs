@@ -16,7 +16,7 @@ pub(crate) mod study_plan;
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use scene::{Scene, SceneFace};
 
-use self::lattice::Scatter;
+use self::lattice::LatticeOffsets;
 use self::method::Method;
 use self::refine_plan::RefinePlan;
 use self::study_plan::StudyPlan;
@@ -66,7 +66,7 @@ pub struct ConvergencePlan {
     /// The levels of refinement.
     pub refine: RefinePlan,
     /// Places of particles beside the lattice.
-    pub scatter: Scatter,
+    pub scatter: LatticeOffsets,
     /// Instants at which the error is taken.
     pub instants: u64,
     /// The error that is judged.

@@ -1,6 +1,6 @@
 //! A stability study whose every word has been checked.
 
-use super::lattice::Scatter;
+use super::lattice::LatticeOffsets;
 use super::method::Method;
 use super::study_plan::StudyPlan;
 use crate::suite::grammar::StabilitySpec;
@@ -39,7 +39,7 @@ pub(crate) struct LatticeEdits {
     /// Translation of all particles (m), one number for each axis; empty: none.
     pub(crate) shift: Vec<f64>,
     /// Places beside the lattice.
-    pub(crate) scatter: Scatter,
+    pub(crate) scatter: LatticeOffsets,
     /// Positions of further particles (m), each like the first particle of the lattice.
     pub(crate) extra: Vec<Vec<f64>>,
 }

@@ -2,7 +2,7 @@
 //! just does not.
 
 use mpm_verify::study::preflight;
-use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
+use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
 use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 
@@ -155,7 +155,7 @@ fn an_interval_too_wide_to_test_anything_is_refused_at_its_place() {
     let message = "the expected range [1.4, 2.6] is too wide to test anything";
     assert_eq!(refused.message(), message);
     let line = BAR.lines().position(|line| line.contains("order:")).map(|at| at + 1);
-    assert_eq!(refused.place().map(|place| place.line()), line);
+    assert_eq!(refused.place().map(Place::line), line);
     let just = BAR.replace("[1.9, 2.1]", "[1.5, 2.5]");
     assert!(Suite::load(&Source::from_text("bar.yaml", just).expect("a text")).is_ok());
 }

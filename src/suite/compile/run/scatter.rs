@@ -5,7 +5,7 @@ use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{ConvergenceSpec, ScatterSpec};
 use crate::suite::model::Scene;
-use crate::suite::model::lattice::Scatter;
+use crate::suite::model::lattice::LatticeOffsets;
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Share of the spacing by which a particle may be moved: the middle between two of them.
@@ -19,9 +19,9 @@ pub(crate) fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
-) -> Result<Scatter, Diagnostic> {
+) -> Result<LatticeOffsets, Diagnostic> {
     let Some(ScatterSpec { shift, perturb, seed }) = &spec.particles else {
-        return Ok(Scatter::default());
+        return Ok(LatticeOffsets::default());
     };
     let path = Path::top("particles");
     let is_box = |body: &Scene| body.round.is_none() && body.quadrilateral.is_none();
@@ -48,7 +48,7 @@ pub(crate) fn scatter(
         let label = format!("expected at most {MOST}, so that they stay in the body and apart");
         return Err(evaluator.diagnostic(&path, &message).with_label(&label));
     }
-    let scatter = Scatter { shift, perturb, seed };
+    let scatter = LatticeOffsets { shift, perturb, seed };
     if scatter.is_none() {
         let diagnostic = evaluator.diagnostic_at_key(&path, "this moves no particle");
         return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
