@@ -23,6 +23,6 @@ pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
 pub use model::stability::{StabilityCase, StabilityPlan};
 pub use model::study_plan::StudyPlan;
 pub use model::{
-    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan, Scene,
-    SceneFace, Suite,
+    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan,
+    SameMethod, Scene, SceneFace, Suite,
 };

@@ -11,14 +11,8 @@ const COARSE: usize = 8;
 
 /// The error scale of `case`, whose errors are taken against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
-    let against = match case.against {
-        Against::Exact => "the exact solution",
-        Against::Reference => "the reference",
-        Against::SameMethod => "the same method with shorter steps",
-        Against::Nothing => "nothing",
-    };
     ErrorScale {
-        problem: format!("until t = {} s, against {against}", case.until),
+        problem: format!("until t = {} s, against {}", case.until, case.against.words()),
         size: size(plan, case, truth),
         growth: growth(plan),
     }
@@ -33,7 +27,8 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     }
     // Shorter steps know their own labels only; a formula of the same motion knows every place.
     let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
-    let truth = if case.against == Against::SameMethod { formula.unwrap_or(truth) } else { truth };
+    let is_same = matches!(case.against, Against::SameMethod(_));
+    let truth = if is_same { formula.unwrap_or(truth) } else { truth };
     let per_axis = if plan.scene.dimension() == 3 { COARSE } else { FINE };
     let at_rest = plan.exact.as_ref().is_some_and(|exact| exact.at_rest);
     let share = |k: usize| case.until * (k as f64 / per_axis as f64);

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 /// Effect of halving the axes that are not refined on the error of the finest level that counts.
 /// `None` if it is not needed: the error has not stopped falling, and the suite expects no floor;
-/// and where the truth is the same method on the same grid.
+/// and where the truth is the same method, whose own spacings are not halved.
 ///
 /// `run` runs a level. One to three runs, in parallel; the outcome keeps the order of the axes.
 pub(crate) fn floor(
@@ -22,7 +22,7 @@ pub(crate) fn floor(
     let expected = expectation.is_some_and(|expectation| expectation.floor.is_some());
     let asked = judgement.verdict == Verdict::AtFloor || expected;
     let finest = levels.iter().rev().find(|level| level.usable).filter(|_| asked)?;
-    if finest.run.failure.is_some() || case.against == Against::SameMethod {
+    if finest.run.failure.is_some() || matches!(case.against, Against::SameMethod(_)) {
         return None;
     }
     // The step that was taken, so that a halved one is half of it.

@@ -46,14 +46,18 @@ impl Reference {
         x: f64,
         t: f64,
     ) -> f64 {
-        let last = self.states.len() - 1;
-        let instant = libm::round(t / self.until * last as f64).clamp(0.0, last as f64) as usize;
-        let nodal = field(&self.states[instant]);
+        let nodal = field(&self.states[nearest_instant(t, self.until, self.states.len())]);
         let place = ((x - self.from) / self.spacing).clamp(0.0, (nodal.len() - 1) as f64);
         let left = (place as usize).min(nodal.len() - 2);
         let share = place - left as f64;
         nodal[left] * (1.0 - share) + nodal[left + 1] * share
     }
+}
+
+/// The index of the instant nearest to `t` (s), of so many from 0 to `until`.
+pub(crate) fn nearest_instant(t: f64, until: f64, count: usize) -> usize {
+    let last = (count - 1) as f64;
+    libm::round(t / until * last).clamp(0.0, last) as usize
 }
 
 fn state(bar: &Bar) -> (Vec<f64>, Vec<f64>) {

@@ -1,6 +1,7 @@
 //! Running a convergence study: every level of every case, judged.
 
 use super::error_scale::error_scale;
+use super::fine_grid_reference::FineGrid;
 use super::outcome::{error_of, judge_levels, judged, refused};
 use super::reference::Reference;
 use super::small_step_reference::FineSteps;
@@ -16,7 +17,7 @@ use crate::subject::Profile;
 use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
-use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
 use crate::verify::{
     Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, RunResult,
@@ -90,12 +91,12 @@ impl<'a> ConvergenceRunner<'a> {
         progress: Progress<'_>,
     ) -> Result<CaseOutcome, String> {
         let plan = self.plan;
-        let shorter = (case.against == Against::SameMethod)
-            .then(|| FineSteps::compute(plan, case, plan.same_method_dt.unwrap_or(f64::NAN)))
-            .transpose()?;
-        let truth: &dyn Truth = match &shorter {
-            Some(truth) => truth,
-            None => self.truth(case)?,
+        let same_method;
+        let truth = if let Against::SameMethod(same) = case.against {
+            same_method = self.same_method(case, same)?;
+            same_method.as_ref()
+        } else {
+            self.truth(case)?
         };
         let levels: Result<Vec<LevelOutcome>, String> = plan
             .refine
@@ -132,6 +133,18 @@ impl<'a> ConvergenceRunner<'a> {
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
         let run = |store: &mut dyn CheckpointStore| run_of(plan, case, truth, level, &clock, store);
         Ok(level_of(plan, level, clock.dt(), self.context.cached(&key, &name, run)?))
+    }
+
+    /// The same method with a shorter spacing, run for this case.
+    fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, String> {
+        let plan = self.plan;
+        Ok(match same {
+            SameMethod::ShorterSteps(dt) => Box::new(FineSteps::compute(plan, case, dt)?),
+            SameMethod::FineGrid(level) => {
+                let (level, _) = self.steps.of(plan, case, level)?;
+                Box::new(FineGrid::compute(plan, case, level)?)
+            }
+        })
     }
 
     fn truth(&self, case: &Case) -> Result<&dyn Truth, String> {

@@ -5,10 +5,12 @@
 //! limit is the larger one and would hide it. Whether the limit is right is left to the exact
 //! solution. Methods that filter the velocity in every step (PIC and its kin) have no such limit.
 
+use super::reference::nearest_instant;
 use crate::exact::Truth;
 use crate::study::build::dispatch::subject;
 use crate::subject::{Samples, Start};
 use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan};
 use std::cmp::Ordering;
 
@@ -29,18 +31,9 @@ impl FineSteps {
     /// One line that says why that was not possible.
     pub(crate) fn compute(plan: &ConvergencePlan, case: &Case, dt: f64) -> Result<Self, String> {
         let level = plan.refine.levels.first().ok_or("no level")?;
-        let mut subject = subject(plan, second_order(case.method), *level)?;
-        let clock = case.clock(plan, dt).ok_or("dt makes no sense")?;
-        let mut now = Samples::default();
-        subject.sample(&mut now);
-        let mut states = vec![now.clone()];
-        for step in 1..=clock.steps {
-            subject.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;
-            if clock.is_instant(step) {
-                subject.sample(&mut now);
-                states.push(now.clone());
-            }
-        }
+        let mut states = Vec::new();
+        let level = LevelPlan { dt, ..*level };
+        let now = run(plan, case, level, |now| states.push(now.clone()))?;
         let mut order: Vec<usize> = (0..now.len()).collect();
         order.sort_by(|a, b| compare(label(&now, *a), label(&now, *b)));
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
@@ -49,9 +42,7 @@ impl FineSteps {
     /// The numbers of `field` at `wanted` at the instant nearest to `t`; NaN where there is no such
     /// label.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
-        let last = self.states.len() - 1;
-        let instant = libm::round(t / self.until * last as f64).clamp(0.0, last as f64) as usize;
-        let samples = &self.states[instant];
+        let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
             Ok(found) => {
                 into.copy_from_slice(row(field(samples), self.dimension, self.order[found]));
@@ -59,6 +50,32 @@ impl FineSteps {
             Err(_) => into.fill(f64::NAN),
         }
     }
+}
+
+/// Runs the method of `case` on `level`, starting half a step back, and shows the start and every
+/// instant. Returns what is seen at the end.
+///
+/// # Errors
+/// One line that says why that was not possible.
+pub(crate) fn run(
+    plan: &ConvergencePlan,
+    case: &Case,
+    level: LevelPlan,
+    mut show: impl FnMut(&Samples),
+) -> Result<Samples, String> {
+    let mut subject = subject(plan, second_order(case.method), level)?;
+    let clock = case.clock(plan, level.dt).ok_or("dt makes no sense")?;
+    let mut now = Samples::default();
+    subject.sample(&mut now);
+    show(&now);
+    for step in 1..=clock.steps {
+        subject.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;
+        if clock.is_instant(step) {
+            subject.sample(&mut now);
+            show(&now);
+        }
+    }
+    Ok(now)
 }
 
 fn row(field: &[f64], dimension: usize, p: usize) -> &[f64] {

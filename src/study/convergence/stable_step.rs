@@ -51,11 +51,12 @@ impl StableSteps {
         found
     }
 
-    /// Warnings about the levels that run, in their order.
+    /// Warnings about the levels and the fine grids that run, in their order.
     pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<String> {
         let levels = plan.refine.levels(extent);
-        let each = |case| levels.iter().map(move |level| (case, *level));
-        let runs: Vec<(&Case, LevelPlan)> = plan.cases.iter().flat_map(each).collect();
+        let each = |case: &Case| levels.iter().copied().chain(case.against.fine_grid());
+        let runs = plan.cases.iter().flat_map(|case| each(case).map(move |level| (case, level)));
+        let runs: Vec<(&Case, LevelPlan)> = runs.collect();
         let said = |(case, level)| warning(plan, case, self.of(plan, case, level).ok()?);
         runs.into_par_iter().filter_map(said).collect()
     }

@@ -6,8 +6,8 @@ use crate::study::describe::statement::{Rows, push, scene};
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::compile::wording::shown;
 use crate::suite::model::lattice::LatticeOffsets;
-use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::verify::Axis;
 
 /// Rows of the whole study.
@@ -36,9 +36,8 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         let text = format!("{element} {mass} FEM, {law}, {cells} elements, dt = {dt}");
         push(&mut rows, "reference", &text);
     }
-    if let Some(dt) = plan.same_method_dt {
-        let text = format!("the same method, started half a step back, with dt = {} s", shown(dt));
-        push(&mut rows, "reference", &text);
+    if let Some(same) = plan.same_method {
+        push(&mut rows, "reference", &same_method(same, &plan.refine));
     }
     refinement(plan, &mut rows);
     if !conservation_only::is_truthless(plan) {
@@ -46,6 +45,26 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
     rows
+}
+
+fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
+    let text = "the same method, started half a step back,";
+    match same {
+        SameMethod::ShorterSteps(dt) => format!("{text} with dt = {} s", shown(dt)),
+        SameMethod::FineGrid(LevelPlan { cells, dt, .. }) => {
+            let finest = refine.levels.last().map_or(f64::NAN, |level| level.cells as f64);
+            let ratio = cells as f64 / finest;
+            let step = match refine.rule {
+                Some(_) => "dt by the same rule".to_owned(),
+                None => format!("dt = {} s", shown(dt)),
+            };
+            format!(
+                "{text} on {cells} cells with {step}: an error of order 2 on the finest level is \
+                 known to about 1/{:.0}",
+                ratio * ratio
+            )
+        }
+    }
 }
 
 fn judged(plan: &ConvergencePlan) -> String {
@@ -109,13 +128,7 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
     rows.retain(|(key, _)| has_walls || key != "walls");
-    let truth = match case.against {
-        Against::Exact => "the exact solution",
-        Against::Reference => "the reference",
-        Against::SameMethod => "the same method with shorter steps",
-        Against::Nothing => "nothing",
-    };
     push(&mut rows, "until", &format!("t = {} s", case.until));
-    push(&mut rows, "against", truth);
+    push(&mut rows, "against", case.against.words());
     rows
 }

@@ -4,6 +4,7 @@ use super::measure::{load, seconds};
 use crate::study::runner::Runner;
 use crate::suite::compile::check::size::{nodes, too_large};
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::same_method::FINE_GRID;
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 use crate::verify::{
     CaseOutcome, Convergence, LevelOutcome, Model, PredictedError, Ranked, Workload, by_transfers,
@@ -119,7 +120,13 @@ impl Candidate {
     /// Cells of the finest level that is considered.
     pub(crate) fn most_cells(&self) -> u64 {
         let finest = self.finest().cells;
-        if self.error.obstacle().is_none() { finest.saturating_mul(self.reach) } else { finest }
+        let reach = if self.error.obstacle().is_none() { self.reach } else { 1 };
+        finest.saturating_mul(reach).min(self.most_known())
+    }
+
+    /// Cells of the finest level whose error the truth knows.
+    fn most_known(&self) -> u64 {
+        self.case.against.fine_grid().map_or(u64::MAX, |level| level.cells / FINE_GRID)
     }
 
     /// Why a level is the finest that is considered, if it is.
@@ -128,6 +135,9 @@ impl Candidate {
         let last = next > self.most_cells();
         last.then(|| match self.error.obstacle() {
             Some(obstacle) => format!("no error is predicted: {obstacle}"),
+            None if next > self.most_known() => {
+                format!("no error is known beyond 1/{FINE_GRID} of the fine grid of the truth")
+            }
             None => format!("no error is predicted beyond {} times as fine a grid", self.reach),
         })
     }

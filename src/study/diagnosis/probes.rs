@@ -7,7 +7,7 @@ use crate::subject::Start;
 use crate::suite::compile::check::size;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify::Axis;
 
 /// A change of one thing.
@@ -206,13 +206,18 @@ fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<C
     (after != before && combined.is_ok()).then_some(plan)
 }
 
-/// The plan with every level changed; `None` if one cannot be, or is too large.
+/// The plan with every level changed, and with them the fine grid of a truth; `None` if one cannot
+/// be, or is too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,
 ) -> Option<ConvergencePlan> {
     let mut plan = plan.clone();
-    for level in &mut plan.refine.levels {
+    let fine = plan.cases.iter_mut().filter_map(|case| match &mut case.against {
+        Against::SameMethod(SameMethod::FineGrid(level)) => Some(level),
+        _ => None,
+    });
+    for level in plan.refine.levels.iter_mut().chain(fine) {
         *level = change(*level)?;
         size::too_large(&plan.scene, *level).is_none().then_some(())?;
     }

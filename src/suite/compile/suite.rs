@@ -5,7 +5,7 @@ use super::check::{fem_support, size, subject_support};
 use super::evaluator::{DeclaredParameter, Evaluator};
 use super::load::{LoadEntry, LoadSpec, StudyFacts};
 use super::path::Path;
-use super::run::{cases, refine, scatter, steps};
+use super::run::{cases, refine, same_method, scatter, steps};
 use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, law};
@@ -86,10 +86,12 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let dimension = scene.dimension();
     let reference = spec.reference.as_ref().map(|spec| reference(&evaluator, spec, dimension));
     let reference = reference.transpose()?.flatten();
-    let same_method_dt = steps::same_method(&evaluator, &spec, &refine, &until, instants)?;
+    let same_method =
+        same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
     law::check(&evaluator, &spec, &scene)?;
     loads(&evaluator, &spec, &words.loads, &scene, latest)?;
-    if exact.is_none() && conduction.is_none() && reference.is_none() {
+    let computed = reference.is_some() || conservation_only::is_truth(same_method);
+    if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::check(&evaluator, &spec)?;
     }
     let observe = spec.observe.as_ref().map(|spec| observed(&evaluator, spec, &scene));
@@ -103,7 +105,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         exact,
         conduction,
         reference,
-        same_method_dt,
+        same_method,
         refine,
         scatter,
         instants,

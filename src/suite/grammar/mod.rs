@@ -87,11 +87,12 @@ pub(crate) struct ReferenceSpec {
     pub(crate) same_method: Option<SameMethodSpec>,
 }
 
-/// The same method with shorter steps.
+/// The same method with shorter steps, or on a fine grid.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SameMethodSpec {
-    pub(crate) dt: NumberText,
+    pub(crate) dt: Option<NumberText>,
+    pub(crate) cells: Option<NumberText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -9,16 +9,18 @@ pub(crate) mod lattice;
 pub(crate) mod load;
 pub(crate) mod method;
 pub(crate) mod refine_plan;
+pub(crate) mod same_method;
 pub(crate) mod scene;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
+pub use same_method::SameMethod;
 pub use scene::{Scene, SceneFace};
 
 use self::lattice::LatticeOffsets;
 use self::method::Method;
-use self::refine_plan::RefinePlan;
+use self::refine_plan::{LevelPlan, RefinePlan};
 use self::study_plan::StudyPlan;
 use super::grammar::{CrossingLevels, EquationName, NormName};
 use crate::exact::Problem;
@@ -61,8 +63,8 @@ pub struct ConvergencePlan {
     pub conduction: Option<Conduction>,
     /// A fine computation to compare with.
     pub reference: Option<ReferencePlan>,
-    /// Time step (s) of the same method, to compare with in a study of time steps.
-    pub same_method_dt: Option<f64>,
+    /// The same method with a much shorter spacing, to compare with.
+    pub same_method: Option<SameMethod>,
     /// The levels of refinement.
     pub refine: RefinePlan,
     /// Places of particles beside the lattice.
@@ -101,14 +103,14 @@ pub struct Case {
 }
 
 /// Which truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// The formulas.
     Exact,
     /// The fine computation.
     Reference,
-    /// The same method with shorter steps.
-    SameMethod,
+    /// The same method with a much shorter spacing.
+    SameMethod(SameMethod),
     /// None: only what a run keeps is bound.
     Nothing,
 }
@@ -128,16 +130,39 @@ pub struct ReferencePlan {
     pub dt: Formula,
 }
 
+impl Against {
+    /// The truth in a sentence.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Exact => "the exact solution",
+            Self::Reference => "the reference",
+            Self::SameMethod(same) => same.words(),
+            Self::Nothing => "nothing",
+        }
+    }
+
+    /// Whether it is computed, and known at instants only that all runs have in common.
+    pub fn is_computed(self) -> bool {
+        matches!(self, Self::Reference | Self::SameMethod(_))
+    }
+
+    /// The level on which it is computed, if it is the same method on a fine grid.
+    pub fn fine_grid(self) -> Option<LevelPlan> {
+        match self {
+            Self::SameMethod(SameMethod::FineGrid(level)) => Some(level),
+            _ => None,
+        }
+    }
+}
+
 impl ConvergencePlan {
     /// The steps of a run until `until` (s) that is held `against` a truth, for a wanted step `dt`
-    /// (s). A truth that is computed is known at common instants only.
+    /// (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
-        match against {
-            Against::Exact | Against::Nothing => Clock::new(until, dt, self.instants),
-            Against::Reference | Against::SameMethod => {
-                Clock::with_common_instants(until, dt, self.instants)
-            }
+        if against.is_computed() {
+            return Clock::with_common_instants(until, dt, self.instants);
         }
+        Clock::new(until, dt, self.instants)
     }
 }
 

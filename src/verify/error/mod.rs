@@ -3,6 +3,7 @@
 pub(crate) mod checkpoint_store;
 pub(crate) mod clock;
 pub(crate) mod error_scale;
+pub(crate) mod lagrange;
 pub(crate) mod norm;
 pub(crate) mod observer;
 pub(crate) mod quantity;

@@ -1,5 +1,6 @@
 //! One place of the body, watched over time.
 
+use super::lagrange;
 use crate::exact::Truth;
 use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
@@ -83,14 +84,8 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
         samples.label.iter().skip(axis).step_by(samples.dimension).copied().collect();
     all.sort_by(f64::total_cmp);
     all.dedup();
-    let above = all.partition_point(|c| *c < x);
-    let count = all.len().min(NEAR);
-    let first = above.saturating_sub(NEAR / 2).min(all.len() - count);
-    let near = &all[first..first + count];
-    let weight = |c: f64| -> f64 {
-        near.iter().filter(|other| **other != c).map(|other| (x - other) / (c - other)).product()
-    };
-    near.iter().map(|c| (*c, weight(*c))).collect()
+    let (first, weights) = lagrange::weights(&all, x, NEAR);
+    all[first..].iter().copied().zip(weights).collect()
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod case_names;
 mod combinations;
 mod equilibria;
 mod expectations;
+mod fine_grids;
 mod formulas;
 mod grammar;
 mod heat;

@@ -1,6 +1,7 @@
 //! Studies, run through their runner.
 
 mod diagnosis;
+mod fine_grid;
 mod interrupted;
 mod predicted_error;
 mod preflight;

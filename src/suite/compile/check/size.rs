@@ -29,17 +29,44 @@ pub(crate) fn check(
         return Ok(());
     }
     for (level, place) in plan.refine.levels.iter().zip(places) {
-        if let Some((what, amount)) = too_large(&plan.scene, *level) {
-            let cells = level.cells;
-            let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
-            let diagnostic = evaluator.diagnostic(&place.size, &message);
-            return Err(diagnostic.with_label(&format!("expected at most {MOST:e} {what}")));
-        }
-        vacant(evaluator, &place.size, &plan.scene, *level)?;
-        held_faces(evaluator, &place.size, &plan.scene, level.cells)?;
-        sets(evaluator, &place.size, &plan.scene, *level)?;
+        fits(evaluator, &place.size, &plan.scene, *level)?;
     }
     Ok(())
+}
+
+fn fits(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<(), Diagnostic> {
+    if let Some((what, amount)) = too_large(scene, level) {
+        let cells = level.cells;
+        let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
+        let diagnostic = evaluator.diagnostic(path, &message);
+        return Err(diagnostic.with_label(&format!("expected at most {MOST:e} {what}")));
+    }
+    vacant(evaluator, path, scene, level)?;
+    held_faces(evaluator, path, scene, level.cells)?;
+    sets(evaluator, path, scene, level)
+}
+
+/// Refuses a fine grid that is no level, or whose particles at all instants are too many to keep.
+pub(crate) fn fine_grid(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+    instants: u64,
+) -> Result<(), Diagnostic> {
+    fits(evaluator, path, scene, level)?;
+    let particles = particles(scene, level);
+    if particles * instants as f64 <= MOST {
+        return Ok(());
+    }
+    let message = format!("{particles:.1e} particles at {instants} instants are too many to keep");
+    let label = format!("expected at most {MOST:e} particles times instants");
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
 /// Refuses a round body that is smaller than the spacing of its particles.

@@ -19,7 +19,7 @@ pub(crate) fn check(
     }
     let name = plan.of.words();
     let help = "judge the displacement or the velocity";
-    if plan.reference.is_some() {
+    if plan.reference.is_some() || plan.same_method.is_some() {
         let message = format!("a reference has no {name} to compare with, which this suite judges");
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message).with_help(help));
     }

@@ -85,7 +85,7 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
-        plan.same_method_dt.map(|_| (Against::SameMethod, "-vs-shorter-steps")),
+        plan.same_method.map(|same| (Against::SameMethod(same), same.suffix())),
     ];
     let nothing = conservation_only::is_truthless(plan).then_some((Against::Nothing, ""));
     truths.into_iter().flatten().chain(nothing).collect()

@@ -3,6 +3,7 @@
 pub(crate) mod cases;
 pub(crate) mod methods;
 pub(crate) mod refine;
+pub(crate) mod same_method;
 pub(crate) mod scatter;
 pub(crate) mod step_rule;
 pub(crate) mod steps;

@@ -101,11 +101,13 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
     if cells && dt && lengths[0] != lengths[1] {
         let message = format!("{} time steps for {} levels of cells", lengths[1], lengths[0]);
         let diagnostic = evaluator.diagnostic(&path.then("dt"), &message);
-        return Err(diagnostic.with_label("expected one for each").with_help(FORMULA));
+        return Err(diagnostic.with_label("expected one for each").with_help(STEP_OF_EACH_H));
     }
     if let (true, Some(_)) = (cells && dt, &spec.full) {
         let message = "one list of further levels cannot refine both cells and time steps";
-        return Err(evaluator.diagnostic_at_key(&path.then("full"), message).with_help(FORMULA));
+        return Err(evaluator
+            .diagnostic_at_key(&path.then("full"), message)
+            .with_help(STEP_OF_EACH_H));
     }
     Ok(match (dt && !cells, ppc) {
         (true, _) => Axis::Time,
@@ -114,7 +116,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
     })
 }
 
-const FORMULA: &str = "or give the time step in `run`, as a formula of h";
+pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a formula of h";
 
 /// The entries of one key of `refine`, followed by those of `full` if it is the key that is
 /// refined.

@@ -4,49 +4,10 @@ use super::refine::{COARSE_TO_FINE, LevelPaths};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::grid_size::cell_size;
-use crate::suite::model::refine_plan::RefinePlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::suite::yaml::Diagnostic;
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
-
-/// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
-/// order, so that an error of second order on the finest level is known to 1/64.
-const SHORTER: f64 = 8.0;
-
-/// The time step (s) of the same method, where a suite compares with it.
-pub(crate) fn same_method(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    refine: &RefinePlan,
-    until: &[(String, f64)],
-    instants: u64,
-) -> Result<Option<f64>, Diagnostic> {
-    let same = spec.reference.as_ref().and_then(|reference| reference.same_method.as_ref());
-    let (Some(same), Some(finest)) = (same, refine.levels.last()) else { return Ok(None) };
-    let path = Path::top("reference").then("same_method");
-    if refine.axis != Axis::Time {
-        let message = "the same method with shorter steps knows the error of the time step only";
-        let diagnostic = evaluator.diagnostic_at_key(&path, message);
-        return Err(diagnostic.with_help("list time steps under `dt` in `refine`"));
-    }
-    let path = path.then("dt");
-    let dt = evaluator.formula(&path, &same.dt, &["h"])?.eval(&[finest.h]);
-    for (_, until) in until {
-        let clock = |dt| {
-            Clock::with_common_instants(*until, dt, instants)
-                .map_or(0.0, |clock| clock.steps as f64)
-        };
-        if !(clock(dt) >= SHORTER * clock(finest.dt)) {
-            let message =
-                format!("the time step is {}, the finest level's {}", shown(dt), shown(finest.dt));
-            let label = format!("expected at most 1/{SHORTER} of that, and at most 1e9 steps");
-            return Err(evaluator.diagnostic(&path, &message).with_label(&label));
-        }
-    }
-    Ok(Some(dt))
-}
 
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is
 /// refined. Instants that are shared with a computed truth must not change it.
@@ -66,9 +27,15 @@ pub(crate) fn check(
                 }
                 coarser = Some((level.dt, clock));
             }
-            let shares_instants = matches!(case.against, Against::Reference | Against::SameMethod);
-            if shares_instants && plan.refine.rule.is_none() {
+            if case.against.is_computed() && plan.refine.rule.is_none() {
                 as_wanted(evaluator, &place.dt, case, (level.dt, clock))?;
+            }
+        }
+        if let Some(fine) = case.against.fine_grid() {
+            let path = Path::top("reference").then("same_method").then("cells");
+            let clock = usable(evaluator, &path, case.clock(plan, fine.dt), (fine.cells, fine.dt))?;
+            if plan.refine.rule.is_none() {
+                as_wanted(evaluator, &path, case, (fine.dt, clock))?;
             }
         }
         if let Some(fine) = &plan.reference {

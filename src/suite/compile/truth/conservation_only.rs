@@ -4,7 +4,7 @@ use crate::exact::Truth;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
-use crate::suite::model::ConvergencePlan;
+use crate::suite::model::{ConvergencePlan, SameMethod};
 use crate::suite::yaml::Diagnostic;
 use crate::verify::{Judgement, LevelOutcome, Verdict};
 
@@ -23,7 +23,13 @@ impl Truth for Unknown {
 
 /// Whether a suite compares with nothing.
 pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
-    !plan.has_formulas() && plan.reference.is_none()
+    !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
+}
+
+/// Whether the same method may stand for a truth alone. Shorter steps know the error of the time
+/// step only, and stand beside an exact solution.
+pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
+    matches!(same_method, Some(SameMethod::FineGrid(_)))
 }
 
 /// Refuses a suite without a truth that asks for something which takes one.

@@ -1,0 +1,86 @@
+//! The same method on a fine grid as truth, beside an exact solution.
+
+use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::{CaseOutcome, Convergence};
+
+/// A bar that swings, held against its formula and against 192 cells.
+const BAR: &str = r#"suite: bar
+title: Vibrating bar
+source: a test
+
+parameters:
+  c: 10      # wave speed (m/s)
+  v0: 1e-4   # largest initial velocity (m/s)
+
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  material: {linear_elastic: {young: "c^2", poisson: 0, density: 1}}
+  boundary: {left: fixed}
+  initial_velocity: ["v0*sin(pi*X/2)"]
+
+exact:
+  equation: small_strain
+  displacement: ["v0/(pi*c/2)*sin(pi*X/2)*sin(pi*c*t/2)"]
+
+reference: {same_method: {cells: 192}}
+
+run: {until: 0.1, dt: "h/(4*c)", instants: 4}
+refine: {cells: [8, 12, 16, 24], ppc: 4}
+
+methods:
+  - mpm: {basis: [linear, cpgimp], transfer: flip, scheme: musl, start: half_step_back}
+  - fem: {element: linear, mass: lumped, start: half_step_back}
+
+judge: {norm: max_rms}
+
+expect:
+  - order: [1.95, 2.05]
+    because: a test
+"#;
+
+fn cases(text: &str) -> Vec<CaseOutcome> {
+    let suite = Suite::load(&Source::from_text("bar.yaml", text).unwrap());
+    let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    Runner::new(&suite).run(&|| ()).cases
+}
+
+fn order(study: &Convergence) -> f64 {
+    study.judgement.order.expect("an order").value
+}
+
+/// The error of the fine grid is smaller by the square of the cells, and has a pattern within each
+/// cell: at the labels of a level it is up to twice its mean.
+#[test]
+fn a_fine_grid_and_a_formula_give_the_same_order() {
+    let cases = cases(BAR);
+    let truths = ["-vs-exact", "-vs-fine-grid"];
+    for pair in cases.chunks(2) {
+        let [exact, fine] = [0, 1].map(|k| {
+            assert!(pair[k].case.ends_with(truths[k]), "{}", pair[k].case);
+            assert_eq!(pair[k].unmet, [""; 0], "{}", pair[k].case);
+            pair[k].convergence().unwrap()
+        });
+        let apart = order(fine) - order(exact);
+        assert!(apart.abs() < 0.03, "{}: {apart}", pair[0].case);
+        for (exact, fine) in exact.levels.iter().zip(&fine.levels) {
+            let ratio = exact.cells as f64 / 192.0;
+            let apart = (fine.error / exact.error - 1.0).abs();
+            assert!(apart < 2.0 * ratio * ratio, "{}: {apart}", pair[0].case);
+        }
+    }
+    assert_eq!(cases.len(), 6);
+}
+
+/// A step that is stable on the levels, and four times too long on the fine grid.
+#[test]
+fn a_case_without_its_fine_grid_is_refused() {
+    let unstable = BAR.replace("\"h/(4*c)\"", "\"0.5/(24*c)\"");
+    for case in cases(&unstable) {
+        let is_fine = case.case.ends_with("-vs-fine-grid");
+        assert_eq!(is_fine, case.study.is_none(), "{}: {}", case.case, case.reason);
+        assert_eq!(is_fine, case.reason.starts_with("reference: "), "{}", case.reason);
+    }
+}
