@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
-/// Particles visited for each part of the passes. Counted from the first [`Tally::take`] on: runs
+/// Particles visited for each part of the passes. Counted from the first call of `take` on: runs
 /// that nobody asks do not count.
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
