@@ -4,9 +4,10 @@ use crate::suite::compile::check::size;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::{ConvergencePlan, Suite};
 
-/// Seconds that a particle takes in a step, by dimension: the middle of the usual methods on the
-/// machine of `benches/ROOFLINE.md`, one thread. Others differ by a factor of two or three.
-const SECONDS: [f64; 3] = [4e-8, 1.2e-7, 3.5e-7];
+/// Seconds that a particle takes in a step, by dimension, errors and set-up included: fitted to
+/// whole runs of eight suites in the profile of `cargo run`, one thread. Single suites differ from
+/// it by a factor of up to three.
+const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
 /// Bytes of a particle, and of a node, by dimension.
 const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
