@@ -1,7 +1,6 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
-use super::status::{BAD_INPUT, PASSED};
-use super::{output, select};
+use super::show;
 use mpm_verify::report;
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
@@ -9,18 +8,7 @@ use std::path::PathBuf;
 
 /// Runs each suite as if it expected nothing, and prints what it could expect.
 pub(super) fn propose(targets: &[PathBuf]) -> u8 {
-    let mut code = PASSED;
-    for suite in select::suites(targets) {
-        let proposed = suite.map_err(|diagnostic| diagnostic.to_string());
-        match proposed.and_then(|suite| of_suite(&suite)) {
-            Ok(text) => output::print(&text),
-            Err(message) => {
-                output::complain(&message);
-                code = BAD_INPUT;
-            }
-        }
-    }
-    code
+    show::try_each(targets, of_suite)
 }
 
 fn of_suite(suite: &Suite) -> Result<String, String> {

@@ -109,22 +109,24 @@ fn rounded(value: f64) -> f64 {
 
 fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
     let message = format!("a second suite is called `{}`: {earlier} is the first", suite.name);
-    let place = source.value_at(&["suite".into()]);
-    let diagnostic = place.map_or_else(
-        || Diagnostic::about(source.name(), &message),
-        |place| source.diagnostic(place, &message),
-    );
+    let diagnostic = source.diagnostic_at(&["suite".into()], &message);
     diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
 }
 
 /// Prints a page of each suite that can be loaded, and the complaints about others.
 pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> u8 {
+    try_each(targets, |suite| Ok(page(suite)))
+}
+
+/// The same with pages that there may be a complaint about.
+pub(super) fn try_each(targets: &[PathBuf], page: impl Fn(&Suite) -> Result<String, String>) -> u8 {
     let mut code = PASSED;
     for suite in select::suites(targets) {
-        match suite {
-            Ok(suite) => output::print(&page(&suite)),
-            Err(diagnostic) => {
-                output::complain(&diagnostic.to_string());
+        let suite = suite.map_err(|diagnostic| diagnostic.to_string());
+        match suite.and_then(|suite| page(&suite)) {
+            Ok(page) => output::print(&page),
+            Err(message) => {
+                output::complain(&message);
                 code = BAD_INPUT;
             }
         }

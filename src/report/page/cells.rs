@@ -27,7 +27,7 @@ pub(super) fn result(case: &CaseOutcome) -> Html {
 pub(super) fn figures(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);
-    let order = order.map(|o| (o.value, format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high)));
+    let order = order.map(|o| (o.value, o.shown()));
     let finest = study.and_then(|study| study.levels.last());
     let error = finest.filter(|_| study.is_some_and(|study| study.compared)).map(|level| {
         let failed = level.run.failure.is_some() || !level.error.is_finite();

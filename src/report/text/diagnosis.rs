@@ -32,7 +32,7 @@ fn paragraph(found: &Diagnosis) -> String {
         (Some(first), Some(last)) => format!("{first} to {last}"),
         _ => String::new(),
     };
-    let order = |order: Option<Interval>| order.map_or("none".to_owned(), shown);
+    let order = |order: Option<Interval>| order.map_or("none".to_owned(), |order| order.shown());
     let of_case = order(found.finest.order);
     let kink = found.kink.map_or(String::new(), |function| {
         format!(
@@ -82,17 +82,15 @@ fn times(ratio: f64) -> String {
     }
 }
 
-fn shown(order: Interval) -> String {
-    format!("{:.2} [{:.2}, {:.2}]", order.value, order.low, order.high)
-}
-
 fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
     [
         TableColumn::<&ChangedRun>::text("changed", "the one thing", |run| run.change.clone())
             .flush_left(),
         TableColumn::<&ChangedRun>::text("verdict", "verdict", |run| run.verdict.to_string())
             .flush_left(),
-        TableColumn::<&ChangedRun>::text("order", "observed order", |run| run.order.map(shown)),
+        TableColumn::<&ChangedRun>::text("order", "observed order", |run| {
+            run.order.map(|order| order.shown())
+        }),
         TableColumn::<&ChangedRun>::text("error/before", "finest error over that before", |run| {
             format!("{:.3}", run.ratio)
         }),

@@ -9,7 +9,7 @@ use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use crate::report::columns::TableColumn;
 use crate::report::study::KINDS;
-use crate::verify::{CaseOutcome, Interval, SuiteOutcome};
+use crate::verify::{CaseOutcome, SuiteOutcome};
 
 /// The whole report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
@@ -52,7 +52,6 @@ pub fn summary(outcomes: &[SuiteOutcome]) -> String {
 type SuiteCase<'a> = (&'a SuiteOutcome, &'a CaseOutcome);
 
 fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
-    let interval = |o: Interval| format!("{:.2} [{:.2}, {:.2}]", o.value, o.low, o.high);
     [
         TableColumn::<SuiteCase<'a>>::text("", "whether all is as expected", |(_, case)| {
             case.result()
@@ -64,7 +63,7 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
         TableColumn::<SuiteCase<'a>>::text("verdict", "verdict", |(_, case)| case.verdict.clone())
             .flush_left(),
         TableColumn::<SuiteCase<'a>>::text("order", "observed order", move |(_, case)| {
-            case.convergence().and_then(|study| study.judgement.order).map(interval)
+            case.convergence().and_then(|study| study.judgement.order).map(|order| order.shown())
         }),
         TableColumn::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| {
             case.expected.clone().unwrap_or("nothing".to_owned())

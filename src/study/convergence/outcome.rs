@@ -88,6 +88,15 @@ pub(crate) fn judged(
     }
 }
 
+/// A level as the judge takes it, with its failure, whether or not it may count.
+pub(crate) fn to_judge(level: &LevelOutcome) -> verify::Level {
+    let judged = verify::Level::new(level.spacing, level.error);
+    match &level.run.failure {
+        Some(reason) => judged.failing(reason.clone()),
+        None => judged,
+    }
+}
+
 /// The judge's finding on levels that have run.
 pub(crate) fn judge_levels(
     plan: &ConvergencePlan,
@@ -102,12 +111,8 @@ pub(crate) fn judge_levels(
     let judged: Vec<verify::Level> = levels
         .iter()
         .map(|level| {
-            let plain = verify::Level::new(level.spacing, level.error);
-            let plain = if level.usable { plain } else { plain.unusable() };
-            match &level.run.failure {
-                Some(reason) => plain.failing(reason.clone()),
-                None => plain,
-            }
+            let judged = to_judge(level);
+            if level.usable { judged } else { judged.unusable() }
         })
         .collect();
     let (formal_order, axis) = (formal_order(plan, case), plan.refine.axis);
@@ -192,9 +197,7 @@ fn headline(
     let judged = match (verdict, judgement.order) {
         (Verdict::TooFewLevels, _) => String::new(),
         (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
-        (_, Some(Interval { value, low, high })) => {
-            format!("; order {value:.2} [{low:.2}, {high:.2}]")
-        }
+        (_, Some(order)) => format!("; order {}", order.shown()),
     };
     (within.to_owned(), found + &judged)
 }

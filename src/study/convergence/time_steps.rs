@@ -33,7 +33,12 @@ pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            let Ok((level, _)) = steps.of(plan, case, *level) else { continue };
+            // A stated step is known without a look at the particles.
+            let stepped = match plan.refine.rule {
+                Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
+                None => Ok(*level),
+            };
+            let Ok(level) = stepped else { continue };
             let Some(clock) = case.clock(plan, level.dt) else { continue };
             let (case, wanted) = (case.name.clone(), level.dt);
             found.push(TimeStep { case, level, wanted, clock });

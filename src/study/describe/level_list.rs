@@ -3,7 +3,7 @@
 use crate::study::convergence::time_steps::{TimeStep, time_steps};
 use crate::suite::compile::check::size::particles;
 use crate::suite::model::refine_plan::Extent;
-use crate::suite::model::{ConvergencePlan, Scene, Suite};
+use crate::suite::model::{ConvergencePlan, Suite};
 
 /// One level of a case, before it runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +25,7 @@ pub struct PlannedLevel {
 /// The levels of the gate of each case, in order; none of a study without levels.
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
-    let waves = plan.scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
+    let waves = plan.scene.fastest_wave();
     let mut all: Vec<(String, Vec<PlannedLevel>)> = Vec::new();
     for TimeStep { case, level, clock, .. } in time_steps(suite, Extent::Usual) {
         let planned = PlannedLevel {

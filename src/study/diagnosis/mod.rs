@@ -9,6 +9,7 @@ pub(crate) mod probes;
 
 use self::probes::{PROBES, ProbeKind};
 use crate::study::convergence::formal_order::formal_order;
+use crate::study::convergence::outcome::to_judge;
 use crate::study::kind::{RunContext, Storage, Study};
 use crate::study::preflight::cost::estimate_of;
 use crate::suite::compile::suite::with_amplitude;
@@ -111,11 +112,7 @@ impl Context<'_> {
     }
 
     fn judge(&self, levels: &[LevelOutcome], axis: Axis) -> Judgement {
-        let plain = |level: &LevelOutcome| match &level.run.failure {
-            Some(reason) => Level::new(level.spacing, level.error).failing(reason.clone()),
-            None => Level::new(level.spacing, level.error),
-        };
-        let levels: Vec<Level> = levels.iter().map(plain).collect();
+        let levels: Vec<Level> = levels.iter().map(to_judge).collect();
         let p = self.formal_order;
         judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
     }

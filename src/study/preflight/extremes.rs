@@ -1,6 +1,7 @@
 //! Extremes of an exact motion, on a raster of the body and the run.
 
 use crate::exact::{Derivatives, Problem};
+use crate::study::describe::amplitude::raster;
 
 /// Intervals of the raster along each axis, by dimension.
 const ALONG: [usize; 3] = [16, 8, 4];
@@ -28,20 +29,7 @@ pub(crate) struct Extremes {
 impl Extremes {
     /// Extremes of the motion that `problem` claims.
     pub(crate) fn of(problem: &Problem) -> Self {
-        let d = problem.dimension();
-        let intervals = ALONG[d.clamp(1, 3) - 1];
-        let label = |point: usize| -> Vec<f64> {
-            let along = |axis: usize| {
-                let index = point / (intervals + 1).pow(axis as u32) % (intervals + 1);
-                let share = index as f64 / intervals as f64;
-                problem.from[axis] + (problem.to[axis] - problem.from[axis]) * share
-            };
-            (0..d).map(along).collect()
-        };
-        let labels: Vec<Vec<f64>> = (0..(intervals + 1).pow(d as u32))
-            .map(label)
-            .filter(|label| problem.holds(label))
-            .collect();
+        let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
         let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let mut all = Self { reach: [none; 3], ..Self::default() };

@@ -59,11 +59,7 @@ impl<'a> Preflight<'a> {
 
     /// A finding about the value at `path`.
     pub(crate) fn finding(&self, severity: Severity, path: &Path, message: &str) -> Diagnostic {
-        let diagnostic = match self.source.value_at(path.steps()) {
-            Some(place) => self.source.diagnostic(place, message),
-            None => Diagnostic::about(self.source.name(), message),
-        };
-        diagnostic.with_severity(severity)
+        self.source.diagnostic_at(path.steps(), message).with_severity(severity)
     }
 }
 

@@ -3,7 +3,6 @@
 use super::subject::Preflight;
 use crate::study::convergence::formal_order::in_time;
 use crate::suite::compile::path::Path;
-use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::{Diagnostic, Severity};
@@ -25,7 +24,7 @@ fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     if plan.refine.rule.is_some() || !moves {
         return None;
     }
-    let waves = plan.scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
+    let waves = plan.scene.fastest_wave();
     let speed = preflight.extremes.as_ref().map_or(0.0, |motion| motion.speed);
     let courant = |level: &LevelPlan| level.dt * (waves + speed) / level.h;
     let level = preflight.levels().iter().find(|level| courant(level) > 1.0)?;

@@ -22,6 +22,11 @@ impl Scene {
         (self.material.properties().wave_modulus() / self.density).sqrt()
     }
 
+    /// Speed (m/s) of the fastest wave in any of the bodies at rest.
+    pub fn fastest_wave(&self) -> f64 {
+        self.each().iter().map(Self::wave_speed).fold(0.0, f64::max)
+    }
+
     /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));

@@ -4,7 +4,7 @@
 //! walks down a path and fails, on purpose, at its end. No second parser, and the answer is by
 //! construction where the first one saw the value.
 
-use super::{Place, Source};
+use super::{Diagnostic, Place, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
 use std::fmt;
@@ -35,6 +35,14 @@ impl Source {
     /// The place of a value; of its first character if it is a list or a map.
     pub fn value_at(&self, path: &[Step]) -> Option<Place> {
         self.find(path, Sought::Value).map(|at| Place::of(self.text(), self.token_at(at)))
+    }
+
+    /// A complaint about the value at `path`, or about the file as a whole where there is none.
+    pub fn diagnostic_at(&self, path: &[Step], message: &str) -> Diagnostic {
+        match self.value_at(path) {
+            Some(place) => self.diagnostic(place, message),
+            None => Diagnostic::about(self.name(), message),
+        }
     }
 
     /// The place of the key that the last step names.

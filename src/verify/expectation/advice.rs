@@ -1,6 +1,6 @@
 //! Advice on a claim: what keeps it from being stronger.
 
-use super::observed::{counted, is_inside, range, shown};
+use super::observed::{counted, is_inside, range};
 use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::Interval;
 use crate::verify::order::hypothesis::OrderHypothesis;
@@ -26,7 +26,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
         return advice;
     };
     if study.verdict() == Verdict::Converging && study.axis != Axis::Particles {
-        let (formal, seen) = (range(study.formal_order), shown(&order));
+        let (formal, seen) = (range(study.formal_order), order.shown());
         if !is_inside(&order, study.formal_order) {
             advice.push(format!("the order {seen} meets {formal} only just, and is not proposed"));
         }
@@ -84,7 +84,7 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     (order.half_width() <= CLEARLY * judged.half_width()).then(|| {
         format!(
             "norm: `judge: {{norm: {norm}}}` has the order {} on the same levels",
-            shown(&order)
+            order.shown()
         )
     })
 }

@@ -26,11 +26,6 @@ pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome
     study.levels.iter().filter(|level| level.usable)
 }
 
-/// An order with its interval, to two decimals.
-pub(crate) fn shown(order: &Interval) -> String {
-    format!("{:.2} [{:.2}, {:.2}]", order.value, order.low, order.high)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,7 +6,7 @@
 //! either end.
 
 use super::advice::advice;
-use super::observed::{counted, is_inside, range, shown};
+use super::observed::{counted, is_inside, range};
 use crate::named::named;
 use crate::verify::conservation::Conserved;
 use crate::verify::error::norm::larger;
@@ -93,7 +93,7 @@ pub fn propose(study: &Convergence) -> Proposal {
 }
 
 fn seen(study: &Convergence) -> String {
-    let order = study.judgement.order.map(|order| format!("; order {}", shown(&order)));
+    let order = study.judgement.order.map(|order| format!("; order {}", order.shown()));
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 

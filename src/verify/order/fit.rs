@@ -28,6 +28,11 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// The interval to two decimals, as tables show an order: `2.00 [1.99, 2.01]`.
+    pub fn shown(&self) -> String {
+        format!("{:.2} [{:.2}, {:.2}]", self.value, self.low, self.high)
+    }
+
     /// Half of the width.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)

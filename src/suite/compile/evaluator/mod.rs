@@ -169,10 +169,7 @@ impl<'a> Evaluator<'a> {
 
     /// A complaint about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
-        match self.source.value_at(path.steps()) {
-            Some(place) => self.source.diagnostic(place, message),
-            None => Diagnostic::about(self.source.name(), message),
-        }
+        self.source.diagnostic_at(path.steps(), message)
     }
 
     /// A complaint about the key at `path`.

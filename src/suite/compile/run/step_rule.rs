@@ -36,7 +36,7 @@ pub(crate) fn formula_text(
         (StepSpec::Length(text), _) => return Ok(text.clone()),
         (_, share) => share.unwrap_or(AUTO),
     };
-    let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
+    let speed = scene.fastest_wave();
     if speed > 0.0 && speed.is_finite() {
         let [share, speed] = [share, speed].map(NumberText::Number);
         return Ok(NumberText::Formula(format!("{share}*h/{speed}")));

@@ -41,7 +41,7 @@ pub(crate) fn scales(
         );
         return Err(evaluator.diagnostic_at_key(&path, &message));
     }
-    let speed = scene.each().iter().map(Scene::wave_speed).fold(0.0, f64::max);
+    let speed = scene.fastest_wave();
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());
     let null_space = of_null_space(evaluator, spec, scene)?;
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
