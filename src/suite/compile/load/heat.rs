@@ -3,9 +3,7 @@
 use super::contract::{LoadEntry, LoadWords};
 use super::thermal_face;
 use crate::exact::formula::{Expr, Formula};
-use crate::exact::heat::{
-    Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at,
-};
+use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
 use crate::exact::{Round, Term};
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
 use crate::suite::compile::boundary::thermal::ThermalSpec;
