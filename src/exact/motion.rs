@@ -40,6 +40,11 @@ impl Motion {
         self.components.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
     }
 
+    /// Whether no component has a kink anywhere ([`Formula::is_smooth`]).
+    pub fn is_smooth(&self) -> bool {
+        self.components.iter().all(Formula::is_smooth)
+    }
+
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.components.len()

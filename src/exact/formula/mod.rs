@@ -59,6 +59,7 @@ mod program;
 mod scope;
 mod several;
 mod slope;
+mod smooth;
 mod split;
 mod unary;
 

@@ -35,6 +35,11 @@ impl Temperature {
         self.formula.source()
     }
 
+    /// Whether the field has no kink anywhere ([`Formula::is_smooth`]).
+    pub fn is_smooth(&self) -> bool {
+        self.formula.is_smooth()
+    }
+
     /// T (K).
     pub fn at(&self, label: &[f64], t: f64) -> f64 {
         self.formula.eval(&variables(label, t)[..=label.len()])

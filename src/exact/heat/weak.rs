@@ -5,14 +5,17 @@
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
 
 use super::problem::Conduction;
-use crate::exact::check::weak::{PATCHES, SpaceTimePatch, Sums, bump};
+use crate::exact::check::weak::{SpaceTimePatch, Sums, bump, labels, patches};
+use crate::exact::motion::{Derivatives, Motion};
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
 /// Checks the balance of heat.
 pub(super) fn balance(problem: &Conduction) -> Result<(), Violation> {
     let mut random = Random::new(6);
-    for _ in 0..PATCHES {
+    let smooth =
+        problem.temperature.is_smooth() && problem.motion.as_ref().is_none_or(Motion::is_smooth);
+    for _ in 0..patches(smooth) {
         let ends = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, ends, problem.until, f64::INFINITY);
         on_patch(problem, &patch)?;
@@ -30,20 +33,35 @@ fn on_patch(problem: &Conduction, patch: &SpaceTimePatch) -> Result<(), Violatio
 fn sums(problem: &Conduction, patch: &SpaceTimePatch) -> Sums {
     let d = problem.dimension();
     let (points, times) = patch.raster();
+    let labels = labels(&points);
+    let all_labels = || labels.iter().map(Vec::as_slice);
+    let mut warm = problem.temperature.at_places(all_labels());
+    let mut places = problem.motion.as_ref().map(|motion| motion.at_places(all_labels()));
     let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
-    let mut all = Sums::default();
-    for (time, point) in times.iter().flat_map(|t| points.iter().map(move |point| (t, point))) {
-        let label: Vec<f64> = point.iter().map(|on_axis| on_axis.at).collect();
-        let (motion, now) = problem.now(&label, time.at);
-        let (phi, slope) = bump(&[&point[..], &[*time]].concat());
-        // A constant temperature stores nothing: without it the terms are those that matter.
-        let stored = problem.density * problem.capacity * (now.value - middle) * slope[d];
-        let inflow = problem.inflow(&motion, &now);
-        let flow: f64 = (0..d).map(|a| inflow[a] * slope[a]).sum();
-        let source = problem.density * problem.source(&label, time.at, &motion, &now) * phi;
-        all.gain -= stored;
-        all.loss += source - flow;
-        all.size += stored.abs() + flow.abs() + source.abs();
+    let (mut all, mut motion) = (Sums::default(), Derivatives::default());
+    for time in &times {
+        warm.set_time(time.at);
+        if let Some(places) = &mut places {
+            places.set_time(time.at);
+        }
+        for (place, point) in points.iter().enumerate() {
+            if let Some(places) = &mut places {
+                places.derivatives(place, &mut motion);
+            }
+            let now = warm.derivatives(place);
+            let mut event = [*time; 4];
+            event[..d].copy_from_slice(point);
+            let (phi, slope) = bump(&event[..=d]);
+            // A constant temperature stores nothing: without it the terms are those that matter.
+            let stored = problem.density * problem.capacity * (now.value - middle) * slope[d];
+            let inflow = problem.inflow(&motion, &now);
+            let flow: f64 = (0..d).map(|a| inflow[a] * slope[a]).sum();
+            let source = problem.source(&labels[place], time.at, &motion, &now);
+            let source = problem.density * source * phi;
+            all.gain -= stored;
+            all.loss += source - flow;
+            all.size += stored.abs() + flow.abs() + source.abs();
+        }
     }
     all
 }

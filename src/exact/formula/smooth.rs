@@ -1,0 +1,96 @@
+//! Formulas that have no kink.
+
+use super::binary::Binary;
+use super::bound::Formula;
+use super::program::{Action, Operand};
+use super::unary::Unary;
+
+impl Formula {
+    /// Whether the value is an analytic function of all real variables, for which neither a kink
+    /// nor a jump exists: a composition of functions that are.
+    ///
+    /// A quotient is none unless it divides by a constant: `tanh(1/x)` jumps, and so do others
+    /// behind a pole. For the same reason `exp(ln(x^2)/2)`, which is `abs(x)`, is none.
+    pub fn is_smooth(&self) -> bool {
+        let varying = self.varying();
+        let varies = |operand: &Operand| match operand {
+            Operand::Constant(_) => false,
+            Operand::Variable(_) => true,
+            Operand::Register(register) => varying[*register],
+        };
+        self.code().iter().all(|step| match &step.action {
+            Action::Copy(_) | Action::Negate(_) | Action::Next(_) => true,
+            Action::Powi(a, exponent) => *exponent >= 0 || !varies(a),
+            Action::Unary(function, a) => function.is_analytic() || !varies(a),
+            Action::Binary(Binary::Add | Binary::Subtract | Binary::Multiply, ..) => true,
+            Action::Binary(Binary::Divide, _, b) => !varies(b),
+            Action::Binary(_, a, b) => !varies(a) && !varies(b),
+        })
+    }
+
+    /// The registers that hold what depends on a variable, at some step.
+    fn varying(&self) -> Vec<bool> {
+        let mut varying = vec![false; self.registers()];
+        // A sum reads in its next turn what it wrote in the last.
+        loop {
+            let before = varying.clone();
+            for step in self.code() {
+                let varies = step.action.arguments().any(|operand| match operand {
+                    Operand::Constant(_) => false,
+                    Operand::Variable(_) => true,
+                    Operand::Register(register) => varying[register],
+                });
+                varying[step.to] |= varies;
+            }
+            if varying == before {
+                return varying;
+            }
+        }
+    }
+}
+
+impl Unary {
+    /// Whether the function is analytic on the whole real line.
+    fn is_analytic(self) -> bool {
+        matches!(
+            self,
+            Self::Sin
+                | Self::Cos
+                | Self::Sinh
+                | Self::Cosh
+                | Self::Tanh
+                | Self::Atan
+                | Self::Asinh
+                | Self::Exp
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::formula::{Expr, Scope};
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("3*x^2*sin(t) - exp(-t)/7", true)]
+    #[case("sum(n, 1, 4, sin(n*pi*x)*exp(-n^2*t)/n)", true)]
+    #[case("sum(n, 1, 4, sqrt(n)*x)", true)]
+    #[case("2^x", false)]
+    #[case("step(x - t)*(x - t)", false)]
+    #[case("sqrt((x - t)^2)", false)]
+    #[case("exp(ln((x - t)^2)/2)", false)]
+    #[case("asin(sin(x))", false)]
+    #[case("tanh(1/x)", false)]
+    #[case("(1 + x^2)^(-1)", false)]
+    #[case("((x - t)^2)^0.5", false)]
+    #[case("sum(n, 1, 2, x)^(-1)", false)]
+    #[case("max(x, t)", false)]
+    #[case("atan(tan(x))", false)]
+    #[case("1", true)]
+    fn smoothness_is_told_from_the_functions_composed(#[case] text: &str, #[case] smooth: bool) {
+        let expr = Expr::parse(text).unwrap();
+        let formula = Formula::bind(&expr, &Scope::new(), &["x", "t"]).unwrap();
+        assert_eq!(formula.is_smooth(), smooth);
+    }
+}
