@@ -1,17 +1,30 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
-use super::show;
+use super::status::{BAD_INPUT, PASSED};
+use super::{output, select};
 use mpm_verify::report;
-use mpm_verify::study::Runner;
+use mpm_verify::study::{Runner, preflight};
 use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
 use std::path::PathBuf;
 
 /// Runs each suite as if it expected nothing, and prints what it could expect.
 pub(super) fn propose(targets: &[PathBuf]) -> u8 {
-    show::try_each(targets, of_suite)
+    let mut code = PASSED;
+    for found in select::with_sources(targets) {
+        let found = found.map_err(|diagnostic| diagnostic.to_string());
+        match found.and_then(|(source, suite)| of_suite(&source, &suite)) {
+            Ok(page) => output::print(&page),
+            Err(message) => {
+                output::complain(&message);
+                code = BAD_INPUT;
+            }
+        }
+    }
+    code
 }
 
-fn of_suite(suite: &Suite) -> Result<String, String> {
+fn of_suite(source: &Source, suite: &Suite) -> Result<String, String> {
     let name = &suite.name;
     let exploring = suite.without_expectations().ok_or_else(|| {
         format!("error: {name}: expectations are proposed for convergence studies only")
@@ -20,5 +33,11 @@ fn of_suite(suite: &Suite) -> Result<String, String> {
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(format!("error: {name}::{}: {}", refused.case, refused.reason));
     }
-    Ok(format!("# {name}\n{}", report::proposals(&outcome)))
+    // The amplitude, the grid and the steps, which no claim can make up for.
+    let found = preflight(&exploring, source);
+    let remarks = found.iter().map(|found| {
+        let help = found.help().map(|help| format!("; {help}"));
+        format!("{}{}", found.message(), help.unwrap_or_default())
+    });
+    Ok(format!("# {name}\n{}", report::proposals(&outcome, remarks)))
 }

@@ -115,18 +115,12 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
 
 /// Prints a page of each suite that can be loaded, and the complaints about others.
 pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> u8 {
-    try_each(targets, |suite| Ok(page(suite)))
-}
-
-/// The same with pages that there may be a complaint about.
-pub(super) fn try_each(targets: &[PathBuf], page: impl Fn(&Suite) -> Result<String, String>) -> u8 {
     let mut code = PASSED;
     for suite in select::suites(targets) {
-        let suite = suite.map_err(|diagnostic| diagnostic.to_string());
-        match suite.and_then(|suite| page(&suite)) {
-            Ok(page) => output::print(&page),
-            Err(message) => {
-                output::complain(&message);
+        match suite {
+            Ok(suite) => output::print(&page(&suite)),
+            Err(diagnostic) => {
+                output::complain(&diagnostic.to_string());
                 code = BAD_INPUT;
             }
         }

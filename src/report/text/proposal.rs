@@ -17,8 +17,9 @@ struct Group<'a> {
 }
 
 /// The `expect` of a suite, from what its cases gave: one entry for all cases that have the same.
-/// Comments say where each key comes from, and what would make the claim stronger.
-pub fn proposals(outcome: &SuiteOutcome) -> String {
+/// Comments say where each key comes from, and what would make the claim stronger; `remarks` on the
+/// suite come first.
+pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (case, study) in outcome.results::<Convergence>() {
         let proposal = propose(study);
@@ -33,7 +34,9 @@ pub fn proposals(outcome: &SuiteOutcome) -> String {
             None => groups.push(Group { proposal, cases: vec![seen] }),
         }
     }
-    let mut lines = vec!["expect:".to_owned()];
+    let mut lines = Vec::new();
+    remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
+    lines.push("expect:".to_owned());
     let alone = groups.len() == 1;
     for group in &groups {
         entry(&mut lines, group, alone);

@@ -3,6 +3,7 @@
 //! A member is one entry of [`PROBES`].
 
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, combine};
+use crate::study::preflight::alignment::is_aligned;
 use crate::subject::Start;
 use crate::suite::compile::check::size;
 use crate::suite::model::method::Method;
@@ -96,6 +97,23 @@ pub(crate) const PROBES: &[ProbeKind] = &[
                 }
             }),
             _ => None,
+        },
+    },
+    ProbeKind {
+        change: "cells whose lines meet every interface and loaded face",
+        cause: |_| "an interface or a loaded face inside a cell, which smears what happens there",
+        remedy: "numbers of cells of which whole ones fit up to the interface or the loaded face",
+        apply: |plan| {
+            let aligned = |h: f64| is_aligned(&plan.scene, h);
+            let levels = &plan.refine.levels;
+            (!levels.iter().all(|level| aligned(level.h))).then_some(())?;
+            changed_levels(plan, |level| {
+                let with = |cells: u64| {
+                    let share = level.cells as f64 / cells as f64;
+                    LevelPlan { cells, h: share * level.h, dt: share * level.dt, ..level }
+                };
+                (level.cells..3 * level.cells).map(with).find(|level| aligned(level.h))
+            })
         },
     },
     ProbeKind {

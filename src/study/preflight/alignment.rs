@@ -19,22 +19,36 @@ struct Plane {
     severity: Severity,
 }
 
+impl Plane {
+    /// Distance (cells of size `h`, in m) from the nearest grid line.
+    fn off(&self, scene: &Scene, h: f64) -> f64 {
+        let line = (self.x - grid_axis(scene, self.axis, h).0) / h;
+        (line - libm::round(line)).abs()
+    }
+}
+
 /// Speaks of a plane that lies inside a cell on some level.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
-    let scene = &preflight.plan.scene;
-    let mut planes = loaded_faces(scene);
-    planes.extend(interfaces(scene));
+    let planes = planes(&preflight.plan.scene);
     planes.iter().filter_map(|plane| inside_a_cell(preflight, plane)).collect()
 }
 
+/// Whether every interface and every loaded face lies on a line of a grid with cells of size `h`
+/// (m).
+pub(crate) fn is_aligned(scene: &Scene, h: f64) -> bool {
+    planes(scene).iter().all(|plane| plane.off(scene, h) <= ROUNDING)
+}
+
+fn planes(scene: &Scene) -> Vec<Plane> {
+    let mut planes = loaded_faces(scene);
+    planes.extend(interfaces(scene));
+    planes
+}
+
 fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic> {
-    let Plane { axis, x, what, path, .. } = plane;
-    let off = |h: f64| {
-        let line = (x - grid_axis(&preflight.plan.scene, *axis, h).0) / h;
-        (line - libm::round(line)).abs()
-    };
-    let level = preflight.levels().iter().find(|level| off(level.h) > ROUNDING)?;
-    let (cells, share) = (level.cells, off(level.h));
+    let (scene, Plane { x, what, path, .. }) = (&preflight.plan.scene, plane);
+    let level = preflight.levels().iter().find(|level| plane.off(scene, level.h) > ROUNDING)?;
+    let (cells, share) = (level.cells, plane.off(scene, level.h));
     let message =
         format!("with {cells} cells {what} at {x:.4} m is {share:.2} cells away from a grid line");
     let found = preflight.finding(plane.severity, path, &message);

@@ -90,6 +90,19 @@ fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
     assert_eq!(proposals[0], proposals[1]);
 }
 
+/// What a smaller motion would gain is said beside what a run gives.
+#[test]
+fn a_proposal_says_what_the_amplitude_leaves() {
+    let folder = Folder::new();
+    folder.write("large.yaml", STEPS.replace("1e-3*", "0.1*"));
+    let found = folder.call(&["propose", "large.yaml"]);
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let begin = found.out.split("expect:").next().expect("the part before");
+    for words in ["the truth is one of small strain", "a tenth of the amplitude leaves"] {
+        assert!(begin.replace("\n# ", " ").contains(words), "no `{words}` in\n{begin}");
+    }
+}
+
 #[test]
 fn only_convergence_studies_have_proposals() {
     let folder = Folder::new();

@@ -2,6 +2,7 @@
 //! diagnosis does not read.
 
 use mpm_verify::study::diagnose;
+use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::Diagnosis;
 use rstest::rstest;
@@ -106,9 +107,21 @@ refine: {cells: [8, 12, 16, 24, 32], ppc: 2}
 methods:
   - mpm: {basis: linear, transfer: flip, scheme: musl, frame: total_lagrangian, start: half_step_back}
 "#;
-    let source = mpm_verify::suite::yaml::Source::from_text("bar.yaml", text).expect("a text");
+    let source = Source::from_text("bar.yaml", text).expect("a text");
     let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
     let found = diagnose(&suite, &source, 0, BUDGET).expect("a run").expect("an order");
     let (run, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
     assert!(run.change == "a tenth of the amplitude" && run.ratio < 0.2, "{found:#?}");
+}
+
+/// The joint of two bars lies in the middle of a cell, where linear functions have no kink.
+#[test]
+fn an_interface_inside_a_cell_is_told_by_the_alignment() {
+    let source = embedded::source("bar-of-two-materials").expect("a suite").expect("a text");
+    let text = source.text().replace("cells: [20, 40, 80, 160]", "cells: [7, 11, 17, 25]");
+    let source = Source::from_text("joint.yaml", &text).expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let found = diagnose(&suite, &source, 0, BUDGET).expect("a run").expect("an order");
+    let (run, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
+    assert!(run.cause.starts_with("an interface"), "{}: {found:#?}", run.cause);
 }
