@@ -29,6 +29,7 @@ impl Forcing {
         let mut now = Derivatives::default();
         for (place, force) in into.iter_mut().enumerate() {
             self.places.derivatives(place, &mut now);
+            self.problem.complete(&mut now);
             let label = self.labels.get(place);
             let whole = self.problem.balance(label.map_or(&[], Vec::as_slice), t, &now);
             let placed = |i| label.map_or(0.0, |label| self.problem.placed(i, label, t));

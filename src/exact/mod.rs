@@ -13,6 +13,7 @@ pub mod formula;
 pub mod heat;
 pub mod law;
 mod motion;
+mod plane;
 mod problem;
 mod random;
 mod region;

@@ -6,11 +6,13 @@ use super::formula::Formula;
 use super::heat::Conduction;
 use super::law::Equation;
 use super::motion::{Derivatives, Motion, write};
+use super::plane;
 use super::random::Random;
 use super::round::Round;
 use super::tensor::Tensor;
 use super::term::Term;
 use super::truth::Truth;
+use crate::subject::PlaneState;
 use std::sync::Arc;
 
 /// One face of a box-shaped body.
@@ -40,6 +42,8 @@ pub struct Problem {
     pub round: Option<Round>,
     /// The problems of several boxes, of which this is the whole; empty where there is one body.
     pub bodies: Vec<Self>,
+    /// State across the plane of a body in two dimensions.
+    pub plane: PlaneState,
     /// Reference density (kg/m^D).
     pub density: f64,
     /// The equation of motion.
@@ -113,9 +117,21 @@ impl Problem {
         self.loaded(random.between(0.0, self.until))
     }
 
+    /// All derivatives of the motion, with those across a plane.
+    pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
+        let mut now = self.motion.derivatives(label, t);
+        self.complete(&mut now);
+        now
+    }
+
+    /// Adds the derivatives across a plane to those of the motion in it.
+    pub(super) fn complete(&self, now: &mut Derivatives) {
+        plane::complete(self.plane, &self.equation, now);
+    }
+
     /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less the terms of the loads.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
-        let now = self.motion.derivatives(label, t);
+        let now = self.derivatives(label, t);
         let balance = self.balance(label, t, &now);
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t);
@@ -159,13 +175,19 @@ impl Problem {
 
     /// Div P (N/m3), where the motion's derivatives are `now`.
     pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
-        let d = self.dimension();
         match self.swelling(label, t) {
-            None => self.equation.divergence(d, &now.grad, &now.second),
+            None => self.unheated_divergence(now),
             Some(swelling) => {
-                swollen_divergence(&self.equation, d, (&now.grad, &now.second), &swelling)
+                let (d, all) = (self.dimension(), (&now.grad, &now.second));
+                swollen_divergence(&self.equation, d, all, &swelling)
             }
         }
+    }
+
+    /// The same where nothing expands.
+    fn unheated_divergence(&self, now: &Derivatives) -> [f64; 3] {
+        let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
+        self.equation.divergence(axes, &now.grad, &now.second)
     }
 
     /// Component i of the stated forces (m/s2).
@@ -187,10 +209,7 @@ impl Problem {
 
     /// Component i of the forces against the motion (m/s2), beside the stated force `stated`.
     pub(super) fn resistance(&self, i: usize, t: f64, now: &Derivatives, stated: f64) -> f64 {
-        let unbalanced = || {
-            let stress = self.equation.divergence(self.dimension(), &now.grad, &now.second);
-            stress[i] / self.density + stated
-        };
+        let unbalanced = || self.unheated_divergence(now)[i] / self.density + stated;
         let all = self.terms.iter();
         all.fold(0.0, |sum, term| sum + term.resistance(t, now.velocity[i], &unbalanced))
     }
@@ -219,9 +238,10 @@ impl Truth for Problem {
     }
 
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
-        let grad = self.motion.derivatives(label, t).grad;
+        let body = self.body_at(label);
+        let grad = body.derivatives(label, t).grad;
         let sigma = match self.swelling(label, t) {
-            None => self.body_at(label).equation.cauchy(&grad),
+            None => body.equation.cauchy(&grad),
             Some(Swelling { theta, .. }) => {
                 swollen_cauchy(&self.equation, self.dimension(), &grad, theta)
             }

@@ -56,6 +56,12 @@ pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor
     sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
+/// det F in a plane, of the displacement gradient.
+pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
+    let f: Tensor<T, 2> = tensor(|i, j| grad[i][j] + unit(i, j));
+    f[0][0] * f[1][1] - f[0][1] * f[1][0]
+}
+
 #[inline]
 pub(super) fn product<T: Number, const D: usize>(
     a: &Tensor<T, D>,

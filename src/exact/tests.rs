@@ -5,9 +5,10 @@ use super::formula::{Expr, Formula, Scope};
 use super::random::Random;
 use super::truth::Truth;
 use super::{
-    Condition, Face, FacePoint, Forcing, Motion, NeoHookeanLaw, Problem, SmallStrainLaw, Term,
-    Violation,
+    Condition, Equation, Face, FacePoint, Forcing, HenckyLaw, Motion, NeoHookeanLaw, Problem,
+    SmallStrainLaw, Term, Violation,
 };
+use crate::subject::PlaneState;
 use rstest::rstest;
 use std::sync::Arc;
 
@@ -109,6 +110,7 @@ fn held(dimension: usize) -> Problem {
     Problem {
         from: vec![0.0; dimension],
         to: vec![1.0; dimension],
+        plane: PlaneState::Strain,
         density: 2.0,
         equation: NeoHookeanLaw::new(10.0, 0.3).into(),
         terms: weight(&["-9.81*t"]),
@@ -133,6 +135,19 @@ fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
 }
 
+/// So must it be for a plate that becomes thinner where it is stretched.
+#[rstest]
+fn a_sound_motion_of_a_plate_passes(
+    #[values(
+        SmallStrainLaw::new(10.0, 0.3).into(),
+        NeoHookeanLaw::new(10.0, 0.3).into(),
+        HenckyLaw::new(10.0, 0.3).into()
+    )]
+    equation: Equation,
+) {
+    Problem { equation, plane: PlaneState::Stress, ..held(2) }.check().unwrap();
+}
+
 /// The weak form needs no other check to see that a force is missing.
 #[rstest]
 fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
@@ -143,8 +158,12 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
 
 /// A run evaluates all places at one time after another, with the bits of a single evaluation.
 #[rstest]
-fn the_force_of_a_run_is_the_force(#[values(1, 2, 3)] dimension: usize) {
-    let (problem, mut random) = (held(dimension), Random::new(1));
+fn the_force_of_a_run_is_the_force(
+    #[values(1, 2, 3)] dimension: usize,
+    #[values(PlaneState::Strain, PlaneState::Stress)] plane: PlaneState,
+) {
+    let plane = if dimension == 2 { plane } else { PlaneState::Strain };
+    let (problem, mut random) = (Problem { plane, ..held(dimension) }, Random::new(1));
     let labels: Vec<Vec<f64>> = (0..5).map(|_| random.point(&problem.from, &problem.to)).collect();
     let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
     let mut found = [[0.0; 3]; 5];

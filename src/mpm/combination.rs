@@ -4,7 +4,7 @@ use super::basis::{BasisName, Domain, with_basis};
 use super::frame::FrameName;
 use super::mass::MassName;
 use super::transfer::{TransferChoice, TransferKind};
-use crate::subject::Start;
+use crate::subject::{PlaneState, Start};
 
 /// Refuses a combination that means nothing.
 ///
@@ -95,6 +95,21 @@ pub fn combine_bodies(
         }
         _ => Ok(()),
     }
+}
+
+/// Refuses a combination that means nothing in a body with this state across its plane.
+///
+/// # Errors
+/// One line that names the part and says why it does not go with the state.
+pub fn combine_across(plane: PlaneState, transfer: TransferChoice) -> Result<(), String> {
+    if plane == PlaneState::Strain || transfer.kind() != TransferKind::Cells {
+        return Ok(());
+    }
+    let (t, p) = (transfer.name(), plane.name());
+    Err(format!(
+        "the transfer `{t}` integrates over cells in the plane, and in `plane: {p}` volumes are not \
+         those of the plane"
+    ))
 }
 
 fn domain(basis: BasisName) -> Domain {

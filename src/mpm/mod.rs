@@ -45,7 +45,7 @@ mod transfer;
 pub use algebra::{Matrix, Vector, cofactor, det, dyad};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
-pub use combination::{combine, combine_bodies};
+pub use combination::{combine, combine_across, combine_bodies};
 pub use effect::*;
 pub use frame::FrameName;
 pub use grid::Grid;

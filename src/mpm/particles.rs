@@ -26,6 +26,8 @@ pub struct Particles<const D: usize> {
     pub sigma: Vec<Matrix<D>>,
     /// Deformation gradients F; empty unless a basis or a material reads them.
     pub def_grad: Vec<Matrix<D>>,
+    /// Stretches across the plane of two dimensions, F_33; empty in plane strain, where they are 1.
+    pub across: Vec<f64>,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
     /// columns of each matrix are the vectors from the particle to the middles of its domain's
     /// faces, F diag(spacing)/2 (m). They follow F when positions move, not before: a domain that
@@ -100,6 +102,7 @@ impl<const D: usize> Particles<D> {
             sigma: vec![Matrix::zeros(); total],
             current_position: Vec::new(),
             def_grad: Vec::new(),
+            across: Vec::new(),
             domain: Vec::new(),
             domain0: Vec::new(),
             temperature: Vec::new(),
@@ -161,14 +164,6 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Enters the total-Lagrangian frame: from now on the basis is evaluated at reference
-    /// positions.
-    pub(super) fn stay_in_reference(&mut self) {
-        self.track_deformation();
-        self.current_position.clone_from(&self.x);
-        self.x.clone_from(&self.x0);
-    }
-
     /// Current position of particle `p` (m), in either frame.
     pub fn position(&self, p: usize) -> &Vector<D> {
         &self.positions()[p]
@@ -185,29 +180,10 @@ impl<const D: usize> Particles<D> {
         if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
     }
 
-    /// Stress times volume (N m) of particle `p`, the factor of basis gradients in the internal
-    /// force: V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
-    #[inline]
-    pub fn flux(&self, p: usize) -> Matrix<D> {
-        let flux = self.sigma[p] * self.vol[p];
-        if self.current_position.is_empty() {
-            return flux;
-        }
-        // No inverse: the particle is inverted, and the next stage says so.
-        flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
-    }
-
     /// Drops the columns of a motion, for a body at rest.
     pub(super) fn forget_motion(&mut self) {
         (self.v, self.sigma, self.grad_v) = (Vec::new(), Vec::new(), Vec::new());
         self.def_grad = Vec::new();
-    }
-
-    /// Turns gradients with respect to X into those with respect to x, `grad0 v F^-1`.
-    pub(super) fn push_gradients_forward(&mut self) {
-        for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
-            *grad_v *= f.try_inverse().unwrap_or_else(Matrix::zeros);
-        }
     }
 
     /// The columns that are there.
@@ -222,6 +198,7 @@ impl<const D: usize> Particles<D> {
             Column::of_particles("V", &self.vol),
             Column::of_particles("sigma", &self.sigma),
             Column::of_particles("F", &self.def_grad),
+            Column::of_particles("F33", &self.across),
             Column::of_particles("domain", &self.domain),
             Column::of_particles("domain0", &self.domain0),
             Column::of_particles("grad v", &self.grad_v),

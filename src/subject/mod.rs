@@ -5,9 +5,11 @@
 //! no type of this crate's algebra), so that a solver in another language can stand behind it.
 
 mod checkpoint;
+mod plane;
 mod profile;
 
 pub use checkpoint::{Checkpoint, Memory};
+pub use plane::PlaneState;
 pub use profile::{Column, Holder, Profile};
 
 use crate::named::named;

@@ -14,7 +14,7 @@ use mpm_verify::mpm::{
     PrescribedVelocity, Pressure, Roller, ScalarField, SchemeName, SetForce, Setup, Side, Solver,
     Thermal, ThermalBoundary, ThermalExpansion, Traction, TransferName, Vector, VelocityField,
 };
-use mpm_verify::subject::{Holder, Samples, Start, Subject};
+use mpm_verify::subject::{Holder, PlaneState, Samples, Start, Subject};
 use mpm_verify::suite::EffectName;
 use rstest::rstest;
 
@@ -39,6 +39,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
     let problem = Problem {
         from: vec![0.0; D],
         to: vec![1.0; D],
+        plane: PlaneState::Strain,
         density: 1.0,
         equation: NeoHookeanLaw::new(1.0, 0.3).into(),
         terms: Vec::new(),

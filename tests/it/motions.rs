@@ -5,6 +5,7 @@ use approx::assert_relative_eq;
 use mpm_verify::exact::formula::{Expr, Formula, Scope};
 use mpm_verify::exact::{Motion, NeoHookeanLaw, Problem};
 use mpm_verify::study::Runner;
+use mpm_verify::subject::PlaneState;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use rstest::rstest;
@@ -34,6 +35,7 @@ fn problem(
         from: vec![0.0; d],
         to: vec![1.0; d],
         round: None,
+        plane: PlaneState::Strain,
         density,
         equation: NeoHookeanLaw::new(young, poisson).into(),
         terms: Vec::new(),

@@ -31,7 +31,7 @@ pub(crate) fn boundary(problem: &Problem) -> Result<(), Violation> {
         for _ in 0..POINTS {
             let label = random.on_face(&problem.from, &problem.to, face.axis, face.high);
             let event = Event { label, t: problem.moment(&mut random) };
-            let now = problem.motion.derivatives(&event.label, event.t);
+            let now = problem.derivatives(&event.label, event.t);
             face.condition.check(&MovingPoint { problem, face, event, now, sizes: &sizes })?;
         }
     }
@@ -96,7 +96,7 @@ impl FacePoint for MovingPoint<'_> {
         let mut opposite = event.label.clone();
         opposite[face.axis] =
             if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
-        let there = problem.motion.derivatives(&opposite, event.t);
+        let there = problem.derivatives(&opposite, event.t);
         let condition = |what: String| {
             format!("boundary condition: {} is periodic, {what} the opposite face,", face.name)
         };
@@ -136,7 +136,7 @@ pub(crate) fn driven(problem: &Problem) -> Result<(), Violation> {
         for _ in 0..POINTS {
             let label = random.point(&from, &to);
             let event = Event { label, t: problem.moment(&mut random) };
-            let now = problem.motion.derivatives(&event.label, event.t);
+            let now = problem.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
                 let given = at(formula, &event);
                 let name = format!("given velocity of the set {} in {}", region.name, AXES[i]);

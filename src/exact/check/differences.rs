@@ -47,7 +47,7 @@ fn differences(
     acceleration: f64,
 ) -> Result<(), Violation> {
     let step = 1e-5 * problem.until;
-    let all = problem.motion.derivatives(&event.label, event.t);
+    let all = problem.derivatives(&event.label, event.t);
     for i in 0..problem.dimension() {
         let u = |t: f64| problem.motion.component(i, &event.label, t);
         let (low, mid, high) = (u(event.t - step), u(event.t), u(event.t + step));
@@ -78,7 +78,7 @@ fn stress_differences(
         let stress = |sign: f64| {
             let mut label = event.label.clone();
             label[axis] += sign * step;
-            problem.piola(&label, event.t, &problem.motion.derivatives(&label, event.t))
+            problem.piola(&label, event.t, &problem.derivatives(&label, event.t))
         };
         let (low, high) = (stress(-1.0), stress(1.0));
         for i in 0..d {

@@ -90,6 +90,7 @@ mod tests {
     use crate::exact::formula::{Expr, Formula, Scope};
     use crate::exact::tests::{Demands, Weight, free};
     use crate::exact::{Motion, SmallStrainLaw};
+    use crate::subject::PlaneState;
     use rstest::rstest;
     use std::sync::Arc;
 
@@ -105,6 +106,7 @@ mod tests {
             from: vec![0.0; 2],
             to: vec![1.0; 2],
             round: None,
+            plane: PlaneState::Strain,
             density: 1.0,
             equation: SmallStrainLaw::new(200.0, 0.0).into(),
             terms: vec![Arc::new(Weight(vec![bind("3", &["t"]), bind("-4", &["t"])]))],

@@ -83,9 +83,9 @@ impl BodyPair<'_> {
         let Self { one, other, axis, .. } = *self;
         let inside = |problem: &Problem| INSIDE * (problem.to[axis] - problem.from[axis]);
         label[axis] = one.to[axis] - inside(one);
-        let here = one.motion.derivatives(&label, t);
+        let here = one.derivatives(&label, t);
         label[axis] = other.from[axis] + inside(other);
-        let there = other.motion.derivatives(&label, t);
+        let there = other.derivatives(&label, t);
         label[axis] = one.to[axis];
         (Event { label, t }, here, there)
     }
@@ -152,6 +152,7 @@ mod tests {
     use crate::exact::formula::{Expr, Formula, Scope};
     use crate::exact::tests::free;
     use crate::exact::{Face, Motion, SmallStrainLaw};
+    use crate::subject::PlaneState;
     use rstest::rstest;
     use std::sync::Arc;
 
@@ -167,6 +168,7 @@ mod tests {
                 from: vec![from],
                 to: vec![from + 1.0],
                 round: None,
+                plane: PlaneState::Strain,
                 density: 1.0,
                 equation: SmallStrainLaw::new(1.0, 0.0).into(),
                 terms: Vec::new(),

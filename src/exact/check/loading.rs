@@ -15,7 +15,7 @@ pub(crate) fn monotone(problem: &Problem) -> Result<(), Violation> {
     for _ in 0..4 * POINTS {
         let label = problem.point(&mut random);
         let event = Event { label, t: problem.moment(&mut random) };
-        let now = problem.motion.derivatives(&event.label, event.t);
+        let now = problem.derivatives(&event.label, event.t);
         if !problem.equation.flows(now.grad[0][0]) {
             continue;
         }

@@ -69,7 +69,7 @@ fn interior(problem: &Problem, seed: u64) -> Vec<(Event, Derivatives)> {
     drawn(seed, |random| {
         let label = problem.point(random);
         let t = problem.moment(random);
-        let all = problem.motion.derivatives(&label, t);
+        let all = problem.derivatives(&label, t);
         (Event { label, t }, all)
     })
 }
@@ -120,7 +120,7 @@ pub(crate) fn initial(problem: &Problem) -> Result<(), Violation> {
     let speed = scale(problem, |_, d| largest(&d.velocity));
     for (event, _) in interior(problem, 2) {
         let event = Event { t: 0.0, ..event };
-        let now = problem.motion.derivatives(&event.label, 0.0);
+        let now = problem.derivatives(&event.label, 0.0);
         for i in 0..problem.dimension() {
             let zero = if problem.initial_displacement.is_empty() { "0" } else { "u0(X)" };
             let name = format!("initial condition u_{}(X, 0) = {zero}", AXES[i]);

@@ -14,7 +14,7 @@ pub(crate) fn free(problem: &Problem) -> Result<(), Violation> {
         for _ in 0..POINTS {
             let (label, normal) = round.on_rim(&mut random, rim);
             let event = Event { label, t: problem.moment(&mut random) };
-            let now = problem.motion.derivatives(&event.label, event.t);
+            let now = problem.derivatives(&event.label, event.t);
             let piola = problem.piola(&event.label, event.t, &now);
             for i in 0..problem.dimension() {
                 let traction: f64 = piola[i].iter().zip(&normal).map(|(p, n)| p * n).sum();

@@ -205,6 +205,7 @@ fn sums(problem: &Problem, patch: &SpaceTimePatch) -> [Sums; 3] {
         let loaded = problem.loaded(time.at);
         for (place, point) in points.iter().enumerate() {
             places.derivatives(place, &mut now);
+            problem.complete(&mut now);
             let mut event = [*time; 4];
             event[..d].copy_from_slice(point);
             let (phi, slope) = bump(&event[..=d]);

@@ -28,6 +28,13 @@ pub(super) trait ConstitutiveLaw {
         None
     }
 
+    /// `F_33 - 1` of a plate that is free across, sigma_33 = 0, for the displacement gradient in
+    /// its plane; none of a law that is not known there.
+    fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
+        let _ = grad;
+        None
+    }
+
     /// Whether a body in uniaxial strain flows plastically at the displacement gradient `grad`.
     fn flows(&self, grad: f64) -> bool {
         let _ = grad;
@@ -61,5 +68,11 @@ impl Lame {
     /// `lambda + 2 mu` (Pa).
     pub(super) fn modulus(&self) -> f64 {
         self.lambda + 2.0 * self.mu
+    }
+
+    /// `nu/(1 - nu)`: strain across a plate that is free there, over that of its area, but for
+    /// the sign.
+    pub(super) fn thinning(&self) -> f64 {
+        self.lambda / self.modulus()
     }
 }

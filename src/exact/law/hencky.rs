@@ -3,7 +3,7 @@
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, log_strain, product, tensor, unit};
+use crate::exact::tensor::{Tensor, area, cofactor, det, log_strain, product, tensor, unit};
 
 /// Hencky elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +33,12 @@ impl ConstitutiveLaw for HenckyLaw {
 
     fn modulus(&self) -> f64 {
         self.0.modulus()
+    }
+
+    /// `eps_33 = -lambda/(lambda + 2 mu) ln J` with the J of the plane.
+    fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
+        let strain = T::from(-self.0.thinning()) * Number::ln(area(grad));
+        Some(Number::exp(strain) - T::from(1.0))
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, tensor, unit};
+use crate::exact::tensor::{Tensor, area, cofactor, det, tensor, unit};
 
 /// Compressible neo-Hookean elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +14,16 @@ impl NeoHookeanLaw {
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
+}
+
+/// Most steps to the stretch across a plate; strains of 100 % take about five.
+const MOST_STEPS: usize = 100;
+
+/// Newton's step to the logarithmic strain across a plate, from `eps`; `log` is that of its area.
+fn newton<T: Number>(Lame { lambda, mu }: Lame, log: T, eps: T) -> T {
+    let (lambda, mu, square) = (T::from(lambda), T::from(mu), Number::exp(eps + eps));
+    let force = lambda * (log + eps) + mu * (square - T::from(1.0));
+    eps - force / (lambda + (mu + mu) * square)
 }
 
 impl ConstitutiveLaw for NeoHookeanLaw {
@@ -32,6 +42,24 @@ impl ConstitutiveLaw for NeoHookeanLaw {
 
     fn modulus(&self) -> f64 {
         self.0.modulus()
+    }
+
+    /// `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` with the J of the plane and `eps = ln F_33`,
+    /// by Newton's method. The left side is convex, and not negative where its tangent at rest
+    /// vanishes: from there each step goes down to the root, until rounding stops it. Two more
+    /// carry the derivatives.
+    fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
+        let log = Number::ln(area(grad));
+        let mut eps = -self.0.thinning() * log.value();
+        let arrived = (0..MOST_STEPS).any(|_| {
+            let next = newton(self.0, log.value(), eps);
+            let arrived = next >= eps;
+            eps = if arrived { eps } else { next };
+            arrived
+        });
+        let start = T::from(if arrived { eps } else { f64::NAN });
+        let strain = newton(self.0, log, newton(self.0, log, start));
+        Some(Number::exp(strain) - T::from(1.0))
     }
 }
 

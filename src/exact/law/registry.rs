@@ -91,6 +91,14 @@ macro_rules! laws {
                 }
             }
 
+            /// `F_33 - 1` of a plate that is free across, sigma_33 = 0, for the displacement
+            /// gradient in its plane; none of a law that is not known there.
+            pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
+                match self {
+                    $($(Self::$law(law) => law.free_gradient(grad),)?)+
+                }
+            }
+
             /// Whether a body in uniaxial strain flows plastically at the displacement gradient
             /// `grad`.
             pub(super) fn flows(&self, grad: f64) -> bool {

@@ -32,6 +32,11 @@ impl ConstitutiveLaw for SmallStrainLaw {
         self.0.modulus()
     }
 
+    /// `eps_33 = -lambda/(lambda + 2 mu) (eps_11 + eps_22)`.
+    fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
+        Some(T::from(-self.0.thinning()) * (grad[0][0] + grad[1][1]))
+    }
+
     fn small_strain_modulus(&self) -> Option<f64> {
         Some(3.0 * self.0.lambda + 2.0 * self.0.mu)
     }

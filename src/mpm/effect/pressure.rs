@@ -60,7 +60,8 @@ impl<const D: usize> Effect<D> for Pressure<D> {
         let normal = surface.normal();
         surface.pull(particles, kernel, grid, |p| {
             let pressure = value(&surface.label(particles, p), t);
-            cofactor(&surface.def_grad(particles, p)) * normal * -pressure
+            let across = surface.across(particles, p);
+            cofactor(&surface.def_grad(particles, p)) * normal * (-pressure * across)
         })
     }
 }

@@ -20,6 +20,7 @@ use crate::mpm::grid::Grid;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::particles::Particles;
 use crate::named::named;
+use std::ops::{Mul, Sub};
 
 named! {
     /// Point of action of a surface force.
@@ -104,16 +105,29 @@ impl Surface {
         particles.x0[p] + self.to_face(particles, p)
     }
 
-    /// F at the surface above particle `p`: continued from the particle and the one below it, along
-    /// the straight line. That of the particle alone is wrong by half a spacing.
+    /// F at the surface above particle `p`.
     pub(super) fn def_grad<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Matrix<D> {
-        let here = particles.def_grad[p];
+        self.continued(&particles.def_grad, p)
+    }
+
+    /// Stretch across the plane there.
+    pub(super) fn across<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
+        if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
+    }
+
+    /// A column at the surface above particle `p`: continued from the particle and the one below
+    /// it, along the straight line. The entry of the particle alone is wrong by half a spacing.
+    fn continued<T>(&self, column: &[T], p: usize) -> T
+    where
+        T: Copy + Mul<f64, Output = T> + Sub<Output = T>,
+    {
+        let here = column[p];
         if self.placement == Placement::Particles {
             return here;
         }
         let high = self.column.map_or(self.outwards, |(_, sign)| sign) > 0.0;
         let below = if high { p.checked_sub(self.below) } else { Some(p + self.below) };
-        let below = below.and_then(|q| particles.def_grad.get(q)).unwrap_or(&here);
+        let below = below.and_then(|q| column.get(q)).copied().unwrap_or(here);
         here * 1.5 - below * 0.5
     }
 

@@ -67,6 +67,11 @@ pub trait Material<const D: usize>: Send {
     /// Whether the law reads F: the column exists only then, or if the basis asks for it.
     fn reads_deformation(&self) -> bool;
 
+    /// Whether the law keeps the stretch across the plane: the column exists only then.
+    fn keeps_stretch_across(&self) -> bool {
+        false
+    }
+
     /// State of each particle that the law keeps.
     fn columns(&self) -> Vec<Column> {
         Vec::new()
@@ -74,6 +79,12 @@ pub trait Material<const D: usize>: Send {
 
     /// Visits the state that the law keeps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
+
+    /// The same law of a plate that is free across its plane, sigma_33 = 0; none of a law that is
+    /// not known there.
+    fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
+        None
+    }
 
     /// Energy that all particles store, over the whole body (J); `None` where the
     /// work of the stress is no function of the state. Dissipated energy is not stored.

@@ -7,6 +7,7 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
+use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
 use super::spectral::{assembled, half_log, spectral};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
@@ -31,6 +32,32 @@ impl Hencky {
         let pressure = self.lambda * strain.sum();
         assembled(&strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j), &axes)
     }
+
+    /// W (J/m^D).
+    fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
+        let strain = half_log(&spectral(&(f * f.transpose())).0);
+        0.5 * self.lambda * strain.sum() * strain.sum() + self.mu * strain.norm_squared()
+    }
+}
+
+/// A plate: stress and energy are those of the strains in the plane, with another lambda.
+struct HenckyPlate {
+    plane: Hencky,
+    thinning: f64,
+}
+
+impl FreeAcross for HenckyPlate {
+    fn stretch(&self, area: f64) -> f64 {
+        libm::pow(area, -self.thinning)
+    }
+
+    fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
+        self.plane.cauchy(f, j)
+    }
+
+    fn density<const D: usize>(&self, f: &Matrix<D>, _: f64) -> f64 {
+        self.plane.density(f)
+    }
 }
 
 impl MaterialProperties for Hencky {
@@ -52,13 +79,15 @@ impl<const D: usize> Material<D> for Hencky {
         true
     }
 
+    fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
+        let Self { lambda, mu } = *self;
+        let plane = Self { lambda: lambda_of_plate(lambda, mu), mu };
+        Some(Box::new(PlaneStress(HenckyPlate { plane, thinning: thinning(lambda, mu) })))
+    }
+
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
-        let density = |f: &Matrix<D>| {
-            let strain = half_log(&spectral(&(f * f.transpose())).0);
-            0.5 * self.lambda * strain.sum() * strain.sum() + self.mu * strain.norm_squared()
-        };
         let all = particles.def_grad.iter().zip(&particles.vol0);
-        Some(all.map(|(f, vol0)| vol0 * density(f)).sum())
+        Some(all.map(|(f, vol0)| vol0 * self.density(f)).sum())
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {

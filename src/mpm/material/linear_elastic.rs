@@ -14,6 +14,7 @@
 //! `eps = sym(ln F)` (Higham 2008, *Functions of Matrices*, eq. 11.1).
 
 use super::contract::{Material, MaterialProperties};
+use super::plane_stress::RatePlaneStress;
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 use crate::subject::Failure;
@@ -105,6 +106,11 @@ impl MaterialProperties for LinearElastic {
 impl<const D: usize> Material<D> for LinearElastic {
     fn reads_deformation(&self) -> bool {
         false
+    }
+
+    fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
+        let plate = |lambda| Self { lambda, ..*self };
+        Some(Box::new(RatePlaneStress::new((self.lambda, self.mu), plate)))
     }
 
     /// Along a line the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per

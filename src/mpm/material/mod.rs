@@ -7,6 +7,7 @@ mod contract;
 #[cfg(test)]
 mod laws;
 mod parameter;
+mod plane_stress;
 mod registry;
 #[cfg(test)]
 mod specimen;
@@ -18,12 +19,22 @@ pub use contract::{Material, MaterialProperties};
 pub use parameter::{MaterialParameter, Range};
 
 use crate::members::{each_material, key};
+use crate::subject::PlaneState;
 use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
 use registry::materials;
 
 each_material!(materials);
 
 impl MaterialPlan {
+    /// The material of a body in this state across its plane; none of a law that is not known
+    /// there.
+    pub fn in_plane<const D: usize>(&self, plane: PlaneState) -> Option<Box<dyn Material<D>>> {
+        match plane {
+            PlaneState::Strain => Some(self.build()),
+            PlaneState::Stress => self.build().in_plane_stress(),
+        }
+    }
+
     /// Young's modulus (Pa) and Poisson's ratio of a solid.
     pub fn elasticity(&self) -> Option<(f64, f64)> {
         Some((self.parameter("young")?, self.parameter("poisson")?))

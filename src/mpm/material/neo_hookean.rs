@@ -6,6 +6,7 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
+use super::plane_stress::{FreeAcross, PlaneStress, thinning};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 
@@ -32,10 +33,49 @@ impl NeoHookean {
     /// are small, F : F - D and 2 ln J are nearly the same.
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let h = f - Matrix::identity();
-        let trace = h.trace();
-        let minors = 0.5 * (trace * trace - (h * h).trace());
-        let log = libm::log1p(trace + minors + if D == 3 { det(&h) } else { 0.0 });
-        0.5 * self.lambda * log * log + self.mu * (trace - log + 0.5 * h.norm_squared())
+        let log = log_det(&h);
+        0.5 * self.lambda * log * log + self.mu * (h.trace() - log + 0.5 * h.norm_squared())
+    }
+}
+
+/// `ln det(I + H)`.
+fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
+    let trace = h.trace();
+    let minors = 0.5 * (trace * trace - (h * h).trace());
+    libm::log1p(trace + minors + if D == 3 { det(h) } else { 0.0 })
+}
+
+/// Most steps to the stretch of a plate.
+const MOST_STEPS: usize = 100;
+
+impl FreeAcross for NeoHookean {
+    /// The root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which comes to it
+    /// from above; no number if it does not arrive, as for nu < 0 under extreme compression.
+    fn stretch(&self, area: f64) -> f64 {
+        let (Self { lambda, mu }, log) = (*self, libm::log(area));
+        let mut above = -thinning(lambda, mu) * log;
+        for _ in 0..MOST_STEPS {
+            // s^2 - 1, which for small strains keeps its digits.
+            let excess = libm::expm1(2.0 * above);
+            let slope = lambda + 2.0 * mu * (1.0 + excess);
+            let next = above - (lambda * (log + above) + mu * excess) / slope;
+            if next >= above {
+                return libm::exp(above);
+            }
+            above = next;
+        }
+        f64::NAN
+    }
+
+    fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
+        self.cauchy(f, j)
+    }
+
+    fn density<const D: usize>(&self, f: &Matrix<D>, across: f64) -> f64 {
+        let (h, thicker) = (f - Matrix::identity(), across - 1.0);
+        let log = log_det(&h) + libm::log1p(thicker);
+        let squares = h.norm_squared() + thicker * thicker;
+        0.5 * self.lambda * log * log + self.mu * (h.trace() + thicker - log + 0.5 * squares)
     }
 }
 
@@ -56,6 +96,10 @@ impl MaterialProperties for NeoHookean {
 impl<const D: usize> Material<D> for NeoHookean {
     fn reads_deformation(&self) -> bool {
         true
+    }
+
+    fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
+        Some(Box::new(PlaneStress(*self)))
     }
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {

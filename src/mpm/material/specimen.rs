@@ -3,7 +3,7 @@
 use super::{Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::{Block, Particles};
-use crate::subject::Checkpoint;
+use crate::subject::{Checkpoint, PlaneState};
 
 /// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
 /// Powers of two, so that velocity gradients times the step are exact.
@@ -30,6 +30,13 @@ impl<const D: usize> Specimen<D> {
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         particles.track_deformation();
         Self(plan.build(), particles)
+    }
+
+    /// A particle of a body in this state across its plane, if the law is known there.
+    pub(super) fn in_plane(plan: MaterialPlan, plane: PlaneState) -> Option<Self> {
+        let Self(_, mut particles) = Self::new(plan);
+        particles.across = vec![1.0];
+        Some(Self(plan.in_plane(plane)?, particles))
     }
 
     /// The stress after a step at this velocity gradient.
@@ -70,6 +77,11 @@ impl<const D: usize> Specimen<D> {
     /// The stored energy (J), of a volume of one.
     pub(super) fn energy(&self) -> Option<f64> {
         self.0.energy(&self.1)
+    }
+
+    /// The stretch across the plane.
+    pub(super) fn across(&self) -> f64 {
+        self.1.across[0]
     }
 
     pub(super) fn j(&self) -> f64 {

@@ -56,7 +56,7 @@ impl<const D: usize> Particles<D> {
             ..
         } = self;
         permute([x0, x, current_position, v], order);
-        permute([mass, vol0, vol, &mut self.temperature], order);
+        permute([mass, vol0, vol, &mut self.across, &mut self.temperature], order);
         permute([sigma, def_grad, domain, domain0, grad_v], order);
     }
 }

@@ -32,6 +32,7 @@ impl<const D: usize> Memory for Particles<D> {
             vol,
             sigma,
             def_grad,
+            across,
             domain,
             domain0: _,
             grad_v,
@@ -41,7 +42,7 @@ impl<const D: usize> Memory for Particles<D> {
         for column in [x, current_position, v] {
             checkpoint.visit::<[Vector<D>]>(column);
         }
-        for column in [vol, temperature] {
+        for column in [vol, across, temperature] {
             checkpoint.visit::<[f64]>(column);
         }
         for column in [sigma, def_grad, domain, grad_v] {

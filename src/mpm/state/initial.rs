@@ -28,6 +28,9 @@ pub(in crate::mpm) fn complete<const D: usize>(
     if material.reads_deformation() {
         particles.track_deformation();
     }
+    if material.keeps_stretch_across() {
+        particles.across.resize(particles.len(), 1.0);
+    }
     if deformed {
         material.start_deformed(particles)?;
     }

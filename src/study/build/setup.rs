@@ -76,7 +76,7 @@ pub(crate) fn setup<const D: usize>(
         transfer: transfer.build(),
         mass: crate::mpm::mass_matrix(mass),
         frame,
-        material: body.own.material.build(),
+        material: body.own.material.in_plane(scene.plane).ok_or("a law unknown in its plane")?,
         effects,
         boundary: boundary(scene, &grid, basis),
         grid,

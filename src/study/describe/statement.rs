@@ -1,6 +1,7 @@
 //! The statement of a problem in rows of name and value, for reports and `explain`.
 
 use crate::mpm::{MaterialParameter, MaterialPlan};
+use crate::subject::PlaneState;
 use crate::suite::compile::load::fields::sources;
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::{Scene, Suite};
@@ -80,6 +81,11 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     if one {
         push(rows, "material", &material(&scene.material));
     }
+    let across = match scene.plane {
+        PlaneState::Strain => "",
+        PlaneState::Stress => "stress, sigma_33 = 0",
+    };
+    push(rows, "plane", across);
     for (number, face) in scene.faces.iter().enumerate() {
         rows.extend(scene.loads_on(LoadTarget::Face(number)).flat_map(|load| load.rows()));
         let is_loaded = scene.loads_on(LoadTarget::Face(number)).next().is_some();

@@ -1,6 +1,7 @@
 //! Keys of a scene.
 
 use crate::mpm::MaterialSpec;
+use crate::subject::PlaneState;
 use crate::suite::yaml::{NumberText, Ordered};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -9,6 +10,7 @@ use serde::de::IgnoredAny;
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneSpec {
     pub(crate) dimension: NumberText,
+    pub(crate) plane: Option<PlaneState>,
     pub(crate) body: Option<BodySpec>,
     /// Several bodies, in place of `body` and `material`.
     pub(crate) bodies: Option<Vec<OneBodySpec>>,

@@ -6,6 +6,7 @@ use super::load::{EffectName, ListedLoad, LoadTarget};
 use crate::exact::formula::Formula;
 use crate::exact::{Region, Round, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
+use crate::subject::PlaneState;
 use std::sync::Arc;
 
 /// The body and what acts on it.
@@ -21,6 +22,8 @@ pub struct Scene {
     pub quadrilateral: Option<Quadrilateral>,
     /// Grid that the suite asks for, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
+    /// State of the bodies across the plane of two dimensions.
+    pub plane: PlaneState,
     /// The material, but for its density.
     pub material: MaterialPlan,
     /// Reference density (kg/m^D).

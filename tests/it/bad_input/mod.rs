@@ -18,6 +18,7 @@ mod materials;
 mod numbers;
 mod panels;
 mod periods;
+mod planes;
 mod quantities;
 mod random;
 mod refinement;

@@ -115,6 +115,8 @@ fn goes_on(suite: &Suite) -> Vec<u8> {
 #[case("plastic-wave")]
 #[case("rotating-block")]
 #[case("simple-shear")]
+#[case("plane-stress-wave")]
+#[case("plane-stress-pull")]
 fn an_interrupted_level_shows_what_a_whole_one_does(#[case] name: &str) {
     let suite = load(name);
     let plan: &ConvergencePlan = suite.plan().unwrap();

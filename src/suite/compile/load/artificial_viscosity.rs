@@ -3,6 +3,7 @@
 use super::contract::{LoadEntry, LoadWords};
 use crate::exact::Term;
 use crate::mpm::{ArtificialViscosity, Effect};
+use crate::subject::PlaneState;
 use crate::suite::compile::wording::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -38,6 +39,11 @@ impl LoadWords for ViscositySpec {
             quadratic: coefficient("quadratic", &self.quadratic)?,
             speed: entry.scene.wave_speed(),
         }))
+    }
+
+    fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
+        let reason = "an artificial viscosity is a pressure on all axes";
+        (plane != PlaneState::Strain).then_some(reason)
     }
 
     fn lacked_by_fem(&self) -> Option<&'static str> {

@@ -3,6 +3,7 @@
 use crate::exact::Region;
 use crate::exact::formula::Formula;
 use crate::mpm::{Particles, Placement, Side};
+use crate::subject::PlaneState;
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
@@ -46,6 +47,11 @@ pub(crate) trait LoadWords {
 
     /// The word for the part of it that the reference FEM lacks.
     fn lacked_by_fem(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Why the load does not go with a body in this state across its plane, if it does not.
+    fn against_plane(&self, _: PlaneState) -> Option<&'static str> {
         None
     }
 

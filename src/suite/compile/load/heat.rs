@@ -6,6 +6,7 @@ use crate::exact::formula::{Expr, Formula};
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
 use crate::exact::{Round, Term};
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
+use crate::subject::PlaneState;
 use crate::suite::compile::boundary::thermal::ThermalSpec;
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::path::Path;
@@ -57,6 +58,10 @@ impl LoadWords for HeatSpec {
             initial: initial.transpose()?,
             faces: thermal_face::faces(entry, &self.boundary)?,
         }))
+    }
+
+    fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
+        (plane != PlaneState::Strain).then_some("heat flows in bodies in plane strain only")
     }
 
     fn is_of_one_body(&self) -> bool {

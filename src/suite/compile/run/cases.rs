@@ -1,7 +1,7 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
 use super::methods::{count, methods, named};
-use crate::mpm::{FrameName, MassName, combine, combine_bodies};
+use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases;
 use crate::suite::compile::path::Path;
@@ -115,7 +115,7 @@ fn runs(
     drafts
 }
 
-/// Refuses parts of a method that do not go together, or not with several bodies.
+/// Refuses parts of a method that do not go together, or not with the scene.
 fn combined(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -123,7 +123,8 @@ fn combined(
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
     let Method::Mpm { basis, transfer, mass, frame, start, .. } = method else { return Ok(()) };
-    let mut known = combine(basis, transfer, mass, frame);
+    let mut known = combine(basis, transfer, mass, frame)
+        .and_then(|()| combine_across(plan.scene.plane, transfer));
     if plan.scene.bodies.len() > 1 {
         let contact = plan.scene.contact.is_some();
         known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));

@@ -6,6 +6,7 @@ pub(crate) mod boundary;
 pub(crate) mod face;
 pub(crate) mod lengths;
 pub(crate) mod material;
+mod plane;
 pub(crate) mod quadrilateral;
 pub(crate) mod rest;
 pub(crate) mod scene_words;

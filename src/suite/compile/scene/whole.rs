@@ -4,7 +4,7 @@ use super::bodies::Listed;
 use super::body::BodyShape;
 use super::material::material;
 use super::quadrilateral::faces_are_sides;
-use super::{bodies, body, boundary, rest, sets};
+use super::{bodies, body, boundary, plane, rest, sets};
 use crate::exact::Region;
 use crate::exact::formula::Formula;
 use crate::mpm::MaterialPlan;
@@ -68,12 +68,16 @@ fn body(
         .map(|grid| body::corners(evaluator, &path.then("grid"), grid, dimension))
         .transpose()?;
     let sets = declared_sets(evaluator, &path, words, (&from, &to))?;
-    let (material, density) = material(evaluator, &own.at.then("material"), own.material)?;
+    let at = own.at.then("material");
+    let (material, density) = material(evaluator, &at, own.material)?;
+    let plane = plane::plane(evaluator, &path, words, dimension)?;
+    plane::knows(evaluator, &at, &material, plane)?;
     let mut scene = Scene {
         from,
         to,
         grid,
         initial_displacement: initial_displacement(evaluator, own, dimension, &material)?,
+        plane,
         material,
         density,
         faces: if round.is_some() && words.bodies.is_none() {

@@ -2,7 +2,8 @@
 
 use super::expect;
 use super::setup::setup;
-use crate::mpm::{MaterialPlan, combine};
+use crate::mpm::{MaterialPlan, combine, combine_across};
+use crate::subject::PlaneState;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases::{assign, because};
 use crate::suite::compile::path::Path;
@@ -40,7 +41,7 @@ pub(crate) fn plan(
             material = template.setup(&with)?.scene.material;
         }
     }
-    let drafts = drafts(evaluator, spec, &material)?;
+    let drafts = drafts(evaluator, spec, &material, base.scene.plane)?;
     let cases = cases(evaluator, &template, spec, drafts, (&swept, &values, sought.is_some()))?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
@@ -137,6 +138,7 @@ fn drafts(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
     material: &MaterialPlan,
+    plane: PlaneState,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
     let own = law::own(material).unwrap_or_default();
     let mut drafts = Vec::new();
@@ -147,7 +149,8 @@ fn drafts(
         }
         for draft in methods(i, spec, own) {
             if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
-                combine(basis, transfer, mass, frame).map_err(|reason| {
+                let across = |()| combine_across(plane, transfer);
+                combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
                     evaluator.diagnostic(&path, &reason).with_help(help)
                 })?;

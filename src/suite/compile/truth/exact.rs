@@ -170,6 +170,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         to: scene.to.clone(),
         round: scene.round.clone(),
         bodies: Vec::new(),
+        plane: scene.plane,
         density: scene.density,
         equation,
         terms: scene.terms(),

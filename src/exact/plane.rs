@@ -1,0 +1,59 @@
+//! Derivatives of a motion in a plane, completed by what happens across it.
+
+use super::formula::{Number, Slope};
+use super::law::Equation;
+use super::motion::Derivatives;
+use super::tensor::{Tensor, tensor};
+use crate::subject::PlaneState;
+
+/// Adds the displacement gradient across the plane, `F_33 - 1`, and its derivatives along the plane
+/// to those of a motion in the plane.
+pub(super) fn complete(plane: PlaneState, equation: &Equation, now: &mut Derivatives) {
+    match plane {
+        PlaneState::Strain => {}
+        PlaneState::Stress => {
+            let varying: Tensor<Slope<2>, 2> = tensor(|i, j| {
+                Slope::new(now.grad[i][j], [now.second[i][j][0], now.second[i][j][1]])
+            });
+            // A scene of a law that is not known there is refused.
+            let Some(across) = equation.free_gradient(&varying) else { return };
+            now.grad[2][2] = across.value();
+            now.second[2][2] = [across.d(0), across.d(1), 0.0];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Nothing acts across a plate, and the stretch varies along it as its own difference says.
+    #[rstest]
+    fn a_plate_is_free_across(
+        #[values(
+            SmallStrainLaw::new(7.2, 0.3).into(),
+            NeoHookeanLaw::new(7.2, 0.3).into(),
+            NeoHookeanLaw::new(7.2, 0.0).into(),
+            NeoHookeanLaw::new(7.2, -0.4).into(),
+            NeoHookeanLaw::new(7.2, 0.4999).into(),
+            HenckyLaw::new(7.2, 0.3).into(),
+        )]
+        law: Equation,
+    ) {
+        let at = |x: f64| {
+            let grad = [[0.3 + 0.1 * x, 0.2, 0.0], [0.1, -0.2 - 0.5 * x, 0.0], [0.0; 3]];
+            let mut now = Derivatives { grad, ..Derivatives::default() };
+            (now.second[0][0][0], now.second[1][1][0]) = (0.1, -0.5);
+            complete(PlaneState::Stress, &law, &mut now);
+            now
+        };
+        let here = at(0.0);
+        let free = law.piola(&here.grad)[2][2].abs() < 1e-14 * law.modulus();
+        assert!(free, "{:?}", law.piola(&here.grad));
+        let slope = (at(1e-6).grad[2][2] - at(-1e-6).grad[2][2]) / 2e-6;
+        assert_relative_eq!(here.second[2][2][0], slope, max_relative = 1e-8, epsilon = 1e-9);
+    }
+}

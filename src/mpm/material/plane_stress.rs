@@ -1,0 +1,159 @@
+//! Plates in plane stress: laws whose stretch across the plane is that at which sigma_33 = 0.
+//!
+//! The volume of a particle is `V = J V0` with the J of all three axes, so that the forces of a
+//! plate that becomes thinner are those of its present thickness.
+
+use super::contract::Material;
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
+use crate::subject::Failure;
+
+/// A law of the whole deformation that is known in plane stress.
+pub(super) trait FreeAcross: Send {
+    /// F_33 of a plate whose F in the plane has the determinant `area`.
+    fn stretch(&self, area: f64) -> f64;
+
+    /// sigma (Pa) in the plane, with the `j` of all three axes.
+    fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D>;
+
+    /// Stored energy (J/m3), with the stretch across.
+    fn density<const D: usize>(&self, f: &Matrix<D>, across: f64) -> f64;
+}
+
+/// A plate of a law of the whole deformation.
+pub(super) struct PlaneStress<L>(pub(super) L);
+
+impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
+    fn reads_deformation(&self) -> bool {
+        true
+    }
+
+    fn keeps_stretch_across(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let all = particles.def_grad.iter().zip(&particles.across).zip(&particles.vol0);
+        Some(all.map(|((f, across), vol0)| vol0 * self.0.density(f, *across)).sum())
+    }
+
+    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
+        let Particles { def_grad, across, vol0, vol, sigma, .. } = particles;
+        for (p, f) in def_grad.iter().enumerate() {
+            let area = det(f);
+            // Of a particle inside out the solver says so by its volume.
+            across[p] = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
+            let j = area * across[p];
+            vol[p] = j * vol0[p];
+            sigma[p] = self.0.cauchy(f, j);
+        }
+    }
+}
+
+/// `nu/(1 - nu)`: logarithmic strain across over that of the area, less the sign.
+pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
+    lambda / (lambda + 2.0 * mu)
+}
+
+/// First Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`: lambda as the strains in
+/// the plane alone have it (Timoshenko & Goodier 1970, section 16).
+pub(super) fn lambda_of_plate(lambda: f64, mu: f64) -> f64 {
+    2.0 * mu * thinning(lambda, mu)
+}
+
+/// A plate of a law in rate form, `D_33 = -nu/(1 - nu) (D_11 + D_22)`.
+pub(super) struct RatePlaneStress<L> {
+    /// The law of the strains in the plane alone.
+    plane: L,
+    /// `nu/(1 - nu)`.
+    thinning: f64,
+}
+
+impl<L> RatePlaneStress<L> {
+    /// Of the law that `with_lambda` makes of another first Lame parameter (Pa).
+    pub(super) fn new((lambda, mu): (f64, f64), with_lambda: impl Fn(f64) -> L) -> Self {
+        Self { plane: with_lambda(lambda_of_plate(lambda, mu)), thinning: thinning(lambda, mu) }
+    }
+}
+
+impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
+    fn reads_deformation(&self) -> bool {
+        false
+    }
+
+    fn keeps_stretch_across(&self) -> bool {
+        true
+    }
+
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        self.plane.start_deformed(particles)?;
+        let Particles { def_grad, across, vol, .. } = particles;
+        for ((f, across), vol) in def_grad.iter().zip(across).zip(vol) {
+            *across = libm::pow(det(f), -self.thinning);
+            *vol *= *across;
+        }
+        Ok(())
+    }
+
+    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
+        self.plane.update(dt, particles);
+        let Particles { grad_v, across, vol, .. } = particles;
+        for ((grad_v, across), vol) in grad_v.iter().zip(across).zip(vol) {
+            let step = 1.0 - self.thinning * grad_v.trace() * dt;
+            *across *= step;
+            *vol *= step;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::specimen::{SLOW, Specimen, every, scattered};
+    use crate::mpm::algebra::{Matrix, det};
+    use crate::subject::PlaneState;
+    use approx::{assert_abs_diff_eq, assert_relative_eq};
+
+    /// The plates of the family, each with its law in space.
+    fn plates() -> Vec<(Specimen<2>, Specimen<3>)> {
+        let plate =
+            |plan| Some((Specimen::in_plane(plan, PlaneState::Stress)?, Specimen::new(plan)));
+        let plates: Vec<_> = every().into_iter().filter_map(plate).collect();
+        assert!(plates.len() >= 3, "linear elasticity, neo-Hookean, Hencky");
+        plates
+    }
+
+    fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
+        let mut space = Matrix::<3>::from_diagonal_element(across);
+        space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);
+        space
+    }
+
+    /// The law in space, stretched across as the plate is, has the plate's stress and none across.
+    #[test]
+    fn a_plate_is_a_body_that_is_free_across() {
+        for (mut plate, mut space) in plates() {
+            for seed in [0.3, 1.1, 2.6] {
+                let step = Matrix::<2>::identity() + scattered(0.2, seed);
+                let before = plate.across();
+                let sigma = plate.deform(&step, SLOW);
+                let found = space.deform(&in_space(&step, plate.across() / before), SLOW);
+                assert_abs_diff_eq!(found, in_space(&sigma, 0.0), epsilon = 1e-11);
+                assert_relative_eq!(plate.j(), space.j(), max_relative = 1e-13);
+                if let Some(energy) = plate.energy() {
+                    assert_relative_eq!(energy, space.energy().unwrap(), max_relative = 1e-11);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_plate_may_start_deformed() {
+        for (mut plate, mut space) in plates() {
+            let f = Matrix::<2>::identity() + scattered(0.2, 0.8);
+            let sigma = plate.start(&f);
+            let found = space.start(&in_space(&f, plate.across()));
+            assert_abs_diff_eq!(found, in_space(&sigma, 0.0), epsilon = 1e-11);
+            assert_relative_eq!(plate.j(), det(&f) * plate.across(), max_relative = 1e-14);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! State of a two-dimensional body across its plane, from words.
+
+use crate::mpm::MaterialPlan;
+use crate::subject::PlaneState;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
+use crate::suite::yaml::Diagnostic;
+
+/// The state that the scene states, plane strain unless it does.
+pub(crate) fn plane(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    words: &SceneWords<'_>,
+    dimension: usize,
+) -> Result<PlaneState, Diagnostic> {
+    let Some(plane) = words.plane else { return Ok(PlaneState::Strain) };
+    if dimension != 2 {
+        let message = format!("a plane, and the scene is {dimension}-D");
+        return Err(evaluator
+            .diagnostic(&path.then("plane"), &message)
+            .with_label("expected in a scene of `dimension: 2`"));
+    }
+    for (i, load) in words.loads.iter().enumerate() {
+        if let Some(reason) = load.words().against_plane(plane) {
+            let message = format!("`plane: {}`, and {reason}", plane.name());
+            return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
+        }
+    }
+    Ok(plane)
+}
+
+/// Refuses a material whose law is not known in the state across the plane; `path` is that of the
+/// material.
+pub(crate) fn knows(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    material: &MaterialPlan,
+    plane: PlaneState,
+) -> Result<(), Diagnostic> {
+    if material.in_plane::<2>(plane).is_some() {
+        return Ok(());
+    }
+    let name = material.name();
+    let message = format!("the law `{name}` is not known in plane stress, where sigma_33 = 0");
+    let diagnostic = evaluator.diagnostic_at_key(&path.then(name), &message);
+    Err(diagnostic.with_help("take `linear_elastic`, `neo_hookean` or `hencky`"))
+}
