@@ -23,6 +23,8 @@ macro_rules! each_material {
             }, truth j2::J2Law;
             "newtonian" => newtonian::Newtonian { bulk: BULK, viscosity: VISCOSITY },
                 truth tait::TaitLaw;
+            "linear_fluid" => linear_fluid::LinearFluid { bulk: BULK },
+                truth linear_fluid::LinearFluidLaw;
             "rigid" => rigid::Rigid {};
         }
     };

@@ -99,7 +99,11 @@ fn sound(suite: &Suite) -> String {
         let (seconds, mb) = (rounded(cost.seconds), rounded(cost.bytes / 1e6));
         format!(", about {seconds} s of one thread and {mb} MB")
     });
-    format!("{}: sound, {cases} {noun}{cost}{gate}\n", suite.name)
+    let linearised = study::linearisation(suite).map_or(String::new(), |left| {
+        let (residual, error) = (left.residual, rounded(left.error));
+        format!("; linearised to {residual:.1e} of its terms, an error of about {error:e} m")
+    });
+    format!("{}: sound, {cases} {noun}{cost}{linearised}{gate}\n", suite.name)
 }
 
 /// One significant digit: an estimate has no more.

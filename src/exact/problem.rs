@@ -5,6 +5,7 @@ use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_pio
 use super::formula::Formula;
 use super::heat::Conduction;
 use super::law::Equation;
+use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, write};
 use super::plane;
 use super::random::Random;
@@ -72,12 +73,19 @@ pub struct Problem {
     pub motion: Motion,
     /// Largest residual that passes, relative to the terms of the condition.
     pub tolerance: f64,
+    /// The share that may be left of the law, if the motion solves the linearised problem only.
+    pub linearised: Option<Linearised>,
 }
 
 impl Problem {
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.from.len()
+    }
+
+    /// Largest residual that passes of a condition that the law enters, relative to its terms.
+    pub(super) fn law_tolerance(&self) -> f64 {
+        self.linearised.as_ref().map_or(self.tolerance, |linearised| linearised.tolerance)
     }
 
     /// Whether the body holds a point of the box around it.

@@ -85,7 +85,7 @@ where
 }
 
 /// A face that does not move.
-fn fixed() -> Arc<dyn Condition> {
+pub(super) fn fixed() -> Arc<dyn Condition> {
     Demands::condition(|point| (0..point.dimension()).try_for_each(|i| point.held(i, "fixed")))
 }
 
@@ -126,6 +126,7 @@ fn held(dimension: usize) -> Problem {
         until: 1.0,
         motion: Motion::new((0..dimension).map(component).collect()),
         tolerance: 1e-8,
+        linearised: None,
     }
 }
 
@@ -176,7 +177,7 @@ fn the_force_of_a_run_is_the_force(
 }
 
 /// A bar from 0 to 1 with c = 1, and its left end fixed.
-fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
+pub(super) fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
     let face = |name, high, condition| Face { name, axis: 0, high, period: 1.0, condition };
     Problem {
         equation: SmallStrainLaw::new(2.0, 0.0).into(),

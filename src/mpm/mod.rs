@@ -59,8 +59,8 @@ pub use kernel::tally::Tally;
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
-    Hencky, J2, LinearElastic, Material, MaterialParameter, MaterialPlan, MaterialProperties,
-    MaterialSpec, NeoHookean, Newtonian, Range, Rigid,
+    Hencky, J2, LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan,
+    MaterialProperties, MaterialSpec, NeoHookean, Newtonian, Range, Rigid,
 };
 pub use multibody::Bodies;
 pub use particles::{Block, Particles};

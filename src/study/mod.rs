@@ -27,6 +27,7 @@ pub(crate) mod stability;
 pub use build::setup::effects;
 pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
+pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use preflight::{Estimate, estimate, preflight};

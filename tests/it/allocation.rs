@@ -55,6 +55,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         until: 1.0,
         motion: Motion::new(vec![formula; D]),
         tolerance: 1e-8,
+        linearised: None,
     };
     Forcing::new(&problem, labels.iter().map(Vector::as_slice))
 }

@@ -50,6 +50,7 @@ fn problem(
         until,
         motion: Motion::new(displacement.iter().map(formula).collect()),
         tolerance: 1e-8,
+        linearised: None,
     }
 }
 

@@ -4,10 +4,12 @@ use super::friction;
 use super::pointwise::{AXES, Event, POINTS, largest, scale, strain};
 use crate::exact::condition::FacePoint;
 use crate::exact::formula::Formula;
+use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::problem::{Face, Problem};
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
+use std::cell::Cell;
 
 /// Magnitudes that residuals of boundary conditions are compared with.
 struct Magnitudes {
@@ -17,8 +19,9 @@ struct Magnitudes {
     stress: f64,
 }
 
-/// Every face of the body, at random points and times.
-pub(crate) fn boundary(problem: &Problem) -> Result<(), Violation> {
+/// Every face of the body, at random points and times: returns what is left of its tractions, the
+/// largest relative to the stress.
+pub(crate) fn boundary(problem: &Problem) -> Result<f64, Violation> {
     let gradient = strain(problem);
     let sizes = Magnitudes {
         displacement: scale(problem, |_, d| largest(&d.u)),
@@ -26,16 +29,18 @@ pub(crate) fn boundary(problem: &Problem) -> Result<(), Violation> {
         gradient,
         stress: problem.equation.modulus() * gradient,
     };
+    let left = Cell::new(0.0);
     let mut random = Random::new(3);
     for face in &problem.faces {
         for _ in 0..POINTS {
             let label = random.on_face(&problem.from, &problem.to, face.axis, face.high);
             let event = Event { label, t: problem.moment(&mut random) };
             let now = problem.derivatives(&event.label, event.t);
-            face.condition.check(&MovingPoint { problem, face, event, now, sizes: &sizes })?;
+            let (sizes, left) = (&sizes, &left);
+            face.condition.check(&MovingPoint { problem, face, event, now, sizes, left })?;
         }
     }
-    Ok(())
+    Ok(left.get())
 }
 
 /// A point of a face, with the motion there.
@@ -45,6 +50,7 @@ struct MovingPoint<'a> {
     event: Event,
     now: Derivatives,
     sizes: &'a Magnitudes,
+    left: &'a Cell<f64>,
 }
 
 impl FacePoint for MovingPoint<'_> {
@@ -81,8 +87,9 @@ impl FacePoint for MovingPoint<'_> {
         let normal = if face.high { 1.0 } else { -1.0 };
         let found = normal * problem.piola(&event.label, event.t, &self.now)[i][face.axis];
         let name = format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
-        let allowed = problem.tolerance * self.sizes.stress.max(given.abs());
-        event.judge(allowed, name, (given, found), "Pa")
+        let size = self.sizes.stress.max(given.abs());
+        self.left.set(self.left.get().max(share(found - given, size)));
+        event.judge(problem.law_tolerance() * size, name, (given, found), "Pa")
     }
 
     fn friction(&self, coefficient: f64) -> Result<(), Violation> {
@@ -92,7 +99,7 @@ impl FacePoint for MovingPoint<'_> {
     }
 
     fn continues_on_opposite_face(&self) -> Result<(), Violation> {
-        let Self { problem, face, event, now, sizes } = self;
+        let Self { problem, face, event, now, sizes, .. } = self;
         let mut opposite = event.label.clone();
         opposite[face.axis] =
             if face.high { problem.from[face.axis] } else { problem.to[face.axis] };

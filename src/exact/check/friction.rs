@@ -30,7 +30,7 @@ pub(crate) fn at_wall(
     let piola = problem.equation.piola(&now.grad);
     let traction: [f64; 3] = std::array::from_fn(|i| outwards * piola[i][axis]);
     let pressure = -outwards * traction[axis];
-    let allowed = tolerance * stress;
+    let allowed = problem.law_tolerance() * stress;
     event.judge_most(
         allowed,
         condition("which does not pull, traction"),
@@ -121,6 +121,7 @@ mod tests {
             until: 1.0,
             motion: Motion::new(vec![bind(x, &["X", "Y", "t"]), bind(y, &["X", "Y", "t"])]),
             tolerance: 1e-8,
+            linearised: None,
         }
     }
 

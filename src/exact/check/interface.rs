@@ -102,7 +102,7 @@ impl BodyPair<'_> {
     fn balance(&self, event: &Event, [here, there]: [[f64; 3]; 2]) -> Result<(), Violation> {
         for i in 0..self.one.dimension() {
             let name = self.condition(&format!("the same traction in {} on both,", AXES[i]));
-            let allowed = self.one.tolerance * self.sizes[2];
+            let allowed = self.one.law_tolerance() * self.sizes[2];
             event.judge(allowed, name, (here[i], there[i]), "Pa")?;
         }
         Ok(())
@@ -130,7 +130,7 @@ impl BodyPair<'_> {
         let forces = self.forces(&here, &there);
         self.balance(&event, forces)?;
         let ([traction, _], pressure) = (forces, -forces[0][axis]);
-        let (allowed, apart) = (tolerance * stress, gap > allowed);
+        let (allowed, apart) = (one.law_tolerance() * stress, gap > allowed);
         let name = self.condition("and do not pull each other, traction");
         event.judge_most(allowed, name, (0.0, -pressure), "Pa")?;
         if apart {
@@ -182,6 +182,7 @@ mod tests {
                 until: 3.0,
                 motion: Motion::new(vec![bind()]),
                 tolerance: 1e-8,
+                linearised: None,
             }
         };
         [bar(0.0, [free(), Arc::new(Interface)]), bar(1.0, [Arc::new(Interface), free()])]

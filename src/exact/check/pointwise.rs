@@ -1,6 +1,7 @@
 //! Conditions checked point by point.
 
 use crate::exact::formula::Formula;
+use crate::exact::linearised::share;
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -151,8 +152,8 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
 
 /// `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. Where the problem
 /// declares a force, the two sides are put as forces: that which the motion needs, and that which
-/// is declared.
-pub(crate) fn equation(problem: &Problem) -> Result<(), Violation> {
+/// is declared. Returns the largest residual, relative to the largest sum of the terms.
+pub(crate) fn equation(problem: &Problem) -> Result<f64, Violation> {
     let points = interior(problem, 4);
     let terms = |event: &Event, d: &Derivatives, i: usize| {
         let inertia = problem.density * d.acceleration[i];
@@ -165,11 +166,13 @@ pub(crate) fn equation(problem: &Problem) -> Result<(), Violation> {
             .map(|(a, b, c)| a.abs() + b.abs() + c.abs())
             .sum()
     });
+    let mut left = 0.0;
     for (event, d) in &points {
         for i in 0..problem.dimension() {
             let (inertia, stress, force) = terms(event, d, i);
             let name = format!("equation of motion in {}, rho0 u_tt = Div P + rho0 b,", AXES[i]);
-            let (allowed, rho0) = (problem.tolerance * size, problem.density);
+            let (allowed, rho0) = (problem.law_tolerance() * size, problem.density);
+            left = f64::max(left, share(stress + force - inertia, size));
             if problem.terms.iter().any(|term| term.is_body_force()) {
                 let (name, forces) =
                     (name + " solved for b,", ((inertia - stress) / rho0, force / rho0));
@@ -179,5 +182,5 @@ pub(crate) fn equation(problem: &Problem) -> Result<(), Violation> {
             }
         }
     }
-    Ok(())
+    Ok(left)
 }

@@ -59,6 +59,11 @@ pub(super) trait ClosedForms {
     /// The energy (J/m3) that stress derives from, but for a constant, as long as nothing flows;
     /// none for a law in rate form.
     fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
+
+    /// Stress (Pa) that rounding of J makes, if nothing else makes one in a step of no time.
+    fn rounding(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A constitutive law, with the state that only it reads. It meets the solver between stages: one

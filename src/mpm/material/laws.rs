@@ -101,7 +101,9 @@ fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) 
         assert_abs_diff_eq!(error(0.1, 2.0), 0.0, epsilon = 1e-11);
     } else if D > 1 {
         let (error, half) = (error(1e-3, 1e-3), error(5e-4, 5e-4));
-        assert!((3.9 * half..=4.1 * half).contains(&error), "{plan:?}: {error}, {half}");
+        // A stress of J alone does not know of the turn.
+        let is_second_order = error < 1e-13 || (3.9 * half..=4.1 * half).contains(&error);
+        assert!(is_second_order, "{plan:?}: {error}, {half}");
     }
 }
 
@@ -115,7 +117,8 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     let (l, w, q) = (scattered::<D>(1.0, 0.6), scattered::<D>(1.0, 2.2), rotation::<D>(2.0));
     let turned = q * rate(l) * q.transpose();
     let found = rate(q * l * q.transpose() + w - w.transpose());
-    assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm());
+    let rounding = plan.closed_forms().rounding();
+    assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm() + rounding);
 }
 
 /// The state kept after a step, plastic flow too, gives the same stress again.

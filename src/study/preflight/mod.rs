@@ -6,7 +6,8 @@
 //! levels       levels that can count for an order
 //! time_step    steps beyond the stable one, and steps that do not follow the cells
 //! reach        a motion that leaves the grid
-//! strain       a truth of small strain beside a solver of finite strain
+//! strain       a solution of small strain or of a linearised law, and where its error shows
+//! linearised   a tolerance for a linearised solution that is larger than it needs
 //! alignment    interfaces and loaded faces inside a cell
 //! cost         seconds and memory
 //! ```
@@ -18,6 +19,7 @@ pub(crate) mod alignment;
 pub(crate) mod cost;
 pub(crate) mod extremes;
 pub(crate) mod levels;
+pub(crate) mod linearised;
 pub(crate) mod reach;
 pub(crate) mod strain;
 pub(crate) mod subject;
@@ -32,13 +34,17 @@ use crate::suite::yaml::{Diagnostic, Source};
 /// Findings of one rule.
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
-/// Every rule.
-const RULES: [PreflightRule; 5] =
+/// Every rule of suites that claim an order.
+const RULES_OF_ORDER: [PreflightRule; 5] =
     [levels::check, time_step::check, reach::check, strain::check, alignment::check];
+
+/// Every rule of all suites.
+const RULES: [PreflightRule; 1] = [linearised::check];
 
 /// Warnings and notes about `suite`, read from `source`; none about studies that refine nothing.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
-    let Some(preflight) = Preflight::of_an_order_in(plan, source) else { return Vec::new() };
-    RULES.iter().flat_map(|rule| rule(&preflight)).collect()
+    let preflight = Preflight::new(plan, source);
+    let of_order = RULES_OF_ORDER.iter().filter(|_| preflight.claims_an_order());
+    of_order.chain(&RULES).flat_map(|rule| rule(&preflight)).collect()
 }

@@ -1,6 +1,7 @@
-//! A truth of small strain beside a solver of finite strain.
+//! A solution of small strain or of a linearised law beside a solver that has neither.
 
 use super::subject::Preflight;
+use crate::study::describe::linearisation::Linearisation;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
@@ -12,32 +13,56 @@ const SEEN: f64 = 0.3;
 /// Share from which on a few refinements more will show it.
 const SOON: f64 = 0.003;
 
-/// Estimated error (m) of a truth of small strain, and the largest strain.
-///
-/// The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
-/// time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
-pub(crate) fn small_strain_error(preflight: &Preflight<'_>, until: f64) -> Option<(f64, f64)> {
-    let problem = preflight.plan.exact.as_ref()?;
-    let motion = preflight.extremes.as_ref()?;
-    let strain = motion.gradient;
-    let is_small = !problem.equation.is_finite() && !problem.at_rest && strain > 0.0;
-    let early = 0.5 * motion.acceleration * until * until;
-    is_small.then(|| (strain * motion.largest_displacement().min(early), strain))
+/// The error of a solution that is not one of the solver's problem.
+struct ModelError {
+    /// Its size (m).
+    size: f64,
+    /// Where it comes from.
+    origin: String,
+    /// Another solution, without it.
+    remedy: &'static str,
 }
 
-/// Says how large the error is that a truth of small strain leaves, and from which level on it
-/// shows: a warning, if that is one of the suite's, and a note, if it is soon to come.
+/// That of `case`, if it has one: measured of a linearised solution, and estimated of one of small
+/// strain, for the law in rate form that MPM has there is none of the truth's.
+fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
+    let problem = preflight.plan.exact.as_ref()?;
+    let motion = preflight.extremes.as_ref()?;
+    if let Some(Linearisation { residual, error }) = Linearisation::of(problem, motion, case.until)
+    {
+        let origin = format!(
+            "the truth is linearised: of the terms of its equations {residual:.1e} is left"
+        );
+        let remedy = "or state a solution of the law itself";
+        return Some(ModelError { size: error, origin: origin + ", and", remedy });
+    }
+    let strain = motion.gradient;
+    let is_small = !problem.equation.is_finite() && !problem.at_rest && strain > 0.0;
+    if !is_small || !matches!(case.method, Method::Mpm { .. }) {
+        return None;
+    }
+    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
+    // time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
+    let early = 0.5 * motion.acceleration * case.until * case.until;
+    let origin = format!(
+        "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e}"
+    );
+    let remedy = "or state a finite-strain truth";
+    Some(ModelError { size: strain * motion.largest_displacement().min(early), origin, remedy })
+}
+
+/// Says how large the error is, and from which level on it shows: a warning, if that is one of the
+/// suite's, and a note, if it is soon to come.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
-    let finite =
-        |case: &&Case| matches!(case.method, Method::Mpm { .. }) && case.against == Against::Exact;
-    let Some(case) = preflight.of_an_order().find(finite) else { return Vec::new() };
-    let Some((left, strain)) = small_strain_error(preflight, case.until) else {
-        return Vec::new();
-    };
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
         return Vec::new();
     }
+    let mut exact = preflight.of_an_order().filter(|case| case.against == Against::Exact);
+    let Some(error) = exact.find_map(|case| model_error(preflight, case)) else {
+        return Vec::new();
+    };
+    let ModelError { size: left, origin, remedy } = error;
     let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
     // Interpolation by linear functions: h^2/8 times the second derivative.
     let of_cells = |h: f64| 0.125 * h * h * curvature;
@@ -54,11 +79,8 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         }
         _ => return Vec::new(),
     };
-    let message = format!(
-        "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e} \
-         this leaves an error of about {left:.1e} m, which {level}"
-    );
+    let message = format!("{origin} this leaves an error of about {left:.1e} m, which {level}");
     let found = preflight.finding(severity, &preflight.motion(), &message);
-    let help = "a tenth of the amplitude leaves a hundredth of it; or state a finite-strain truth";
-    vec![if severity == Severity::Warning { found.with_help(help) } else { found }]
+    let help = format!("a tenth of the amplitude leaves a hundredth of it; {remedy}");
+    vec![if severity == Severity::Warning { found.with_help(&help) } else { found }]
 }

@@ -18,12 +18,18 @@ pub(crate) struct Preflight<'a> {
 }
 
 impl<'a> Preflight<'a> {
-    /// The study, if it claims an order.
-    pub(crate) fn of_an_order_in(plan: &'a ConvergencePlan, source: &'a Source) -> Option<Self> {
+    /// The study, read from `source`.
+    pub(crate) fn new(plan: &'a ConvergencePlan, source: &'a Source) -> Self {
         let mut preflight = Self { plan, extremes: None, source };
-        preflight.of_an_order().next()?;
-        preflight.extremes = plan.exact.as_ref().map(Extremes::of);
-        Some(preflight)
+        if preflight.claims_an_order() {
+            preflight.extremes = plan.exact.as_ref().map(Extremes::of);
+        }
+        preflight
+    }
+
+    /// Whether an order is expected of any case.
+    pub(crate) fn claims_an_order(&self) -> bool {
+        self.of_an_order().next().is_some()
     }
 
     /// Levels of the gate.
@@ -49,12 +55,20 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Where the exact motion stands.
+    /// Where the solution stands.
+    pub(crate) fn truth(&self) -> Path {
+        let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
+        keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
+    }
+
+    /// Where its motion stands.
     pub(crate) fn motion(&self) -> Path {
-        let of = |key: &str| Path::top(key).then("displacement");
-        let keys = ["exact", "manufactured", "equilibrium"].map(of);
-        let stands = |path: &Path| self.source.value_at(path.steps()).is_some();
-        keys.into_iter().find(stands).unwrap_or_else(|| Path::top("exact"))
+        let motion = self.truth().then("displacement");
+        if self.stands(&motion) { motion } else { self.truth() }
+    }
+
+    fn stands(&self, path: &Path) -> bool {
+        self.source.value_at(path.steps()).is_some()
     }
 
     /// A finding about the value at `path`.

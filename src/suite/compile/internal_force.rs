@@ -76,7 +76,7 @@ fn cases(
         if let Some(owner) = owner {
             let (path, spec) = (Path::top("expect").then(owner), &spec.expect[owner]);
             expected = Some(expectation(evaluator, &path, spec)?);
-            because = cases::because(evaluator, &path, &spec.because)?;
+            because = cases::because(evaluator, &path, "an expectation", &spec.because)?;
         }
         Ok(ForceCase { name, basis, expected, because })
     };

@@ -25,7 +25,7 @@ pub(crate) use scene::{
 pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
 pub(crate) use step::StepSpec;
 pub use truth::EquationName;
-pub(crate) use truth::{ExactSpec, ManufacturedSpec};
+pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
 
 use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::fem::{Element, Mass, Sampling};

@@ -61,6 +61,7 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("dt", "1e-3"),
     ("courant", "0.5"),
     ("at", "[0.5]"),
+    ("tolerance", "1e-6"),
     // A stability study.
     ("stability.run", "{dt: 1e-3, steps: 1000}"),
     ("particles", "{cells: 16, ppc: 4}"),

@@ -16,6 +16,16 @@ pub(crate) struct ExactSpec {
     /// Of a body in which heat flows.
     pub(crate) temperature: Option<NumberText>,
     pub(crate) tolerance: Option<NumberText>,
+    /// Of a solution that meets its law to first order only.
+    pub(crate) linearised: Option<LinearisedSpec>,
+}
+
+/// The share of the equations that a linearised solution may leave, and why.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LinearisedSpec {
+    pub(crate) tolerance: NumberText,
+    pub(crate) because: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -14,6 +14,7 @@ mod formulas;
 mod grammar;
 mod heat;
 mod laws;
+mod linearised;
 mod materials;
 mod numbers;
 mod panels;

@@ -147,6 +147,48 @@ fn a_loaded_face_inside_a_cell_is_noted() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
+/// The suite of a linearised wave leaves 2e-6 of its terms, for which it allows 5e-6.
+#[rstest]
+#[case::as_it_is(&[], Severity::Note, "which will show from about 200 cells on", "mode(X)*cos")]
+#[case::at_a_strain_that_shows(
+    &[("eps: 1e-6", "eps: 1e-3"), ("5e-6", "5e-3")],
+    Severity::Warning, "2.0e-3 is left, and this leaves an error of about 2.0e-6 m, which shows",
+    "or state a solution of the law itself"
+)]
+#[case::a_tolerance_far_too_large(
+    &[("5e-6", "1e-3")],
+    Severity::Note, "1.0e-3 of the terms of the equations may be left, and the solution leaves 2.0e-6",
+    "4e-6 is enough"
+)]
+#[case::a_tolerance_for_nothing(
+    &[
+        ("newtonian: {bulk: K, viscosity: 0, density: rho}", "linear_fluid: {bulk: K, density: rho}"),
+        ("equation: tait", "equation: linear_fluid"),
+    ],
+    Severity::Note, "5.0e-6 of the terms of the equations may be left", "remove `linearised`"
+)]
+fn a_linearised_solution(
+    #[case] edits: &[(&str, &str)],
+    #[case] severity: Severity,
+    #[case] message: &str,
+    #[case] words: &str,
+) {
+    let source = embedded::source("acoustic-column").expect("a suite").expect("a text");
+    let found = findings(source.text(), edits);
+    let tripped = found.iter().find(|found| found.message().contains(message));
+    let tripped = tripped.unwrap_or_else(|| panic!("no `{message}` in {found:#?}"));
+    assert_eq!(tripped.severity(), severity);
+    assert!(tripped.to_string().contains(words), "{tripped}");
+}
+
+/// A hundred times what is left is not yet too much.
+#[test]
+fn a_tolerance_with_some_room_is_not_noted() {
+    let source = embedded::source("acoustic-column").expect("a suite").expect("a text");
+    let found = findings(source.text(), &[("5e-6", "1.9e-4")]);
+    assert!(!found.iter().any(|found| found.message().contains("may be left")), "{found:#?}");
+}
+
 #[test]
 fn an_interval_too_wide_to_test_anything_is_refused_at_its_place() {
     let text = BAR.replace("[1.9, 2.1]", "[1.4, 2.6]");

@@ -134,7 +134,7 @@ fn expectation(
             return Err(diagnostic.with_help(help));
         }
     };
-    let because = because(evaluator, path, &spec.because)?;
+    let because = because(evaluator, path, "an expectation", &spec.because)?;
     let bounds = |key: &str, spec: &Option<Vec<NumberText>>| {
         spec.as_ref().map(|pair| interval(evaluator, &path.then(key), pair)).transpose()
     };
@@ -156,17 +156,19 @@ fn expectation(
     })
 }
 
-/// The reason of an expectation, which must say something.
+/// The reason that stands at `path` for what is `stated` there, which must say something.
 pub(crate) fn because(
     evaluator: &Evaluator<'_>,
     path: &Path,
+    stated: &str,
     text: &str,
 ) -> Result<String, Diagnostic> {
     let text = text.trim();
     if !text.is_empty() {
         return Ok(text.to_owned());
     }
-    let diagnostic = evaluator.diagnostic(&path.then("because"), "an expectation needs its reason");
+    let message = format!("{stated} needs its reason");
+    let diagnostic = evaluator.diagnostic(&path.then("because"), &message);
     Err(diagnostic.with_label("expected words"))
 }
 

@@ -10,7 +10,7 @@ use crate::suite::compile::load::LoadSpec;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::truth::conduction::{self, ConductionInputs};
-use crate::suite::compile::truth::exact;
+use crate::suite::compile::truth::tolerance::tolerance;
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::Diagnostic;
@@ -68,7 +68,7 @@ pub(crate) fn conduction(
         return Ok(None);
     }
     judged(evaluator, words)?;
-    let (path, temperature, tolerance, manufactured) = match (&words.exact, &words.manufactured) {
+    let (path, temperature, stated, manufactured) = match (&words.exact, &words.manufactured) {
         (Some(exact), None) => {
             ("exact", exact.temperature.as_ref(), exact.tolerance.as_ref(), false)
         }
@@ -80,7 +80,7 @@ pub(crate) fn conduction(
         }
     };
     let path = Path::top(path);
-    let tolerance = exact::tolerance(evaluator, &path, tolerance)?;
+    let tolerance = tolerance(evaluator, &path, stated)?;
     let inputs = ConductionInputs { motion: None, manufactured, until, tolerance };
     let problem = conduction::problem(evaluator, &path, temperature, scene, inputs)?;
     let Some(found) = &problem else {
@@ -118,7 +118,11 @@ fn judged(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diag
         return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
     }
     let moves = |exact: &ExactSpec| {
-        [("equation", exact.equation.is_some()), ("displacement", exact.displacement.is_some())]
+        [
+            ("equation", exact.equation.is_some()),
+            ("displacement", exact.displacement.is_some()),
+            ("linearised", exact.linearised.is_some()),
+        ]
     };
     let exact = words.exact.as_ref().map(moves).into_iter().flatten();
     let made =

@@ -180,7 +180,7 @@ fn cases(
             let path = Path::top("expect").then(i);
             Ok((
                 expect::rows((evaluator, template), spec, i, &rows, seeks)?,
-                because(evaluator, &path, &spec.because)?,
+                because(evaluator, &path, "an expectation", &spec.because)?,
             ))
         })
         .collect::<Result<Vec<_>, Diagnostic>>()?;

@@ -1,8 +1,9 @@
 //! The exact solution of a suite, checked before it is used.
 
 use super::conduction::{self, ConductionInputs};
+use super::tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 use super::{equilibrium, interface, law};
-use crate::exact::{Equation, Face, Motion, Problem, Violation};
+use crate::exact::{Equation, Face, Motion, Problem};
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
@@ -11,9 +12,6 @@ use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
 use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
-
-/// Largest relative residual of a closed form: what rounding leaves of second derivatives.
-const TOLERANCE: f64 = 1e-8;
 
 /// Longest formula of a solution, which is evaluated some 30000 times with all its derivatives
 /// before anything runs.
@@ -79,6 +77,7 @@ fn solution(
     until: f64,
 ) -> Result<Problem, Diagnostic> {
     let tolerance = tolerance(evaluator, path, spec.tolerance.as_ref())?;
+    let linearised = linearised(evaluator, path, spec.linearised.as_ref())?;
     let (Some(name), Some(texts)) = (spec.equation, &spec.displacement) else {
         let message = "a body that moves needs an `equation` and a `displacement`";
         return Err(evaluator.diagnostic_at_key(path, message));
@@ -88,7 +87,7 @@ fn solution(
     let motion_in_heat = equation.is_finite().then(|| motion.clone());
     let inputs = ConductionInputs { motion: motion_in_heat, manufactured: false, until, tolerance };
     let heat = conduction::problem(evaluator, path, spec.temperature.as_ref(), scene, inputs)?;
-    Ok(Problem { heat, tolerance, ..problem(scene, equation, motion, until) })
+    Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
 }
 
 /// The equation that a formula is checked against, which must be that of the scene's material.
@@ -184,6 +183,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         until,
         motion,
         tolerance: TOLERANCE,
+        linearised: None,
     }
 }
 
@@ -191,15 +191,7 @@ fn check(evaluator: &Evaluator<'_>, path: &Path, problem: &Problem) -> Result<()
     if let Some(problem) = &problem.heat {
         conduction::check(evaluator, path, problem)?;
     }
-    problem.check().map_err(|violation| no_solution(evaluator, path, &violation))
-}
-
-fn no_solution(evaluator: &Evaluator<'_>, path: &Path, violation: &Violation) -> Diagnostic {
-    let diagnostic =
-        evaluator.diagnostic(&path.then("displacement").then(0), &violation.to_string());
-    diagnostic
-        .with_label("this is not a solution of the problem that the scene states")
-        .with_help("correct the formula, or the scene: loads, boundary, initial state")
+    problem.check().map_err(|violation| violated(evaluator, path, problem, &violation))
 }
 
 fn motion(
@@ -220,21 +212,6 @@ fn motion(
         }
     }
     Ok(Motion::new(components))
-}
-
-pub(crate) fn tolerance(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: Option<&NumberText>,
-) -> Result<f64, Diagnostic> {
-    let Some(text) = text else { return Ok(TOLERANCE) };
-    let path = path.then("tolerance");
-    let tolerance = evaluator.positive(&path, text, "the tolerance")?;
-    if tolerance <= 1e-2 {
-        return Ok(tolerance);
-    }
-    let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
-    Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
 /// A face with its condition, which is that of the load on it, if there is one: it is free then.

@@ -6,3 +6,4 @@ pub(crate) mod equilibrium;
 pub(crate) mod exact;
 pub(crate) mod interface;
 pub(crate) mod law;
+pub(crate) mod tolerance;

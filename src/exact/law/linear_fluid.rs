@@ -1,0 +1,51 @@
+//! An inviscid fluid of linear compressibility, `P = -p J F^-T`, `p = -K (J - 1)`. In uniaxial
+//! strain `P = K u_X`: the wave equation of linear acoustics, without any approximation.
+
+use super::contract::ConstitutiveLaw;
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, tensor, unit};
+
+/// A pressure in proportion to the dilation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearFluidLaw {
+    bulk: f64,
+}
+
+impl LinearFluidLaw {
+    /// From the bulk modulus (Pa).
+    pub fn new(bulk: f64) -> Self {
+        Self { bulk }
+    }
+}
+
+impl ConstitutiveLaw for LinearFluidLaw {
+    const NAME: &'static str = "linear_fluid";
+    const EQUATION: &'static str =
+        "linear fluid, rho0 u_tt = Div P + rho0 b, P = -p J F^-T, p = -K (J - 1)";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+        let tension = T::from(self.bulk) * (det(&f, &cofactor) - T::from(1.0));
+        tensor(|i, j| tension * cofactor[i][j])
+    }
+
+    fn modulus(&self) -> f64 {
+        self.bulk
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::energy::assert_is_derivative;
+
+    /// `W = K/2 (J - 1)^2`.
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        assert_is_derivative(&LinearFluidLaw::new(50.0), |_, log| {
+            let dilation = libm::expm1(log);
+            25.0 * dilation * dilation
+        });
+    }
+}

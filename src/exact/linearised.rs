@@ -1,0 +1,58 @@
+//! A motion that solves the linearised problem only.
+
+/// The share that a linearised motion may leave of the equations that the law enters: the equation
+/// of motion and tractions. Whatever is linear in u holds to the tolerance of the problem all the
+/// same.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linearised {
+    /// Largest residual, relative to the terms of the condition.
+    pub tolerance: f64,
+    /// Why a linearised motion is good enough.
+    pub because: String,
+}
+
+/// A residual (of any unit) relative to what it is compared with. Nothing left of nothing is zero.
+pub(super) fn share(left: f64, size: f64) -> f64 {
+    if left == 0.0 { 0.0 } else { left.abs() / size }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Problem;
+    use crate::exact::law::TaitLaw;
+    use crate::exact::tests::{bar, fixed, free};
+    use rstest::rstest;
+
+    /// A wave of small amplitude in Tait's fluid, between walls: K u_XX times 8 u_X is left,
+    /// beside a sum of inertia and stress of 2 K u_XX; the product of sine and cosine is at most a
+    /// half.
+    #[rstest]
+    #[case(1e-3)]
+    #[case(1e-6)]
+    fn a_linearised_wave_leaves_twice_its_strain(#[case] strain: f64) {
+        let wave = format!("{strain}/pi*sin(pi*X)*cos(pi*t)");
+        let linear = Problem { equation: TaitLaw::new(2.0, 0.0).into(), ..bar(&wave, fixed()) };
+        let left = linear.residual();
+        assert!((1.9 * strain..2.1 * strain).contains(&left), "{left}");
+        let to = |tolerance| Problem {
+            linearised: Some(Linearised { tolerance, because: "strains are small".to_owned() }),
+            ..linear.clone()
+        };
+        to(1.01 * left).check().unwrap();
+        for refused in [linear.clone(), to(0.99 * left)] {
+            let found = refused.check().unwrap_err();
+            assert!(found.condition.starts_with("equation of motion"), "{found}");
+        }
+    }
+
+    /// A law that is linear leaves rounding, and a condition that has no law in it has no residual.
+    #[test]
+    fn the_residual_is_that_of_the_law() {
+        let wave = "sin(pi*X)*cos(pi*t)/50";
+        assert!(bar(wave, fixed()).residual() < 1e-12);
+        assert!(bar(wave, free()).residual() > 0.1, "a traction at the right end");
+        let shifted = bar("0.01 + sin(pi*X)*cos(pi*t)/50", fixed());
+        assert!(shifted.residual().is_nan(), "the left end is fixed");
+    }
+}

@@ -1,0 +1,82 @@
+//! An inviscid fluid of linear compressibility, the medium of linear acoustics.
+//!
+//! `sigma = -p I`, `p = -K (J - 1)`, from the energy `K/2 (J - 1)^2`: in uniaxial strain `P = K
+//! u_X` whatever the amplitude, so that plane waves of finite strain keep their shape (Landau &
+//! Lifshitz 1987, section 101: what steepens them is the curvature of p over the specific volume).
+//! To first order in the strain it is `p = c^2 (rho - rho0)`, `c^2 = K/rho0`. Nothing resists a
+//! collapse to J = 0 but p = K.
+//!
+//! Of the deformation the fluid knows J alone, which it integrates, `J *= det(I + grad v dt)`.
+
+use super::contract::{Material, MaterialProperties};
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
+use crate::subject::Failure;
+
+/// An inviscid fluid, linearly compressible.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearFluid {
+    bulk: f64,
+}
+
+impl LinearFluid {
+    /// From the bulk modulus (Pa).
+    pub fn new(bulk: f64) -> Self {
+        Self { bulk }
+    }
+}
+
+impl MaterialProperties for LinearFluid {
+    fn wave_modulus(&self) -> f64 {
+        self.bulk
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+}
+
+impl<const D: usize> Material<D> for LinearFluid {
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        self.update(0.0, particles);
+        Ok(())
+    }
+
+    fn reads_deformation(&self) -> bool {
+        false
+    }
+
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let density = |j: f64| 0.5 * self.bulk * (j - 1.0) * (j - 1.0);
+        let all = particles.vol.iter().zip(&particles.vol0);
+        Some(all.map(|(vol, vol0)| vol0 * density(vol / vol0)).sum())
+    }
+
+    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
+        for p in 0..particles.len() {
+            particles.vol[p] *= det(&(Matrix::identity() + particles.grad_v[p] * dt));
+            let dilation = particles.vol[p] / particles.vol0[p] - 1.0;
+            particles.sigma[p] = Matrix::identity() * (self.bulk * dilation);
+        }
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for LinearFluid {
+    fn simple_shear(&self, _: f64) -> [f64; 3] {
+        [0.0; 3]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        Some([self.bulk * (stretch - 1.0); 2])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let dilation = det(f) - 1.0;
+        Some(0.5 * self.bulk * dilation * dilation)
+    }
+
+    fn rounding(&self) -> f64 {
+        4.0 * f64::EPSILON * self.bulk
+    }
+}

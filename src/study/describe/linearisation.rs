@@ -1,0 +1,50 @@
+//! The residual of a linearised solution, and the error of the displacement that comes of it.
+
+use crate::exact::Problem;
+use crate::study::preflight::extremes::Extremes;
+use crate::suite::compile::wording::shown;
+use crate::suite::model::{ConvergencePlan, Suite};
+
+/// The residual of a linearised solution, and its error.
+#[derive(Debug, Clone, Copy)]
+pub struct Linearisation {
+    /// Residual of the equation of motion and of tractions, relative to their terms.
+    pub residual: f64,
+    /// Estimated error (m) of the displacement, by [`Linearisation::of`].
+    pub error: f64,
+}
+
+impl Linearisation {
+    /// That of `problem` after a time `t` (s), if it is linearised; `motion` are its extremes.
+    ///
+    /// Inertia and stress are of the size of the acceleration a = omega^2 u each, so that a
+    /// residual r is a force 2 r a per unit mass. It comes to r a t^2; later, where it swings with
+    /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. At rest,
+    /// where stress and load are the terms, it is a share 2 r of the load and of u.
+    pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64) -> Option<Self> {
+        problem.linearised.as_ref()?;
+        let (residual, u) = (problem.residual(), motion.largest_displacement());
+        let turned = if u > 0.0 { (motion.acceleration / u).sqrt() * t } else { 0.0 };
+        let growth = if problem.at_rest { 2.0 } else { turned * turned.min(1.0) };
+        Some(Self { residual, error: residual * u * growth })
+    }
+}
+
+/// That of the solution of a suite after its run, if it is linearised.
+pub fn linearisation(suite: &Suite) -> Option<Linearisation> {
+    let problem = suite.plan::<ConvergencePlan>()?.exact.as_ref()?;
+    Linearisation::of(problem, &Extremes::of(problem), problem.until)
+}
+
+/// The row of a report: residual, tolerance, error and reason.
+pub(crate) fn row(problem: &Problem) -> String {
+    let Some(stated) = &problem.linearised else { return String::new() };
+    let left = Linearisation::of(problem, &Extremes::of(problem), problem.until);
+    let (residual, error) = left.map_or((f64::NAN, f64::NAN), |left| (left.residual, left.error));
+    let allowed = shown(stated.tolerance);
+    format!(
+        "{residual:.1e} of the terms of its equations is left ({allowed} allowed), an error of about \
+         {error:.0e} m at the end, because {}",
+        stated.because
+    )
+}

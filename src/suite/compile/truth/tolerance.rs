@@ -1,0 +1,84 @@
+//! How well a stated solution must meet its problem, and how well one that is linearised.
+
+use crate::exact::{Linearised, Problem, Violation};
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::expect::cases::because;
+use crate::suite::compile::path::Path;
+use crate::suite::grammar::LinearisedSpec;
+use crate::suite::yaml::{Diagnostic, NumberText};
+
+/// Largest relative residual of a closed form: what rounding leaves of second derivatives.
+pub(crate) const TOLERANCE: f64 = 1e-8;
+
+/// Largest one that a suite may state.
+const MOST: f64 = 1e-2;
+
+/// The tolerance at `path`, or the default.
+pub(crate) fn tolerance(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: Option<&NumberText>,
+) -> Result<f64, Diagnostic> {
+    let Some(text) = text else { return Ok(TOLERANCE) };
+    let path = path.then("tolerance");
+    let tolerance = evaluator.positive(&path, text, "the tolerance")?;
+    if tolerance <= MOST {
+        return Ok(tolerance);
+    }
+    let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
+    Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
+}
+
+/// The share of its law that the solution at `path` may leave, if it is linearised.
+pub(crate) fn linearised(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: Option<&LinearisedSpec>,
+) -> Result<Option<Linearised>, Diagnostic> {
+    let Some(spec) = spec else { return Ok(None) };
+    let path = path.then("linearised");
+    let tolerance = tolerance(evaluator, &path, Some(&spec.tolerance))?;
+    let because = because(evaluator, &path, "a linearised solution", &spec.because)?;
+    Ok(Some(Linearised { tolerance, because }))
+}
+
+/// The diagnostic of a `problem` with a violation: with the residual of the law, where a tolerance
+/// is stated for it, or could be.
+pub(crate) fn violated(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    problem: &Problem,
+    violation: &Violation,
+) -> Diagnostic {
+    let diagnostic = no_solution(evaluator, path, violation);
+    let left = problem.residual();
+    match &problem.linearised {
+        Some(stated) if left > stated.tolerance => {
+            let allowed = stated.tolerance;
+            let found = format!("{left:.2e} of the terms of the equations is left");
+            diagnostic.with_label(&format!("{found}, and {allowed:.2e} is stated as linearised"))
+        }
+        None if problem.equation.is_finite() && left > problem.tolerance && left <= MOST => {
+            let help = format!(
+                "correct the formula, or the scene; if it is a linearised solution, which leaves \
+                 {left:.2e} of the terms of the equations, add \
+                 `linearised: {{tolerance: ..., because: ...}}`"
+            );
+            diagnostic.with_help(&help)
+        }
+        _ => diagnostic,
+    }
+}
+
+/// The diagnostic of a violation.
+pub(crate) fn no_solution(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    violation: &Violation,
+) -> Diagnostic {
+    let diagnostic =
+        evaluator.diagnostic(&path.then("displacement").then(0), &violation.to_string());
+    diagnostic
+        .with_label("this is not a solution of the problem that the scene states")
+        .with_help("correct the formula, or the scene: loads, boundary, initial state")
+}

@@ -1,0 +1,81 @@
+//! Linearised solutions: how much of the law they may leave, and what is held to the digit all the
+//! same.
+
+use super::refused;
+use mpm_verify::suite::embedded;
+use rstest::rstest;
+
+/// The column of water: 2e-6 of its terms is left, and 5e-6 allowed.
+fn column() -> String {
+    embedded::source("acoustic-column").expect("a suite").expect("a text").text().to_owned()
+}
+
+/// The three lines that state it.
+const STATED: &str = "  linearised:
+    tolerance: 5e-6
+    because: strains are 1e-6 and less, and the curvature of the law counts eightfold
+";
+
+#[rstest]
+#[case::less_than_is_left(
+    &[("5e-6", "1e-6"), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
+    &[
+        "equation of motion in X, rho0 u_tt = Div P + rho0 b",
+        "2.01e-6 of the terms of the equations is left, and 1.00e-6 is stated as linearised",
+    ]
+)]
+#[case::a_larger_strain(
+    &[("eps: 1e-6", "eps: 1e-3"), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
+    &["2.00e-3 of the terms of the equations is left, and 5.00e-6 is stated as linearised"]
+)]
+#[case::another_frequency(
+    &[("cos(k*c*t)\"]", "cos(1.001*k*c*t)\"]"), ("[\"mode(X)*cos(", "[▸\"mode(X)*cos(")],
+    &["equation of motion in X", "of the terms of the equations is left, and 5.00e-6 is stated"]
+)]
+#[case::nothing(
+    &[(STATED, ""), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
+    &[
+        "this is not a solution of the problem that the scene states",
+        "if it is a linearised solution, which leaves 2.01e-6 of the terms of the equations",
+        "add `linearised: {tolerance: ..., because: ...}`",
+    ]
+)]
+#[case::anything(&[("5e-6", "▸0.1")], &["a tolerance of 0.1 would let a wrong solution pass"])]
+#[case::no_number(&[("5e-6", "▸some")], &["unknown name `some`"])]
+#[case::less_than_nothing(&[("5e-6", "▸-5e-6")], &["the tolerance is -5e-6, and must be above zero"])]
+#[case::no_reason(
+    &[(STATED, "  linearised: ▸{tolerance: 5e-6}\n")],
+    &["missing key `because` in `linearised`"]
+)]
+#[case::an_empty_reason(
+    &[(STATED, "  linearised: {tolerance: 5e-6, because: ▸\"\"}\n")],
+    &["a linearised solution needs its reason", "expected words"]
+)]
+#[case::no_tolerance(
+    &[(STATED, "  linearised: ▸{because: strains are small}\n")],
+    &["missing key `tolerance` in `linearised`", "tolerance: 1e-6"]
+)]
+#[case::another_word(
+    &[("    because: strains", "    ▸reason: strains")],
+    &["unknown key `reason`"]
+)]
+fn a_solution_that_is_stated_to_leave(#[case] edits: &[(&str, &str)], #[case] words: &[&str]) {
+    refused(&column(), edits, words);
+}
+
+/// What is linear in u holds to the default tolerance: the law alone is linearised.
+#[rstest]
+#[case::an_initial_displacement(
+    &[("[\"mode(X)\"]", "[\"mode(X)*(1 + 1e-6)\"]"), ("[\"mode(X)*cos(", "[▸\"mode(X)*cos(")],
+    &["initial condition u_X(X, 0) = u0(X)"]
+)]
+#[case::a_wall_that_moves(
+    &[
+        ("[\"mode(X)\"]", "[\"mode(X) + 1e-6*A\"]"),
+        ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"(mode(X) + 1e-6*A)*cos(k*c*t)\"]"),
+    ],
+    &["boundary condition: left is fixed, u_X = 0"]
+)]
+fn a_linearised_solution_with(#[case] edits: &[(&str, &str)], #[case] words: &[&str]) {
+    refused(&column(), edits, words);
+}
