@@ -7,7 +7,7 @@ use super::problem::Problem;
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), if a term depends on them.
+    /// The places (m), if a term or the stress depends on them.
     labels: Vec<Vec<f64>>,
 }
 
@@ -16,7 +16,8 @@ impl Forcing {
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
-        let needed = problem.terms.iter().any(|term| !term.is_uniform());
+        let varies = problem.terms.iter().any(|term| !term.is_uniform());
+        let needed = varies || !problem.initial_stress.is_none();
         let labels = if needed { labels } else { Vec::new() };
         Self { problem: problem.clone(), places, labels }
     }
@@ -30,12 +31,11 @@ impl Forcing {
         for (place, force) in into.iter_mut().enumerate() {
             self.places.derivatives(place, &mut now);
             self.problem.complete(&mut now);
-            let label = self.labels.get(place);
-            let whole = self.problem.balance(label.map_or(&[], Vec::as_slice), t, &now);
-            let placed = |i| label.map_or(0.0, |label| self.problem.placed(i, label, t));
+            let label = self.labels.get(place).map_or(&[][..], Vec::as_slice);
+            let whole = self.problem.balance(label, t, &now);
             *force = make(std::array::from_fn(|i| {
-                let stated = uniform[i] + placed(i);
-                whole[i] - stated - self.problem.resistance(i, t, &now, stated)
+                let stated = uniform[i] + self.problem.placed(i, label, t);
+                whole[i] - stated - self.problem.resistance(i, (label, t), &now, stated)
             }));
         }
     }

@@ -1,16 +1,16 @@
 //! The continuum problem that an exact solution is held to.
 
 use super::condition::Condition;
-use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
+use super::expansion::{Swelling, swollen_cauchy};
 use super::formula::Formula;
 use super::heat::Conduction;
+use super::initial_stress::InitialStress;
 use super::law::Equation;
 use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, write};
 use super::plane;
 use super::random::Random;
 use super::round::Round;
-use super::tensor::Tensor;
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
@@ -63,6 +63,8 @@ pub struct Problem {
     /// Whether the body starts as the motion does: then an initial condition that is not stated
     /// follows from the motion, and otherwise it is zero.
     pub follows_motion: bool,
+    /// Stress of the reference configuration.
+    pub initial_stress: InitialStress,
     /// Initial displacement (m), formulas of the coordinates and t (= 0); empty: not stated.
     pub initial_displacement: Vec<Formula>,
     /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty: not stated.
@@ -143,7 +145,7 @@ impl Problem {
         let balance = self.balance(label, t, &now);
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t);
-            balance[i] - stated - self.resistance(i, t, &now, stated)
+            balance[i] - stated - self.resistance(i, (label, t), &now, stated)
         })
     }
 
@@ -154,7 +156,7 @@ impl Problem {
         }
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t);
-            stated + self.resistance(i, t, now, stated)
+            stated + self.resistance(i, (label, t), now, stated)
         })
     }
 
@@ -162,40 +164,6 @@ impl Problem {
     pub(super) fn balance(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let stress = self.divergence(label, t, now);
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
-    }
-
-    /// Stretch by temperature at one point and time.
-    pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
-        let heat = self.heat.as_ref()?;
-        let expansion = self.terms.iter().find_map(|term| term.expansion())?;
-        Some(expansion.of(&heat.temperature.derivatives(label, t)))
-    }
-
-    /// P (Pa), where the motion's derivatives are `now`.
-    pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
-        match self.swelling(label, t) {
-            None => self.equation.piola(&now.grad),
-            Some(Swelling { theta, .. }) => {
-                swollen_piola(&self.equation, self.dimension(), &now.grad, theta)
-            }
-        }
-    }
-
-    /// Div P (N/m3), where the motion's derivatives are `now`.
-    pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
-        match self.swelling(label, t) {
-            None => self.unheated_divergence(now),
-            Some(swelling) => {
-                let (d, all) = (self.dimension(), (&now.grad, &now.second));
-                swollen_divergence(&self.equation, d, all, &swelling)
-            }
-        }
-    }
-
-    /// The same where nothing expands.
-    fn unheated_divergence(&self, now: &Derivatives) -> [f64; 3] {
-        let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
-        self.equation.divergence(axes, &now.grad, &now.second)
     }
 
     /// Component i of the stated forces (m/s2).
@@ -216,8 +184,14 @@ impl Problem {
     }
 
     /// Component i of the forces against the motion (m/s2), beside the stated force `stated`.
-    pub(super) fn resistance(&self, i: usize, t: f64, now: &Derivatives, stated: f64) -> f64 {
-        let unbalanced = || self.unheated_divergence(now)[i] / self.density + stated;
+    pub(super) fn resistance(
+        &self,
+        i: usize,
+        (label, t): (&[f64], f64),
+        now: &Derivatives,
+        stated: f64,
+    ) -> f64 {
+        let unbalanced = || self.divergence(label, t, now)[i] / self.density + stated;
         let all = self.terms.iter();
         all.fold(0.0, |sum, term| sum + term.resistance(t, now.velocity[i], &unbalanced))
     }
@@ -249,7 +223,7 @@ impl Truth for Problem {
         let body = self.body_at(label);
         let grad = body.derivatives(label, t).grad;
         let sigma = match self.swelling(label, t) {
-            None => body.equation.cauchy(&grad),
+            None => body.cauchy(label, &grad),
             Some(Swelling { theta, .. }) => {
                 swollen_cauchy(&self.equation, self.dimension(), &grad, theta)
             }

@@ -5,8 +5,8 @@ use super::formula::{Expr, Formula, Scope};
 use super::random::Random;
 use super::truth::Truth;
 use super::{
-    Condition, Equation, Face, FacePoint, Forcing, HenckyLaw, Motion, NeoHookeanLaw, Problem,
-    SmallStrainLaw, Term, Violation,
+    Condition, Equation, Face, FacePoint, Forcing, HenckyLaw, InitialStress, Motion, NeoHookeanLaw,
+    Problem, SmallStrainLaw, Term, Violation,
 };
 use crate::subject::PlaneState;
 use rstest::rstest;
@@ -96,7 +96,7 @@ pub(super) fn free() -> Arc<dyn Condition> {
     })
 }
 
-fn held(dimension: usize) -> Problem {
+pub(super) fn held(dimension: usize) -> Problem {
     let names: Vec<&str> = NAMES[..dimension].iter().chain(&["t"]).copied().collect();
     let shape: Vec<String> = NAMES[..dimension].iter().map(|x| format!("sin(pi*{x})")).collect();
     let component = |i: usize| {
@@ -119,6 +119,7 @@ fn held(dimension: usize) -> Problem {
         at_rest: false,
         follows_motion: true,
         bodies: Vec::new(),
+        initial_stress: InitialStress::default(),
         initial_displacement: Vec::new(),
         manufactured: true,
         faces: (0..dimension).flat_map(|axis| [face(axis, false), face(axis, true)]).collect(),

@@ -60,7 +60,7 @@ pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
     Hencky, J2, LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan,
-    MaterialProperties, MaterialSpec, NeoHookean, Newtonian, Range, Rigid,
+    MaterialProperties, MaterialSpec, NeoHookean, Newtonian, Prestressed, Range, Rigid,
 };
 pub use multibody::Bodies;
 pub use particles::{Block, Particles};

@@ -5,7 +5,7 @@ use crate::common::{DT, H, free_body, in_dimension, methods};
 use allocation_counter::measure;
 use mpm_verify::exact::formula::{Expr, Formula, Scope};
 use mpm_verify::exact::heat::{Conduction, HeatForcing, Temperature};
-use mpm_verify::exact::{Forcing, Motion, NeoHookeanLaw, Problem};
+use mpm_verify::exact::{Forcing, InitialStress, Motion, NeoHookeanLaw, Problem};
 use mpm_verify::fem;
 use mpm_verify::fem::{Bar, Element, Mass, Sampling};
 use mpm_verify::mpm::{
@@ -48,6 +48,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         at_rest: false,
         follows_motion: true,
         bodies: Vec::new(),
+        initial_stress: InitialStress::default(),
         initial_displacement: Vec::new(),
         manufactured: true,
         faces: Vec::new(),

@@ -3,7 +3,7 @@
 
 use approx::assert_relative_eq;
 use mpm_verify::exact::formula::{Expr, Formula, Scope};
-use mpm_verify::exact::{Motion, NeoHookeanLaw, Problem};
+use mpm_verify::exact::{InitialStress, Motion, NeoHookeanLaw, Problem};
 use mpm_verify::study::Runner;
 use mpm_verify::subject::PlaneState;
 use mpm_verify::suite::Suite;
@@ -45,6 +45,7 @@ fn problem(
         faces: Vec::new(),
         follows_motion: true,
         bodies: Vec::new(),
+        initial_stress: InitialStress::default(),
         initial_displacement: Vec::new(),
         initial_velocity: Vec::new(),
         until,

@@ -1,7 +1,7 @@
 //! Boundary conditions, checked at points of every face, and of every part whose motion is given.
 
 use super::friction;
-use super::pointwise::{AXES, Event, POINTS, largest, scale, strain};
+use super::pointwise::{AXES, Event, POINTS, largest, scale, strain, stress};
 use crate::exact::condition::FacePoint;
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
@@ -22,12 +22,11 @@ struct Magnitudes {
 /// Every face of the body, at random points and times: returns what is left of its tractions, the
 /// largest relative to the stress.
 pub(crate) fn boundary(problem: &Problem) -> Result<f64, Violation> {
-    let gradient = strain(problem);
     let sizes = Magnitudes {
         displacement: scale(problem, |_, d| largest(&d.u)),
         velocity: scale(problem, |_, d| largest(&d.velocity)),
-        gradient,
-        stress: problem.equation.modulus() * gradient,
+        gradient: strain(problem),
+        stress: stress(problem),
     };
     let left = Cell::new(0.0);
     let mut random = Random::new(3);

@@ -27,7 +27,7 @@ pub(crate) fn at_wall(
     event.judge(tolerance * displacement, name, (0.0, now.u[axis]), "m")?;
 
     let outwards = if face.high { 1.0 } else { -1.0 };
-    let piola = problem.equation.piola(&now.grad);
+    let piola = problem.piola(&event.label, event.t, now);
     let traction: [f64; 3] = std::array::from_fn(|i| outwards * piola[i][axis]);
     let pressure = -outwards * traction[axis];
     let allowed = problem.law_tolerance() * stress;
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Formula, Scope};
     use crate::exact::tests::{Demands, Weight, free};
-    use crate::exact::{Motion, SmallStrainLaw};
+    use crate::exact::{InitialStress, Motion, SmallStrainLaw};
     use crate::subject::PlaneState;
     use rstest::rstest;
     use std::sync::Arc;
@@ -116,6 +116,7 @@ mod tests {
             faces: vec![face("bottom", false, wall), face("top", true, free())],
             follows_motion: true,
             bodies: Vec::new(),
+            initial_stress: InitialStress::default(),
             initial_displacement: Vec::new(),
             initial_velocity: Vec::new(),
             until: 1.0,

@@ -8,7 +8,7 @@
 //! inside, a billionth of its length from the face.
 
 use super::friction::{InterfaceTraction, coulomb};
-use super::pointwise::{AXES, Event, POINTS, largest, scale, strain};
+use super::pointwise::{AXES, Event, POINTS, largest, scale, stress};
 use crate::exact::condition::{Condition, FacePoint};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
@@ -58,7 +58,7 @@ fn sizes(one: &Problem, other: &Problem) -> [f64; 3] {
         [
             scale(problem, |_, d| largest(&d.u)),
             scale(problem, |_, d| largest(&d.velocity)),
-            problem.equation.modulus() * strain(problem),
+            stress(problem),
         ]
     };
     let (a, b) = (of(one), of(other));
@@ -91,12 +91,15 @@ impl BodyPair<'_> {
     }
 
     /// P e on the two faces, e being the direction of the axis.
-    fn forces(&self, here: &Derivatives, there: &Derivatives) -> [[f64; 3]; 2] {
-        let of = |problem: &Problem, now: &Derivatives| {
-            let piola = problem.equation.piola(&now.grad);
+    fn forces(&self, event: &Event, here: &Derivatives, there: &Derivatives) -> [[f64; 3]; 2] {
+        let of = |problem: &Problem, face: f64, now: &Derivatives| {
+            let mut label = event.label.clone();
+            label[self.axis] = face;
+            let piola = problem.piola(&label, event.t, now);
             std::array::from_fn(|i| piola[i][self.axis])
         };
-        [of(self.one, here), of(self.other, there)]
+        let Self { one, other, axis, .. } = *self;
+        [of(one, one.to[axis], here), of(other, other.from[axis], there)]
     }
 
     fn balance(&self, event: &Event, [here, there]: [[f64; 3]; 2]) -> Result<(), Violation> {
@@ -115,7 +118,7 @@ impl BodyPair<'_> {
             let allowed = self.one.tolerance * self.sizes[0];
             event.judge(allowed, name, (here.u[i], there.u[i]), "m")?;
         }
-        self.balance(&event, self.forces(&here, &there))
+        self.balance(&event, self.forces(&event, &here, &there))
     }
 
     fn touch(&self, label: Vec<f64>, t: f64, coefficient: f64) -> Result<(), Violation> {
@@ -127,7 +130,7 @@ impl BodyPair<'_> {
         let name = self.condition("of which none enters the other, overlap");
         event.judge_most(allowed, name, (0.0, -gap), "m")?;
 
-        let forces = self.forces(&here, &there);
+        let forces = self.forces(&event, &here, &there);
         self.balance(&event, forces)?;
         let ([traction, _], pressure) = (forces, -forces[0][axis]);
         let (allowed, apart) = (one.law_tolerance() * stress, gap > allowed);
@@ -151,7 +154,7 @@ mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Formula, Scope};
     use crate::exact::tests::free;
-    use crate::exact::{Face, Motion, SmallStrainLaw};
+    use crate::exact::{Face, InitialStress, Motion, SmallStrainLaw};
     use crate::subject::PlaneState;
     use rstest::rstest;
     use std::sync::Arc;
@@ -177,6 +180,7 @@ mod tests {
                 faces: vec![face("left", false, low), face("right", true, high)],
                 follows_motion: true,
                 bodies: Vec::new(),
+                initial_stress: InitialStress::default(),
                 initial_displacement: Vec::new(),
                 initial_velocity: Vec::new(),
                 until: 3.0,

@@ -94,7 +94,16 @@ pub(crate) fn strain(problem: &Problem) -> f64 {
     scale(problem, |_, d| d.grad.iter().map(largest).fold(0.0, f64::max))
 }
 
-/// The displacement is a number everywhere inside, and not zero everywhere.
+/// Magnitude of stresses (Pa): that of the largest strain and that of the reference.
+pub(crate) fn stress(problem: &Problem) -> f64 {
+    let initial = scale(problem, |event, _| {
+        greatest(problem.initial_stress.at(&event.label).iter().map(largest))
+    });
+    problem.equation.modulus() * strain(problem) + initial
+}
+
+/// The displacement is a number everywhere inside, and not zero everywhere, unless the body has a
+/// stress without it.
 pub(crate) fn presence(problem: &Problem) -> Result<(), Violation> {
     let points = interior(problem, 1);
     for (event, now) in &points {
@@ -103,9 +112,10 @@ pub(crate) fn presence(problem: &Problem) -> Result<(), Violation> {
             return Err(event.violation(condition, None, *u, "m"));
         }
     }
-    // A body that is held and heated has stress enough.
-    let swells = |event: &Event| problem.swelling(&event.label, event.t).is_some();
-    if points.iter().any(|(event, now)| largest(&now.u) > 0.0 || swells(event)) {
+    let stressed = |event: &Event| {
+        !problem.initial_stress.is_none() || problem.swelling(&event.label, event.t).is_some()
+    };
+    if points.iter().any(|(event, now)| largest(&now.u) > 0.0 || stressed(event)) {
         return Ok(());
     }
     let condition = "the demand that the displacement is not zero everywhere".to_owned();

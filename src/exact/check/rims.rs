@@ -1,6 +1,6 @@
 //! The rims of a round body: free of traction, P n = 0 with n along the radius.
 
-use super::pointwise::{AXES, Event, POINTS, strain};
+use super::pointwise::{AXES, Event, POINTS, stress};
 use crate::exact::linearised::share;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -10,7 +10,7 @@ use crate::exact::violation::Violation;
 /// the stress.
 pub(crate) fn free(problem: &Problem) -> Result<f64, Violation> {
     let Some(round) = &problem.round else { return Ok(0.0) };
-    let size = problem.equation.modulus() * strain(problem);
+    let size = stress(problem);
     let (allowed, mut left) = (problem.law_tolerance() * size, 0.0);
     let mut random = Random::new(7);
     for rim in round.rims() {

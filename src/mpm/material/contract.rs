@@ -25,6 +25,14 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
+    /// Whether a body may have a stress in its reference configuration, beside that of the law.
+    ///
+    /// # Errors
+    /// Why it may not.
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        self.depends_on_deformation_alone()
+    }
+
     /// Whether the law is one of elasticity: what it does to a body that expands by heat is known.
     fn is_elastic(&self) -> bool {
         false
@@ -98,7 +106,7 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Stresses of a body that starts deformed, from F and the velocity gradients; volumes are
-    /// those of F already.
+    /// those of F already. A law in rate form adds to the stress that is there.
     ///
     /// # Errors
     /// [`Failure::NotOfDeformation`] if these give no stress.

@@ -101,6 +101,10 @@ impl MaterialProperties for J2 {
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
         Err("plastic flow depends on the whole history of the motion")
     }
+
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Err("the yield stress bounds the whole stress, of which the law knows its own part only")
+    }
 }
 
 impl<const D: usize> Material<D> for J2 {

@@ -91,6 +91,10 @@ impl MaterialProperties for LinearElastic {
         Ok(())
     }
 
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
     fn is_elastic(&self) -> bool {
         true
     }
@@ -128,7 +132,7 @@ impl<const D: usize> Material<D> for LinearElastic {
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         for (f, sigma) in particles.def_grad.iter().zip(&mut particles.sigma) {
             let log = logarithm(f);
-            *sigma = self.increment(&((log + log.transpose()) * 0.5));
+            *sigma += self.increment(&((log + log.transpose()) * 0.5));
         }
         Ok(())
     }

@@ -34,6 +34,10 @@ impl MaterialProperties for LinearFluid {
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
         Ok(())
     }
+
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Err("a fluid at rest has the pressure of its volume: state an `initial_displacement`")
+    }
 }
 
 impl<const D: usize> Material<D> for LinearFluid {

@@ -8,6 +8,7 @@ mod contract;
 mod laws;
 mod parameter;
 mod plane_stress;
+mod prestressed;
 mod registry;
 #[cfg(test)]
 mod specimen;
@@ -17,6 +18,7 @@ mod spectral;
 use contract::ClosedForms;
 pub use contract::{Material, MaterialProperties};
 pub use parameter::{MaterialParameter, Range};
+pub use prestressed::Prestressed;
 
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;

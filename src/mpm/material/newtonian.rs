@@ -42,6 +42,10 @@ impl MaterialProperties for Newtonian {
         Err("viscous stress depends on the rate of deformation")
     }
 
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Err("a fluid at rest has the pressure of its volume: state an `initial_displacement`")
+    }
+
     fn starts_deformed(&self) -> Result<(), &'static str> {
         Ok(())
     }

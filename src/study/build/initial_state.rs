@@ -2,11 +2,12 @@
 //!
 //! Where the truth is a motion and the material has a stress of the deformation alone, it is that
 //! of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise it is what the
-//! scene states, and where it states nothing the body is at rest and undeformed.
+//! scene states, and where it states nothing the body is at rest and undeformed. The stress of the
+//! reference configuration is always the one that the scene states.
 
 use crate::exact::formula::Formula;
-use crate::exact::{Derivatives, Motion};
-use crate::mpm::{Matrix, Particles, Vector};
+use crate::exact::{Derivatives, InitialStress, Motion};
+use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector};
 use crate::suite::model::{ConvergencePlan, Scene};
 
 /// An initial state.
@@ -15,6 +16,7 @@ pub(crate) struct Initial {
     motion: Option<Motion>,
     displacement: Option<Motion>,
     velocity: Option<Motion>,
+    stress: InitialStress,
 }
 
 impl Initial {
@@ -31,12 +33,13 @@ impl Initial {
 
     /// The stated initial state alone.
     pub(crate) fn stated(scene: &Scene) -> Self {
-        let Scene { initial_displacement, initial_velocity, .. } = scene;
+        let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
         Self {
             motion: None,
             displacement: formulas(initial_displacement),
             velocity: formulas(initial_velocity),
+            stress: initial_stress.clone(),
         }
     }
 
@@ -52,6 +55,23 @@ impl Initial {
             (now.velocity, now.grad_rate) = (moving.u, moving.grad);
         }
         now
+    }
+
+    /// The `law` of `particles`, with their initial stress if there is one.
+    pub(crate) fn stressed<const D: usize>(
+        &self,
+        law: Box<dyn Material<D>>,
+        particles: &mut Particles<D>,
+    ) -> Box<dyn Material<D>> {
+        if self.stress.is_none() {
+            return law;
+        }
+        let stress = particles.x0.iter().map(|x0| {
+            let stress = self.stress.at(x0.as_slice());
+            Matrix::from_fn(|i, j| stress[i][j])
+        });
+        let stress = stress.collect();
+        Box::new(Prestressed::new(law, stress, particles))
     }
 
     /// Puts `particles` into this state.
@@ -73,6 +93,51 @@ impl Initial {
                 let grad = Matrix::from_fn(|i, j| grad[i][j]);
                 (Vector::from_fn(|i, _| u[i]), Matrix::identity() + grad)
             });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::formula::{Expr, Scope};
+    use crate::mpm::{Block, MaterialPlan};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    fn stress() -> InitialStress {
+        let component = |(i, j, text): (usize, usize, &str)| {
+            let expr = Expr::parse(text).unwrap();
+            (i, j, Formula::bind(&expr, &Scope::new(), &["X", "Y"]).unwrap())
+        };
+        let stated = [(0, 0, "2*X"), (1, 1, "3 + Y"), (0, 1, "X*Y")].map(component);
+        InitialStress::new(stated.into())
+    }
+
+    /// The solver adds to the stress of the law what the truth adds to its own.
+    #[rstest]
+    #[case(MaterialPlan::LinearElastic { young: 100.0, poisson: 0.3 })]
+    #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]
+    #[case(MaterialPlan::Hencky { young: 100.0, poisson: 0.3 })]
+    fn solver_and_truth_mean_the_same_initial_stress(#[case] plan: MaterialPlan) {
+        let is_finite = plan.properties().depends_on_deformation_alone().is_ok();
+        let f = Matrix::<2>::new(1.1, 0.2, -0.3, 1.05);
+        let grad = [[0.1, 0.2, 0.0], [-0.3, 0.05, 0.0], [0.0; 3]];
+        let started = |stress: InitialStress| {
+            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+            let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+            let initial = Initial { motion: None, displacement: None, velocity: None, stress };
+            let mut law = initial.stressed(plan.build(), &mut body);
+            body.deform(|_| (Vector::zeros(), f));
+            law.start_deformed(&mut body).unwrap();
+            body
+        };
+        let (with, without) = (started(stress()), started(InitialStress::default()));
+        for (p, label) in with.x0.iter().enumerate() {
+            let expected = stress().cauchy(label.as_slice(), &grad, is_finite);
+            let expected = Matrix::<2>::from_fn(|i, j| expected[i][j]);
+            let found = with.sigma[p] - without.sigma[p];
+            assert_relative_eq!(found, expected, epsilon = 1e-12);
         }
     }
 }

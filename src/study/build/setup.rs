@@ -71,12 +71,13 @@ pub(crate) fn setup<const D: usize>(
     }
     body.initial.put(&mut particles);
     let effects = effects_of(body, (&grid, basis), &mut particles)?;
+    let law = body.own.material.in_plane(scene.plane).ok_or("a law unknown in its plane")?;
     Ok(Setup {
         kernel,
         transfer: transfer.build(),
         mass: crate::mpm::mass_matrix(mass),
         frame,
-        material: body.own.material.in_plane(scene.plane).ok_or("a law unknown in its plane")?,
+        material: body.initial.stressed(law, &mut particles),
         effects,
         boundary: boundary(scene, &grid, basis),
         grid,

@@ -1,5 +1,6 @@
 //! The statement of a problem in rows of name and value, for reports and `explain`.
 
+use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
 use crate::subject::PlaneState;
 use crate::suite::compile::load::fields::sources;
@@ -58,6 +59,7 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
         push(rows, "  material", &material(&one.material));
+        push(rows, "  stress", &initial_stress(one));
         push(rows, "  displacement", &sources(&one.initial_displacement));
         push(rows, "  velocity", &sources(&one.initial_velocity));
     }
@@ -96,9 +98,25 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), LoadTarget::Set(_)));
     rows.extend(on_sets.chain(on_body).flat_map(|load| load.rows()));
     if one {
+        push(rows, "initial stress", &initial_stress(scene));
         push(rows, "initial displacement", &sources(&scene.initial_displacement));
         push(rows, "initial velocity", &sources(&scene.initial_velocity));
     }
+}
+
+/// The stress of the reference configuration, and how it enters the first Piola-Kirchhoff stress.
+fn initial_stress(scene: &Scene) -> String {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    let written = |(i, j, formula): &(usize, usize, Formula)| {
+        format!("{}{} = {}", AXES[*i], AXES[*j], formula.source())
+    };
+    let components = scene.initial_stress.components().iter().map(written);
+    let components = components.collect::<Vec<_>>().join(", ");
+    if components.is_empty() {
+        return components;
+    }
+    let is_finite = scene.material.properties().depends_on_deformation_alone().is_ok();
+    format!("S0 of {components} Pa, P + {}", if is_finite { "F S0" } else { "S0" })
 }
 
 /// The material's name and parameters: `linear elastic, E = 100 Pa, nu = 0`.

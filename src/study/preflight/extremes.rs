@@ -22,6 +22,8 @@ pub(crate) struct Extremes {
     pub(crate) speed: f64,
     /// Of the acceleration (m/s^2).
     pub(crate) acceleration: f64,
+    /// Of the components of the initial stress (Pa).
+    pub(crate) initial_stress: f64,
     /// The lowest and the highest place (m) that the body reaches, axis by axis.
     pub(crate) reach: [(f64, f64); 3],
 }
@@ -32,7 +34,10 @@ impl Extremes {
         let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
         let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
         let none = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut all = Self { reach: [none; 3], ..Self::default() };
+        let of_place = |label: &Vec<f64>| problem.initial_stress.at(label);
+        let components = labels.iter().flat_map(of_place).flatten();
+        let initial_stress = components.fold(0.0, |most: f64, c| most.max(c.abs()));
+        let mut all = Self { initial_stress, reach: [none; 3], ..Self::default() };
         let mut now = Derivatives::default();
         for step in 0..=OVER {
             motion.set_time(problem.until * (step as f64 / OVER as f64));

@@ -43,12 +43,15 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     }
     // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
     // time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
+    // In more than one dimension a body turns, and its initial stress with it.
+    let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
+    let neglected = strain + turning / problem.equation.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
     let origin = format!(
         "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e}"
     );
     let remedy = "or state a finite-strain truth";
-    Some(ModelError { size: strain * motion.largest_displacement().min(early), origin, remedy })
+    Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
 /// Says how large the error is, and from which level on it shows: a warning, if that is one of the

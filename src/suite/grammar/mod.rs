@@ -21,6 +21,7 @@ pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
 pub(crate) use sample::read;
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
+    StressSpec,
 };
 pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
 pub(crate) use step::StepSpec;

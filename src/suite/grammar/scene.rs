@@ -20,6 +20,7 @@ pub(crate) struct SceneSpec {
     /// The words of boundary conditions stand in their files, and are read there.
     #[serde(rename = "boundary")]
     pub(crate) _boundary: Option<IgnoredAny>,
+    pub(crate) initial_stress: Option<StressSpec>,
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
     #[serde(default)]
@@ -35,8 +36,21 @@ pub(crate) struct SceneSpec {
 pub(crate) struct OneBodySpec {
     pub(crate) body: BodySpec,
     pub(crate) material: MaterialSpec<NumberText>,
+    pub(crate) initial_stress: Option<StressSpec>,
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
+}
+
+/// A symmetric stress (Pa) by its components; those that are not stated are zero.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StressSpec {
+    pub(crate) xx: Option<NumberText>,
+    pub(crate) yy: Option<NumberText>,
+    pub(crate) zz: Option<NumberText>,
+    pub(crate) xy: Option<NumberText>,
+    pub(crate) yz: Option<NumberText>,
+    pub(crate) xz: Option<NumberText>,
 }
 
 /// How bodies push each other where they meet.

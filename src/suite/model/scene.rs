@@ -4,7 +4,7 @@ use super::boundary::BoundaryCondition;
 use super::heat::SceneHeat;
 use super::load::{EffectName, ListedLoad, LoadTarget};
 use crate::exact::formula::Formula;
-use crate::exact::{Region, Round, Term};
+use crate::exact::{InitialStress, Region, Round, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
 use crate::subject::PlaneState;
 use std::sync::Arc;
@@ -41,6 +41,8 @@ pub struct Scene {
     /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
     /// field.
     pub contact: Option<f64>,
+    /// Stress of the reference configuration.
+    pub initial_stress: InitialStress,
     /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
     pub initial_displacement: Vec<Formula>,
     /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.

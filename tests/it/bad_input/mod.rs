@@ -13,6 +13,7 @@ mod fine_grids;
 mod formulas;
 mod grammar;
 mod heat;
+mod initial_stress;
 mod laws;
 mod linearised;
 mod materials;

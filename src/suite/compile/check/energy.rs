@@ -12,9 +12,12 @@ pub(crate) fn check(
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
     let material = &plan.scene.material;
-    let Err(reason) = material.properties().has_energy(plan.scene.dimension()) else {
-        return Ok(());
-    };
+    let mut energy = material.properties().has_energy(plan.scene.dimension());
+    let is_prestressed = plan.scene.each().iter().any(|body| !body.initial_stress.is_none());
+    if is_prestressed && material.properties().depends_on_deformation_alone().is_err() {
+        energy = Err("is integrated in rate form, and has no energy beside an initial stress");
+    }
+    let Err(reason) = energy else { return Ok(()) };
     let message = format!("the law `{}` {reason}", material.name());
     let diagnostic = evaluator.diagnostic_at_key(path, &message);
     Err(diagnostic.with_help("take `neo_hookean` or `hencky`"))

@@ -28,6 +28,11 @@ pub(crate) fn check(
             return Err(evaluator.diagnostic(&at, &message).with_help(help));
         }
     }
+    if !scene.initial_stress.is_none() {
+        let at = path.then("initial_stress");
+        let message = "an initial stress, which the FEM does not have";
+        return Err(evaluator.diagnostic_at_key(&at, message).with_help(help));
+    }
     if let Some(set) = scene.driven_set() {
         let message = format!("the set `{set}` is driven, which the FEM cannot do");
         let at = path.then("sets").then(set);

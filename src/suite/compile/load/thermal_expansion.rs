@@ -27,6 +27,11 @@ impl LoadWords for ExpansionSpec {
         if entry.scene.lists(entry.effect) {
             return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
         }
+        if !entry.scene.initial_stress.is_none() {
+            let message = "a body has an initial stress or expands by heat, not both: whether that \
+                           stress is one before or after the expansion is not known";
+            return Err(evaluator.diagnostic_at_key(path, message));
+        }
         let rate_form = rate_form(entry)?;
         let at = path.then("coefficient");
         let coefficient = evaluator.positive(&at, &self.coefficient, "the coefficient")?;

@@ -9,7 +9,7 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec};
+use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
 use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -23,6 +23,7 @@ pub(crate) struct Listed<'w> {
     pub(crate) at: Path,
     pub(crate) body: &'w BodySpec,
     pub(crate) material: &'w MaterialSpec<NumberText>,
+    pub(crate) initial_stress: Option<&'w StressSpec>,
     pub(crate) initial_displacement: Option<&'w Vec<NumberText>>,
     pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
 }
@@ -42,13 +43,14 @@ pub(crate) fn listed<'w>(
             return Err(diagnostic.with_label(&format!("expected 1 to {MOST}")));
         }
         let one = |(i, one): (usize, &'w OneBodySpec)| {
-            let OneBodySpec { body, material, initial_displacement, initial_velocity } = one;
+            let OneBodySpec { body, material, initial_stress, .. } = one;
             Listed {
                 at: at.then(i),
                 body,
                 material,
-                initial_displacement: initial_displacement.as_ref(),
-                initial_velocity: initial_velocity.as_ref(),
+                initial_stress: initial_stress.as_ref(),
+                initial_displacement: one.initial_displacement.as_ref(),
+                initial_velocity: one.initial_velocity.as_ref(),
             }
         };
         return Ok(bodies.iter().enumerate().map(one).collect());
@@ -61,6 +63,7 @@ pub(crate) fn listed<'w>(
         at: path.clone(),
         body: words.body.as_ref().ok_or_else(|| missing("body"))?,
         material: words.material.as_ref().ok_or_else(|| missing("material"))?,
+        initial_stress: words.initial_stress.as_ref(),
         initial_displacement: words.initial_displacement.as_ref(),
         initial_velocity: words.initial_velocity.as_ref(),
     }])
@@ -76,6 +79,7 @@ fn refuse_beside(
         ("body", words.body.is_some()),
         ("material", words.material.is_some()),
         ("initial_velocity", words.initial_velocity.is_some()),
+        ("initial_stress", words.initial_stress.is_some()),
         ("initial_displacement", words.initial_displacement.is_some()),
         ("sets", !words.sets.as_slice().is_empty()),
     ];

@@ -4,6 +4,7 @@ pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod boundary;
 pub(crate) mod face;
+pub(crate) mod initial;
 pub(crate) mod lengths;
 pub(crate) mod material;
 mod plane;

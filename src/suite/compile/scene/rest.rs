@@ -40,6 +40,7 @@ pub(crate) fn settle(
         }
     }
     for (key, stated) in [
+        ("initial_stress", words.initial_stress.is_some()),
         ("initial_displacement", words.initial_displacement.is_some()),
         ("initial_velocity", words.initial_velocity.is_some()),
         ("sets", !words.sets.as_slice().is_empty()),

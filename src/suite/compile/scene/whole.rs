@@ -4,11 +4,8 @@ use super::bodies::Listed;
 use super::body::BodyShape;
 use super::material::material;
 use super::quadrilateral::faces_are_sides;
-use super::{bodies, body, boundary, plane, rest, sets};
+use super::{bodies, body, boundary, initial, plane, rest, sets};
 use crate::exact::Region;
-use crate::exact::formula::Formula;
-use crate::mpm::MaterialPlan;
-use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::{LoadEntry, LoadSpec};
 use crate::suite::compile::path::Path;
@@ -76,8 +73,9 @@ fn body(
         from,
         to,
         grid,
-        initial_displacement: initial_displacement(evaluator, own, dimension, &material)?,
         plane,
+        initial_stress: initial::stress(evaluator, own, dimension, &material)?,
+        initial_displacement: initial::displacement(evaluator, own, dimension, &material)?,
         material,
         density,
         faces: if round.is_some() && words.bodies.is_none() {
@@ -89,7 +87,7 @@ fn body(
         quadrilateral,
         sets,
         loads: Vec::new(),
-        initial_velocity: initial_velocity(evaluator, own, dimension)?,
+        initial_velocity: initial::velocity(evaluator, own, dimension)?,
         bodies: Vec::new(),
         contact: None,
     };
@@ -144,33 +142,6 @@ fn declared_sets(
         Ok(set)
     };
     words.sets.as_slice().iter().map(declare).collect()
-}
-
-fn initial_displacement(
-    evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
-    dimension: usize,
-    material: &MaterialPlan,
-) -> Result<Vec<Formula>, Diagnostic> {
-    let path = own.at.then("initial_displacement");
-    let Some(texts) = own.initial_displacement else { return Ok(Vec::new()) };
-    if let Err(reason) = material.properties().starts_deformed() {
-        let message = format!("a `{}` body cannot start deformed", material.name());
-        let diagnostic = evaluator.diagnostic_at_key(&path, &message);
-        return Err(diagnostic.with_help(reason));
-    }
-    evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
-}
-
-fn initial_velocity(
-    evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
-    dimension: usize,
-) -> Result<Vec<Formula>, Diagnostic> {
-    let path = own.at.then("initial_velocity");
-    let variables = coordinates_and_time(dimension);
-    own.initial_velocity
-        .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
 }
 
 /// Adds the loads to a scene that has none, in the order in which solvers apply them.

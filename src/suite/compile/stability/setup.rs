@@ -193,10 +193,10 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
-    let moves = scene
-        .each()
-        .iter()
-        .any(|body| !body.initial_displacement.is_empty() || !body.initial_velocity.is_empty());
+    let moves = scene.each().iter().any(|body| {
+        let moves = !body.initial_displacement.is_empty() || !body.initial_velocity.is_empty();
+        moves || !body.initial_stress.is_none()
+    });
     if scene.contact.is_some() {
         let message = "bodies that touch and part have no linear step";
         return Err(evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message));

@@ -178,6 +178,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         manufactured: false,
         faces: (0..scene.faces.len()).map(|number| face(scene, number)).collect(),
         follows_motion: scene.material.properties().depends_on_deformation_alone().is_ok(),
+        initial_stress: scene.initial_stress.clone(),
         initial_displacement: scene.initial_displacement.clone(),
         initial_velocity: scene.initial_velocity.clone(),
         until,

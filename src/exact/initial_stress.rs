@@ -1,0 +1,184 @@
+//! Stress of the reference configuration.
+//!
+//! Beside a law of finite strains it is a second Piola-Kirchhoff stress S0, `P = P_law(F) + F S0`:
+//! the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which no rotation changes
+//! (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small waves along S0 then have
+//! `rho0 c^2 = M + S0`. In a theory of small strains `P = C : eps + S0`, which neglects `grad u S0`
+//! beside `C : eps`: S0 is small beside the moduli there, as strains are beside one.
+
+use super::formula::{Formula, Number, Slope};
+use super::tensor::{Tensor, sum, tensor, unit};
+
+/// S0 (Pa), a symmetric tensor field on the reference body.
+#[derive(Debug, Clone, Default)]
+pub struct InitialStress {
+    /// Row, column and value of each component that is stated, a formula of the coordinates; the
+    /// column is not before the row. Others are zero.
+    components: Vec<(usize, usize, Formula)>,
+}
+
+impl InitialStress {
+    /// The field with these components: row, column and formula of the coordinates, each on one
+    /// side of the diagonal only.
+    pub fn new(components: Vec<(usize, usize, Formula)>) -> Self {
+        Self { components }
+    }
+
+    /// Whether there is none.
+    pub fn is_none(&self) -> bool {
+        self.components.is_empty()
+    }
+
+    /// Row, column and formula of each component that is stated.
+    pub fn components(&self) -> &[(usize, usize, Formula)] {
+        &self.components
+    }
+
+    /// S0 (Pa) at `label`.
+    pub fn at(&self, label: &[f64]) -> [[f64; 3]; 3] {
+        self.over(label)
+    }
+
+    fn over<T: Number>(&self, label: &[T]) -> Tensor<T> {
+        let mut stress = tensor(|_, _| T::from(0.0));
+        for (i, j, formula) in &self.components {
+            let value = formula.eval(label);
+            (stress[*i][*j], stress[*j][*i]) = (value, value);
+        }
+        stress
+    }
+
+    /// Its part of P (Pa), of finite strains or of small ones.
+    pub(super) fn piola(&self, label: &[f64], grad: &Tensor<f64>, is_finite: bool) -> Tensor<f64> {
+        let stress = self.at(label);
+        if is_finite { pulled(grad, &stress) } else { stress }
+    }
+
+    /// Its part of the Cauchy stress (Pa), `F S0 F^T/J`.
+    pub(crate) fn cauchy(
+        &self,
+        label: &[f64],
+        grad: &[[f64; 3]; 3],
+        is_finite: bool,
+    ) -> [[f64; 3]; 3] {
+        let piola = self.piola(label, grad, is_finite);
+        if !is_finite {
+            return piola;
+        }
+        let f: Tensor<f64> = tensor(|i, j| grad[i][j] + unit::<f64>(i, j));
+        let cofactor: Tensor<f64> = tensor(|i, j| super::tensor::cofactor(&f, i, j));
+        let det = super::tensor::det(&f, &cofactor);
+        tensor(|i, j| sum::<f64, 3>(|k| piola[i][k] * f[j][k]) / det)
+    }
+
+    /// Its part of Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
+    pub(super) fn divergence(
+        &self,
+        label: &[f64],
+        (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+        is_finite: bool,
+    ) -> [f64; 3] {
+        let along = |axis: usize| std::array::from_fn(|other| unit(axis, other));
+        let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
+            Slope::new(label.get(axis).copied().unwrap_or(0.0), along(axis))
+        });
+        let stress = self.over(&place[..label.len()]);
+        let piola = if is_finite {
+            let varying: Tensor<Slope<3>> = tensor(|i, j| Slope::new(grad[i][j], second[i][j]));
+            pulled(&varying, &stress)
+        } else {
+            stress
+        };
+        std::array::from_fn(|i| sum::<f64, 3>(|j| piola[i][j].d(j)))
+    }
+}
+
+/// `F S0`.
+fn pulled<T: Number>(grad: &Tensor<T>, stress: &Tensor<T>) -> Tensor<T> {
+    tensor(|i, j| stress[i][j] + sum::<T, 3>(|k| grad[i][k] * stress[k][j]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Forcing;
+    use crate::exact::formula::{Expr, Scope};
+    use crate::exact::tests::held;
+    use crate::exact::{Problem, SmallStrainLaw};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.3, 0.05, 0.0], [0.0; 3]];
+
+    fn stress(components: &[(usize, usize, &str)], variables: &[&str]) -> InitialStress {
+        let bind =
+            |text: &str| Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), variables);
+        let one = |(i, j, text): &(usize, usize, &str)| (*i, *j, bind(text).unwrap());
+        InitialStress::new(components.iter().map(one).collect())
+    }
+
+    fn plane() -> InitialStress {
+        stress(&[(0, 0, "2*X"), (1, 1, "3 + Y"), (0, 1, "X*Y")], &["X", "Y"])
+    }
+
+    /// At (2, 5): S0 = ((4, 10), (10, 8)), Div S0 = (2 + 2, 5 + 1).
+    #[test]
+    fn its_part_of_the_force_agrees_with_a_hand_calculation() {
+        let (s0, mut second) = (plane(), [[[0.0; 3]; 3]; 3]);
+        assert_eq!(s0.at(&[2.0, 5.0])[0], [4.0, 10.0, 0.0]);
+        assert_eq!(s0.piola(&[2.0, 5.0], &GRAD, true)[0][1], 10.0 + 0.1 * 10.0 + 0.2 * 8.0);
+        assert_eq!(s0.piola(&[2.0, 5.0], &GRAD, false)[1], [10.0, 8.0, 0.0]);
+        // u_x,xx = 7 and u_x,xy = u_x,yx = 11.
+        (second[0][0][0], second[0][0][1], second[0][1][0]) = (7.0, 11.0, 11.0);
+        let force = s0.divergence(&[2.0, 5.0], (&GRAD, &second), true);
+        assert_relative_eq!(force[0], 1.1 * 4.0 + 0.2 * 6.0 + 7.0 * 4.0 + 2.0 * 11.0 * 10.0);
+        assert_relative_eq!(force[1], -0.3 * 4.0 + 1.05 * 6.0);
+        assert_eq!(s0.divergence(&[2.0, 5.0], (&GRAD, &second), false), [4.0, 6.0, 0.0]);
+    }
+
+    #[test]
+    fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
+        let (s0, det) = (plane(), 1.1 * 1.05 + 0.3 * 0.2);
+        let found = s0.cauchy(&[2.0, 5.0], &GRAD, true);
+        // F S0 F^T by hand, row X: F = ((1.1, 0.2), (-0.3, 1.05)).
+        let row = [1.1 * 4.0 + 0.2 * 10.0, 1.1 * 10.0 + 0.2 * 8.0];
+        assert_relative_eq!(found[0][0], (row[0] * 1.1 + row[1] * 0.2) / det, max_relative = 1e-14);
+        assert_relative_eq!(
+            found[1][0],
+            (row[1] * 1.05 - row[0] * 0.3) / det,
+            max_relative = 1e-14
+        );
+        assert_eq!(s0.cauchy(&[2.0, 5.0], &GRAD, false), s0.at(&[2.0, 5.0]));
+    }
+
+    /// A field that varies, beside a manufactured motion and its weight.
+    fn prestressed(dimension: usize) -> Problem {
+        let components = [(0, 0, "3*sin(X)"), (1, 1, "X - Y"), (0, 1, "Y^2"), (2, 2, "X*Z")];
+        let inside = components.into_iter().filter(|(_, j, _)| *j < dimension);
+        let inside: Vec<(usize, usize, &str)> = inside.collect();
+        let initial_stress = stress(&inside, &["X", "Y", "Z"][..dimension]);
+        Problem { initial_stress, ..held(dimension) }
+    }
+
+    /// The force has the stress in it, which the weak form sees by another way.
+    #[rstest]
+    fn a_manufactured_force_balances_it(#[values(1, 2, 3)] dimension: usize) {
+        let (problem, bare) = (prestressed(dimension), held(dimension));
+        problem.check().unwrap();
+        let label = vec![0.3; dimension];
+        let force = problem.manufactured_force(&label, 0.2);
+        assert!((force[0] - bare.manufactured_force(&label, 0.2)[0]).abs() > 0.1);
+        let mut found = [[0.0; 3]];
+        Forcing::new(&problem, [label.as_slice()].into_iter()).at(0.2, &mut found, |b| b);
+        assert_eq!(found[0], force);
+    }
+
+    /// A stress that nothing balances.
+    #[test]
+    fn a_truth_without_its_force_is_none() {
+        let equation = SmallStrainLaw::new(10.0, 0.3).into();
+        let problem = Problem { equation, manufactured: false, ..prestressed(2) };
+        let found = problem.check().unwrap_err();
+        assert!(found.condition.starts_with("equation of motion"), "{found}");
+    }
+}

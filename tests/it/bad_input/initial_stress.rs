@@ -1,0 +1,128 @@
+//! Initial stresses: what a law, a scene or a study cannot have, and truths that do not balance
+//! them.
+
+use super::{Edits, load, refused};
+use rstest::rstest;
+
+const BAR: &str = include_str!("../../../verification/prestressed-bar.yaml");
+const SLOPE: &str = include_str!("../../../verification/geostatic-slope.yaml");
+const COLUMN: &str = include_str!("../../../verification/geostatic-column-moving.yaml");
+const RATE: &str = include_str!("../../../verification/released-bar.yaml");
+const LONG: &str = include_str!("../../../verification/vibrating-bar-long.yaml");
+const HEATED: &str = include_str!("../../../verification/thermal-expansion-clamped.yaml");
+const RIGID: &str = include_str!("../../../verification/heat-2d.yaml");
+const FROZEN: &str = include_str!("../../../verification/courant-limit.yaml");
+
+#[test]
+fn sound() {
+    for text in [BAR, SLOPE, COLUMN, RATE, LONG, HEATED, RIGID, FROZEN] {
+        if let Err(diagnostic) = load(text) {
+            panic!("{diagnostic}");
+        }
+    }
+}
+
+/// What the law, the scene or the study does not go with.
+#[rstest]
+#[case::of_a_law_that_flows(
+    BAR,
+    &[
+        ("hencky: {young: E, poisson: 0", "j2: {young: E, poisson: 0, yield: 1"),
+        ("  initial_stress", "  ▸initial_stress"),
+    ],
+    &["a `j2` body has no initial stress", "the yield stress bounds the whole stress"]
+)]
+#[case::of_a_fluid(
+    BAR,
+    &[
+        ("hencky: {young: E, poisson: 0", "newtonian: {bulk: E, viscosity: 0"),
+        ("  initial_stress", "  ▸initial_stress"),
+    ],
+    &["a `newtonian` body has no initial stress", "state an `initial_displacement`"]
+)]
+#[case::of_a_body_at_rest(
+    RIGID,
+    &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")],
+    &["a `rigid` body has no initial stress"]
+)]
+#[case::a_component_of_the_plane_on_a_line(
+    BAR,
+    &[("{xx: S0}", "{xx: S0, ▸xy: 1}")],
+    &["`xy` is no component in a scene of dimension 1", "components: `xx`"]
+)]
+#[case::a_component_below_the_diagonal(
+    SLOPE,
+    &[("xy: \"along*top(Y)\"", "▸yx: \"along*top(Y)\"")],
+    &["unknown key `yx`", "possible keys: `xx`, `yy`, `zz`, `xy`"]
+)]
+#[case::no_component(
+    BAR,
+    &[("{xx: S0}", "▸{}")],
+    &["an initial stress without a component", "components: `xx`"]
+)]
+#[case::a_stress_that_depends_on_time(
+    BAR,
+    &[("{xx: S0}", "{xx: \"S0*▸t\"}")],
+    &["`t`"]
+)]
+#[case::beside_a_list_of_bodies(
+    SLOPE,
+    &[("  boundary:", "  ▸initial_stress: {xx: 1}\n  boundary:")],
+    &["`initial_stress` speaks of one body"]
+)]
+#[case::beside_expansion(
+    HEATED,
+    &[
+        ("  loads:", "  initial_stress: {xx: 1}\n  loads:"),
+        ("- thermal_expansion", "- ▸thermal_expansion"),
+    ],
+    &["an initial stress or expands by heat, not both"]
+)]
+#[case::in_finite_elements(
+    RATE,
+    &[("  initial_displacement", "  ▸initial_stress: {xx: 0}\n  initial_displacement")],
+    &["an initial stress, which the FEM does not have"]
+)]
+#[case::whose_energy_is_not_known(
+    LONG,
+    &[
+        ("  initial_velocity", "  initial_stress: {xx: 0}\n  initial_velocity"),
+        ("    energy_rate", "    ▸energy_rate"),
+    ],
+    &["the law `linear_elastic` is integrated in rate form, and has no energy beside an initial stress"]
+)]
+#[case::of_a_frozen_body(
+    FROZEN,
+    &[("scene:", "scene:\n  initial_stress: {xx: 1}"), ("frozen: true", "▸frozen: true")],
+    &["a frozen body rests without stress"]
+)]
+fn refusal(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(suite, edits, words);
+}
+
+/// The wave of the law alone, a weight that nothing bears, a surface that is not free and a joint
+/// that does not hold.
+#[rstest]
+#[case::the_speed_of_the_law_alone(
+    BAR,
+    &[("c: \"sqrt((E + S0)/rho)\"", "c: \"sqrt(E/rho) + 0*S0\""), ("[\"A*sin", "[▸\"A*sin")],
+    &["equation of motion in X"]
+)]
+#[case::a_weight_that_is_borne_in_part(
+    SLOPE,
+    &[("yy: \"-across*top(Y)\"", "yy: \"-0.99*across*top(Y)\""), ("displacement: [0", "displacement: [▸0")],
+    &["equation of motion in Y"]
+)]
+#[case::a_surface_under_load(
+    SLOPE,
+    &[("top(Y): \"upper*(2*H - Y)", "top(Y): \"upper*(2.1*H - Y)"), ("displacement: [0", "displacement: [▸0")],
+    &["boundary condition: top is free, traction in"]
+)]
+#[case::a_joint_out_of_balance(
+    SLOPE,
+    &[("base(Y): \"upper*H", "base(Y): \"0.9*upper*H"), ("displacement: [0", "displacement: [▸0")],
+    &["the same traction in"]
+)]
+fn no_balance(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(suite, edits, words);
+}
