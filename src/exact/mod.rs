@@ -4,12 +4,14 @@
 //! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
 //! runs. Knows no solver.
 
+mod body_sum;
 mod check;
 mod condition;
 mod equation;
 mod expansion;
 mod forcing;
 pub mod formula;
+mod gauss;
 pub mod heat;
 mod initial_stress;
 pub mod law;
@@ -29,6 +31,7 @@ mod violation;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub use body_sum::{BodySum, SumDensity, SumPoint, SumRegion};
 pub use check::interface::{Interface, meets};
 pub use condition::{Condition, FacePoint};
 pub use expansion::Expansion;

@@ -81,17 +81,37 @@ impl Round {
         (self.along(&direction, radius), half)
     }
 
+    /// Ends of the coordinates of [`Round::place`]: of the radius, the angle and, in space, the
+    /// height over the radius.
+    pub(super) fn intervals(&self) -> Vec<(f64, f64)> {
+        let all = [(self.inner, self.outer), (-PI, PI), (-1.0, 1.0)];
+        all[..self.centre.len()].to_vec()
+    }
+
+    /// The point with such coordinates, and the volume of the body per unit of them: r in the
+    /// plane, r^2 in space.
+    pub(super) fn place(&self, coordinates: &[f64]) -> (Vec<f64>, f64) {
+        let (radius, height) = (coordinates[0], coordinates.get(2).copied().unwrap_or(0.0));
+        let direction = direction(coordinates[1], height);
+        (self.along(&direction, radius), (1..self.centre.len()).map(|_| radius).product())
+    }
+
     /// A random direction, all equally likely (Archimedes: so is every height on a sphere).
     fn direction(&self, random: &mut Random) -> [f64; 3] {
         let angle = random.between(-PI, PI);
         let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
-        let flat = (1.0 - height * height).sqrt();
-        [flat * libm::cos(angle), flat * libm::sin(angle), height]
+        direction(angle, height)
     }
 
     fn along(&self, direction: &[f64; 3], radius: f64) -> Vec<f64> {
         self.centre.iter().zip(direction).map(|(c, n)| c + radius * n).collect()
     }
+}
+
+/// Unit vector at an angle around the third axis, with a component `height` along it.
+fn direction(angle: f64, height: f64) -> [f64; 3] {
+    let flat = (1.0 - height * height).sqrt();
+    [flat * libm::cos(angle), flat * libm::sin(angle), height]
 }
 
 #[cfg(test)]

@@ -62,6 +62,12 @@ pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
     f[0][0] * f[1][1] - f[0][1] * f[1][0]
 }
 
+/// `det(I + grad) - 1`, by the invariants of grad: small ones keep their digits.
+pub(super) fn dilation(grad: &Tensor<f64>) -> f64 {
+    let minors: Tensor<f64> = tensor(|i, j| cofactor(grad, i, j));
+    det(grad, &minors) + sum::<f64, 3>(|i| grad[i][i] + minors[i][i])
+}
+
 #[inline]
 pub(super) fn product<T: Number, const D: usize>(
     a: &Tensor<T, D>,

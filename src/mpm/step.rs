@@ -1,10 +1,11 @@
 //! A step: the passes of the schedule in their order, and the start of a run.
 
+use super::boundary::Side;
 use super::schedule::{Pass, StepSchedule};
 use super::setup::Setup;
 use super::solver::Solver;
 use super::transfer::kick;
-use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Start, Subject, Totals};
+use crate::subject::{Checkpoint, Failure, Reaction, RunCounters, Samples, Start, Subject, Totals};
 
 impl<const D: usize> Solver<D> {
     pub(super) fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
@@ -73,6 +74,11 @@ impl<const D: usize> Subject for Solver<D> {
         let Setup { particles, transfer, material, .. } = &self.setup;
         let strain_energy = material.energy(particles);
         Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
+    }
+
+    fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
+        let side = |high| if high { Side::High } else { Side::Low };
+        self.started.then(|| self.reaction(face.map(|(axis, high)| (axis, side(high)))))
     }
 
     fn null_space_energy(&self) -> Option<f64> {

@@ -7,10 +7,12 @@
 mod checkpoint;
 mod plane;
 mod profile;
+mod reaction;
 
 pub use checkpoint::{Checkpoint, Memory};
 pub use plane::PlaneState;
 pub use profile::{Column, Holder, Profile};
+pub use reaction::Reaction;
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};
@@ -39,6 +41,13 @@ pub trait Subject {
 
     /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
     fn totals(&self) -> Option<Totals> {
+        None
+    }
+
+    /// Reaction of all walls on which the body stands still, or of that on one face (axis of the
+    /// normal, and whether it is the high end); `None` from a subject that does not say, and before
+    /// the first step.
+    fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
 

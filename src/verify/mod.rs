@@ -40,7 +40,9 @@ pub use cost::{
 };
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
+pub(crate) use error::declaration::SumNeed;
 pub use error::error_scale::ErrorScale;
+pub use error::judged_sum::JudgedSum;
 pub use error::norm::Norms;
 pub(crate) use error::norm::larger;
 pub use error::observer::{History, displacement_at};

@@ -243,7 +243,7 @@ impl Convergence {
     /// The judged error in words, with its unit.
     pub fn judged(&self) -> String {
         let (norm, of, unit) = (self.norm.replace('_', " "), self.of.words(), self.of.unit());
-        match self.scale {
+        match self.scale.map(|scale| self.of.shown_scale(scale)) {
             Some(scale) => {
                 format!("{norm} error of {of} over {scale} {unit}").trim_end().to_owned()
             }

@@ -18,6 +18,13 @@ pub(super) trait ConstitutiveLaw {
     /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
+    /// The energy W (J/m3) that P is the derivative of, `P = dW/dF`, zero at rest; none of a law
+    /// that has none or depends on the history of the motion.
+    fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
+        let _ = grad;
+        None
+    }
+
     /// Stiffest modulus at rest (Pa), `lambda + 2 mu` of a solid: a bound for stresses of a given
     /// strain.
     fn modulus(&self) -> f64;

@@ -77,6 +77,14 @@ macro_rules! laws {
                 }
             }
 
+            /// The energy W (J/m3) that P is the derivative of, zero at rest; none of a law that
+            /// has none.
+            pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
+                match self {
+                    $($(Self::$law(law) => law.energy(grad),)?)+
+                }
+            }
+
             /// Stiffest modulus at rest (Pa): a bound for stresses of a given strain.
             pub fn modulus(&self) -> f64 {
                 match self {

@@ -28,6 +28,13 @@ impl ConstitutiveLaw for SmallStrainLaw {
         })
     }
 
+    /// `W = lambda/2 tr(eps)^2 + mu eps : eps`, half of `P : grad u`.
+    fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
+        let stress = self.piola(grad);
+        let work = stress.iter().flatten().zip(grad.iter().flatten()).map(|(p, slope)| p * slope);
+        Some(0.5 * work.sum::<f64>())
+    }
+
     fn modulus(&self) -> f64 {
         self.0.modulus()
     }
@@ -46,6 +53,7 @@ impl ConstitutiveLaw for SmallStrainLaw {
 mod tests {
     use super::*;
     use crate::exact::law::Equation;
+    use crate::exact::law::energy::assert_stress_is_derivative;
     use approx::assert_relative_eq;
 
     #[test]
@@ -75,5 +83,10 @@ mod tests {
         let solid = Equation::from(SmallStrainLaw::new(100.0, 0.3));
         let grad = [[0.01, 0.02, 0.0], [0.0, -0.01, 0.0], [0.0; 3]];
         assert_eq!(solid.cauchy(&grad), solid.piola(&grad));
+    }
+
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        assert_stress_is_derivative(&SmallStrainLaw::new(50.0, 0.3));
     }
 }

@@ -3,7 +3,7 @@
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, cofactor, det, tensor, unit};
+use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
 
 /// Tait's equation of state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +33,13 @@ impl ConstitutiveLaw for TaitLaw {
         tensor(|i, j| -(pressure * cofactor[i][j]))
     }
 
+    /// `W = K/7 (J^-6/6 + J - 7/6)`, by `J - 1`.
+    fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
+        let dilation = dilation(grad);
+        let power = libm::expm1(-6.0 * libm::log1p(dilation));
+        Some(self.bulk / 7.0 * (power / 6.0 + dilation))
+    }
+
     fn modulus(&self) -> f64 {
         self.bulk
     }
@@ -45,5 +52,16 @@ impl ConstitutiveLaw for TaitLaw {
             "the stress of a viscous fluid in motion depends on its velocity",
             "state an `equilibrium`, or a motion without viscosity",
         ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::energy::assert_stress_is_derivative;
+
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        assert_stress_is_derivative(&TaitLaw::new(50.0, 0.0));
     }
 }

@@ -1,5 +1,6 @@
 //! Contract of a boundary condition with the rest of the solver.
 
+use super::face::Side;
 use crate::mpm::algebra::Vector;
 use crate::subject::{Checkpoint, Column};
 
@@ -52,6 +53,12 @@ pub trait Boundary<const D: usize>: Send {
         advance: &Advance,
     ) {
         self.hold_acceleration(acceleration, advance);
+    }
+
+    /// Axis and end of the face on which the body stands still, so that the wall takes all force of
+    /// the nodes that it holds; none of a wall that moves, or that lets nodes go.
+    fn standing_face(&self) -> Option<(usize, Side)> {
+        None
     }
 
     /// Sets the constrained components of a nodal field to zero.

@@ -10,12 +10,13 @@ use crate::subject::Column;
 #[derive(Debug, Clone)]
 pub struct Fixed {
     nodes: Vec<usize>,
+    face: (usize, Side),
 }
 
 impl Fixed {
     /// The nodes of `grid` on one face.
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
-        Self { nodes: nodes(grid, axis, side) }
+        Self { nodes: nodes(grid, axis, side), face: (axis, side) }
     }
 
     fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
@@ -36,6 +37,10 @@ impl<const D: usize> Boundary<D> for Fixed {
 
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], _: &Advance) {
         self.hold(acceleration);
+    }
+
+    fn standing_face(&self) -> Option<(usize, Side)> {
+        Some(self.face)
     }
 
     fn clear(&self, field: &mut [Vector<D>]) {

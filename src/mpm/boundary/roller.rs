@@ -11,12 +11,13 @@ use crate::subject::Column;
 pub struct Roller {
     nodes: Vec<usize>,
     axis: usize,
+    side: Side,
 }
 
 impl Roller {
     /// The nodes of `grid` on one face; the normal is `axis`.
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
-        Self { nodes: nodes(grid, axis, side), axis }
+        Self { nodes: nodes(grid, axis, side), axis, side }
     }
 
     fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
@@ -37,6 +38,10 @@ impl<const D: usize> Boundary<D> for Roller {
 
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], _: &Advance) {
         self.hold(acceleration);
+    }
+
+    fn standing_face(&self) -> Option<(usize, Side)> {
+        Some((self.axis, self.side))
     }
 
     fn clear(&self, field: &mut [Vector<D>]) {

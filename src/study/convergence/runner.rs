@@ -177,7 +177,8 @@ fn run_of(
 ) -> Result<RunResult, String> {
     let make = || subject(plan, case.method, level);
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
-    let comparison = Comparison { of: plan.of, observe: plan.observe.as_deref(), at_rest: rest };
+    let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
+    let comparison = Comparison { of: plan.of, sum, observe, at_rest: rest };
     verify::resume(make, truth, clock, &comparison, keeper)
 }
 

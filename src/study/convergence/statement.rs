@@ -69,6 +69,14 @@ fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
 }
 
 fn judged(plan: &ConvergencePlan) -> String {
+    if let Some(sum) = &plan.sum {
+        let (norm, of, unit) = (plan.norm.name(), plan.of.words(), plan.of.unit());
+        let divisor = match plan.scale {
+            Some(scale) if scale != sum.size() => format!("{scale}"),
+            _ => format!("its largest size, {:.3e} {unit}", sum.size()),
+        };
+        return format!("{norm} over the instants of the error of the {of}, divided by {divisor}");
+    }
     let judged = format!("{} error of the {}", plan.norm.name(), plan.of.words());
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }

@@ -1,7 +1,7 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
-use super::check::{fem_support, size, subject_support};
+use super::check::{fem_support, size, subject_support, sums};
 use super::evaluator::{DeclaredParameter, Evaluator};
 use super::load::{LoadEntry, LoadSpec, StudyFacts};
 use super::path::Path;
@@ -111,11 +111,14 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         instants,
         norm: spec.judge.norm,
         of: spec.judge.of,
+        sum: None,
         scale: scale.transpose()?,
         crossing_levels: spec.judge.crossing_levels,
         cases: Vec::new(),
     };
     subject_support::check(&evaluator, &spec, &plan)?;
+    plan.sum = sums::judged(&evaluator, &spec, &plan)?;
+    plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     size::check(&evaluator, &spec, &plan, &places)?;
     plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
     steps::check(&evaluator, &plan, &places)?;

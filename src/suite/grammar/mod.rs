@@ -134,6 +134,8 @@ pub(crate) struct JudgeSpec {
     pub(crate) of: Quantity,
     #[serde(default)]
     pub(crate) norm: NormName,
+    /// Face whose reaction is judged; absent: all walls together.
+    pub(crate) face: Option<String>,
     /// Divisor of the error before it is judged.
     pub(crate) scale: Option<NumberText>,
     #[serde(default)]
@@ -161,6 +163,13 @@ named! {
         MaxL2 = "max_l2",
         /// Largest over labels and instants.
         MaxLinf = "max_linf",
+    }
+}
+
+impl NormName {
+    /// Whether it is the largest over the instants of another norm.
+    pub(crate) fn is_over_instants(self) -> bool {
+        matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf)
     }
 }
 

@@ -71,6 +71,11 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
+    /// Whether it holds the motion along the face as well as that along its normal.
+    fn holds_all_components(&self) -> bool {
+        false
+    }
+
     /// Whether the reference FEM does not know it.
     fn is_lacked_by_fem(&self) -> bool {
         false

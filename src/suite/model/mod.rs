@@ -27,7 +27,7 @@ use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
-use crate::verify::{Clock, Expectation, Quantity};
+use crate::verify::{Clock, Expectation, JudgedSum, Quantity};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -75,6 +75,8 @@ pub struct ConvergencePlan {
     pub norm: NormName,
     /// Quantity of which the error is taken.
     pub of: Quantity,
+    /// Its exact value, where it is a sum over the body.
+    pub sum: Option<Arc<JudgedSum>>,
     /// Size by which the error is divided, if any.
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.

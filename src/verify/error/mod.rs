@@ -2,11 +2,14 @@
 
 pub(crate) mod checkpoint_store;
 pub(crate) mod clock;
+pub(crate) mod declaration;
 pub(crate) mod error_scale;
+pub(crate) mod judged_sum;
 pub(crate) mod lagrange;
 pub(crate) mod norm;
 pub(crate) mod observer;
 pub(crate) mod quantity;
 pub(crate) mod run;
 pub(crate) mod run_result;
+mod sums;
 mod tensor_shape;

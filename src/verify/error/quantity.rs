@@ -1,12 +1,15 @@
 //! Quantities that can be judged, each declared once.
 //!
-//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants below, and
-//! the line of [`Quantity::declaration`] that joins them.
+//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants below (to
+//! those of [`sums`](super::sums), where it has no values at labels), and the line of
+//! [`Quantity::declaration`] that joins them.
 //!
 //! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
 //! length: the square root of the sum of the squares of all components.
 
+use super::declaration::{Declaration, SolutionSize, SumDeclaration, SumNeed};
 use super::norm::Norms;
+use super::sums::{ANGULAR_MOMENTUM, ENERGY, KINETIC_ENERGY, MOMENTUM, REACTION, STRAIN_ENERGY};
 use super::tensor_shape::TensorShape;
 use crate::exact::Truth;
 use crate::named::named;
@@ -14,7 +17,7 @@ use crate::subject::Samples;
 use std::borrow::Cow;
 
 named! {
-    /// A field of a state.
+    /// A field of a state, or a sum over the body.
     #[derive(Default)]
     pub enum Quantity {
         /// u = x - X (m).
@@ -28,50 +31,22 @@ named! {
         DeformationGradient = "deformation_gradient",
         /// Temperature (K).
         Temperature = "temperature",
+        /// Kinetic energy of the body (J).
+        KineticEnergy = "kinetic_energy",
+        /// Energy that the material stores (J).
+        StrainEnergy = "strain_energy",
+        /// Kinetic and stored energy together (J).
+        Energy = "energy",
+        /// Linear momentum (kg m/s).
+        Momentum = "momentum",
+        /// Angular momentum about the origin (kg m2/s).
+        AngularMomentum = "angular_momentum",
+        /// Force of walls on the body (N).
+        Reaction = "reaction",
     }
 }
 
-/// Exact values at all labels in so many dimensions, at a time.
-type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
-
-/// All that is known of a quantity besides its name.
-#[expect(clippy::struct_excessive_bools, reason = "four independent questions, each asked by name")]
-struct Declaration {
-    /// Its unit; empty for a number.
-    unit: &'static str,
-    shape: TensorShape,
-    /// Values of a subject, label after label; empty from one that has none.
-    computed: fn(&Samples) -> Cow<'_, [f64]>,
-    /// Exact value at the label X at time t; false from a truth that does not know it.
-    exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
-    /// Exact values at all labels in D dimensions at once, where a truth has a faster way.
-    exact_at_all: Option<ExactAtAll>,
-    /// Natural size of exact values, which errors are compared with.
-    size: SolutionSize,
-    /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN
-    /// where it is not known.
-    rounding_size: fn(f64) -> f64,
-    /// Whether it is an unknown that a subject solves for: tables show its errors.
-    is_primary: bool,
-    /// Whether only some subjects and some truths have it.
-    is_optional: bool,
-    /// Whether only a body that moves has it.
-    is_of_motion: bool,
-    /// Whether a subject must keep F for it.
-    needs_deformation_gradient: bool,
-}
-
-/// Natural size of a field.
-enum SolutionSize {
-    /// Largest magnitude.
-    Magnitude,
-    /// Largest magnitude of the difference from the identity.
-    FromIdentity,
-    /// Largest less smallest value.
-    Range,
-}
-
-const DISPLACEMENT: Declaration = Declaration {
+pub(super) const DISPLACEMENT: Declaration = Declaration {
     unit: "m",
     shape: TensorShape::Vector,
     computed: |samples| Cow::from(&samples.displacement),
@@ -87,6 +62,7 @@ const DISPLACEMENT: Declaration = Declaration {
     is_optional: false,
     is_of_motion: true,
     needs_deformation_gradient: false,
+    sum: None,
 };
 
 const VELOCITY: Declaration = Declaration {
@@ -142,6 +118,12 @@ impl Quantity {
             Self::Stress => &STRESS,
             Self::DeformationGradient => &DEFORMATION_GRADIENT,
             Self::Temperature => &TEMPERATURE,
+            Self::KineticEnergy => &KINETIC_ENERGY,
+            Self::StrainEnergy => &STRAIN_ENERGY,
+            Self::Energy => &ENERGY,
+            Self::Momentum => &MOMENTUM,
+            Self::AngularMomentum => &ANGULAR_MOMENTUM,
+            Self::Reaction => &REACTION,
         }
     }
 
@@ -178,6 +160,26 @@ impl Quantity {
     /// Whether a subject must keep F for it.
     pub fn needs_deformation_gradient(self) -> bool {
         self.declaration().needs_deformation_gradient
+    }
+
+    /// Whether it is a sum over the body, whose errors are taken over the instants.
+    pub fn is_sum(self) -> bool {
+        self.sum().is_some()
+    }
+
+    /// Need of a sum, besides a body that moves; none of a field.
+    pub(crate) fn sum_need(self) -> Option<SumNeed> {
+        self.sum().map(|sum| sum.needs)
+    }
+
+    /// A divisor of its error as captions write it: of a sum to four digits, since it is computed
+    /// rather than stated.
+    pub(crate) fn shown_scale(self, scale: f64) -> String {
+        if self.is_sum() { format!("{scale:.3e}") } else { scale.to_string() }
+    }
+
+    pub(super) fn sum(self) -> Option<SumDeclaration> {
+        self.declaration().sum
     }
 
     /// Size of the numbers whose rounding its error cannot fall below, on a body of length `length`

@@ -2,6 +2,7 @@
 
 use super::checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed};
 use super::clock::Clock;
+use super::judged_sum::{JudgedSum, over_instants};
 use super::norm::{Norms, larger};
 use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
@@ -16,6 +17,8 @@ use crate::verify::energy_rate::energy_rate;
 pub struct Comparison<'a> {
     /// The quantity that is judged.
     pub of: Quantity,
+    /// Its exact value, where it is a sum over the body.
+    pub sum: Option<&'a JudgedSum>,
     /// Place to be observed (m).
     pub observe: Option<&'a [f64]>,
     /// The truth is a state of rest, and errors are taken at the end only: a speed (m/s) that
@@ -82,6 +85,7 @@ struct RunMonitor<'a> {
     max_rms: f64,
     at_end: Norms,
     largest: Norms,
+    sum_errors: Vec<[f64; 3]>,
     balance: Option<Balance>,
     account: Vec<(f64, Totals)>,
     residual_speed: Option<f64>,
@@ -105,6 +109,7 @@ impl<'a> RunMonitor<'a> {
             max_rms: 0.0,
             at_end: Norms::NONE,
             largest: Norms::ZERO,
+            sum_errors: Vec::new(),
             balance: subject.totals().map(Balance::start),
             account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
             residual_speed: comparison.at_rest.map(|_| 0.0),
@@ -138,13 +143,21 @@ impl<'a> RunMonitor<'a> {
         }
         self.errors = errors(&self.samples, self.truth, t);
         self.max_rms = larger(self.max_rms, self.errors.rms);
+        if let Some(sum) = self.comparison.sum {
+            self.sum_errors.push(sum.error(subject, t));
+            return;
+        }
         let of = self.comparison.of;
         let is_known = of == Quantity::default();
         self.at_end = if is_known { self.errors } else { of.errors(&self.samples, self.truth, t) };
         self.largest = self.largest.larger(self.at_end);
     }
 
-    fn finished(self, subject: &dyn Subject, clock: &Clock) -> RunResult {
+    fn finished(mut self, subject: &dyn Subject, clock: &Clock) -> RunResult {
+        if self.comparison.sum.is_some() {
+            self.at_end = over_instants(&self.sum_errors);
+            self.largest = self.at_end;
+        }
         let place = self.comparison.observe;
         let displacement = place.and_then(|place| displacement_at(&self.samples, place));
         let distance = |(place, u): (&[f64], &Vec<f64>)| {
@@ -202,6 +215,7 @@ impl Memory for RunMonitor<'_> {
             max_rms,
             at_end,
             largest,
+            sum_errors,
             balance,
             account,
             residual_speed,
@@ -211,6 +225,7 @@ impl Memory for RunMonitor<'_> {
             checkpoint.visit(norms);
         }
         checkpoint.visit(max_rms);
+        checkpoint.visit(sum_errors);
         if let Some(balance) = balance {
             checkpoint.visit(balance);
         }

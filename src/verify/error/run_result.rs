@@ -14,7 +14,8 @@ pub struct RunResult {
     pub errors: Norms,
     /// Largest RMS error over the instants (m); NaN if the run failed.
     pub max_rms: f64,
-    /// Errors of the compared quantity at the end; all NaN if the run failed.
+    /// Errors of the compared quantity at the end, of a sum over the instants; all NaN if the run
+    /// failed.
     pub at_end: Norms,
     /// The largest of each over the instants; all NaN if the run failed.
     pub largest: Norms,

@@ -41,6 +41,10 @@ fn without_a_mistake_the_column_is_sound() {
     &[("norm: l1", "norm: ▸max_l1")],
     &["on its way a body is not in equilibrium", "expected a norm at the end"]
 )]
+#[case::of_its_motion(
+    &[("of: stress", "of: ▸kinetic_energy")],
+    &["the exact kinetic energy of the body is zero throughout"]
+)]
 #[case::of_finite_elements(
     &[("    - damping: \"pi*c/l0\" ", "   "), (MPM, FEM), ("of: stress, ", "")],
     &["the reference FEM has no damping and does not come to rest"]

@@ -43,6 +43,71 @@ fn a_comparison_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 }
 
 #[rstest]
+#[case::a_norm_over_instants_twice(
+    &[("{norm: rms}", "{of: kinetic_energy, norm: ▸max_rms}"), (FEM, "")],
+    &["the kinetic energy is one number at a time", "`linf` for the largest over the instants"]
+)]
+#[case::finite_elements(
+    &[("{norm: rms}", "{of: kinetic_energy}"), ("- fem:", "- ▸fem:")],
+    &["the reference FEM gives no kinetic energy, which this suite judges"]
+)]
+#[case::a_face_of_the_body(
+    &[("{norm: rms}", "{of: momentum, ▸face: left}"), (FEM, "")],
+    &["the momentum is not that of a face", "judge the `reaction`"]
+)]
+#[case::a_face_of_a_field(
+    &[("{norm: rms}", "{of: velocity, ▸face: left}")],
+    &["the velocity is not that of a face"]
+)]
+#[case::a_spin_of_a_bar(
+    &[("{norm: rms}", "{of: ▸angular_momentum}"), (FEM, "")],
+    &["there is no angular momentum in 1-D"]
+)]
+#[case::an_unknown_face(
+    &[("{norm: rms}", "{of: reaction, face: ▸lefft}"), (FEM, "")],
+    &["a body of dimension 1 has no face `lefft`", "did you mean `left`?"]
+)]
+#[case::a_face_that_is_free(
+    &[("{norm: rms}", "{of: reaction, face: ▸right}"), (FEM, "")],
+    &["the right face is free: a reaction is told of a fixed face or a roller only"]
+)]
+#[case::nothing_held(
+    &[
+        ("{norm: rms}", "{of: ▸reaction}"),
+        (FEM, ""),
+        ("boundary: {left: fixed}", "boundary: {}"),
+        ("v0*mode(X)", "v0*cos(pi*X/L)"),
+        ("v0/omega*mode(X)*sin(omega*t)", "v0/(2*omega)*cos(pi*X/L)*sin(2*omega*t)"),
+        ("functions:\n  mode(s): \"sin(pi*s/(2*L))\"\n", ""),
+    ],
+    &["nothing is held, and so nothing reacts", "`fixed` or `roller`"]
+)]
+#[case::a_consistent_mass(
+    &[
+        ("{norm: rms}", "{of: reaction}"),
+        (FEM, ""),
+        ("scheme: [musl, usl]}", "scheme: [musl, usl], mass: ▸consistent}"),
+    ],
+    &["the inertia of other nodes is part of a reaction", "take `lumped`"]
+)]
+fn a_sum_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(BAR, edits, words);
+}
+
+/// In a plane: the energy of a law in rate form, and a corner that two walls hold.
+#[rstest]
+#[case::an_energy("▸of: strain_energy", &["`linear_elastic` is integrated in rate form"])]
+#[case::a_shared_edge(
+    "of: reaction, face: ▸left",
+    &["nodes on the edge between `left` and", "leave `face` out to judge all walls together"]
+)]
+fn a_sum_in_a_plane_with(#[case] of: &str, #[case] words: &[&str]) {
+    let judged = format!("judge: {{{of}}}\nmethods:");
+    let walls = ("{left: fixed}", "{left: fixed, bottom: roller}");
+    refused(super::PLATE, &[walls, ("methods:", &judged)], words);
+}
+
+#[rstest]
 #[case::an_error_below_zero("error_below: ▸-1e-9", &["a bound is -1e-9, and must be above zero"])]
 #[case::an_error_below_no_number("error_below: ▸.nan", &["finite"])]
 #[case::an_error_above_zero("error_above: ▸0", &["a bound is 0, and must be above zero"])]

@@ -4,5 +4,6 @@ mod gimp;
 mod heat;
 mod kernel;
 mod null_space;
+mod reaction;
 mod tls;
 mod traction;

@@ -101,7 +101,7 @@ fn goes_on(suite: &Suite) -> Vec<u8> {
 }
 
 /// Every kind of subject and all that a judge gathers: histories, the totals of a run, a state of
-/// rest, temperatures, F and stress; bodies in contact, walls with friction and driven ones,
+/// rest, temperatures, F and stress, sums over the body; bodies in contact, walls with friction and driven ones,
 /// plastic flow.
 #[rstest]
 #[case("vibrating-bar")]
@@ -117,6 +117,7 @@ fn goes_on(suite: &Suite) -> Vec<u8> {
 #[case("simple-shear")]
 #[case("plane-stress-wave")]
 #[case("plane-stress-pull")]
+#[case("vibrating-bar-reaction")]
 fn an_interrupted_level_shows_what_a_whole_one_does(#[case] name: &str) {
     let suite = load(name);
     let plan: &ConvergencePlan = suite.plan().unwrap();

@@ -30,6 +30,10 @@ impl BoundaryCondition for FixedFace {
     fn stays(&self) -> bool {
         true
     }
+
+    fn holds_all_components(&self) -> bool {
+        true
+    }
 }
 
 impl<const D: usize> BuildBoundary<D> for FixedFace {

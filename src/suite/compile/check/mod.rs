@@ -4,3 +4,4 @@ pub(crate) mod energy;
 pub(crate) mod fem_support;
 pub(crate) mod size;
 pub(crate) mod subject_support;
+pub(crate) mod sums;

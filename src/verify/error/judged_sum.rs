@@ -1,0 +1,62 @@
+//! A sum over the body of a subject, held against its exact value.
+
+use super::declaration::{ComputedSum, SumDeclaration};
+use super::norm::Norms;
+use super::quantity::Quantity;
+use crate::exact::{BodySum, Problem, SumRegion};
+use crate::subject::Subject;
+
+/// A judged sum with its exact value.
+#[derive(Debug)]
+pub struct JudgedSum {
+    of: Quantity,
+    exact: BodySum,
+    /// Axis and end of the one face whose reaction is judged; none: of all.
+    face: Option<(usize, bool)>,
+}
+
+impl JudgedSum {
+    /// The sum `of` over the body of `problem`; a reaction is that of `walls`, which are all that
+    /// the body has or one of them.
+    ///
+    /// # Errors
+    /// Why the exact value is not known, in words that follow the name of the quantity.
+    pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
+        let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
+        let region = match computed {
+            ComputedSum::OfTotals(_) => SumRegion::Body,
+            ComputedSum::Reaction => SumRegion::Faces(walls.to_vec()),
+        };
+        let face = match walls {
+            [one] => problem.faces.get(*one).map(|face| (face.axis, face.high)),
+            _ => None,
+        };
+        Ok(Self { of, exact: BodySum::new(problem, &region, density)?, face })
+    }
+
+    /// Largest size of the exact sum during the run, which errors are relative to.
+    pub fn size(&self) -> f64 {
+        self.exact.size()
+    }
+
+    /// The difference from the exact sum at time `t` (s); NaN of a subject that does not say it.
+    pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
+        let found = match self.of.sum().map(|sum| sum.computed) {
+            Some(ComputedSum::OfTotals(value)) => {
+                subject.totals().and_then(|totals| value(&totals)).map(|value| (t, value))
+            }
+            Some(ComputedSum::Reaction) => {
+                subject.reaction(self.face).map(|reaction| (reaction.time, reaction.force))
+            }
+            None => None,
+        };
+        let Some((t, value)) = found else { return [f64::NAN; 3] };
+        let exact = self.exact.at(t);
+        std::array::from_fn(|i| value[i] - exact[i])
+    }
+}
+
+/// Norms over instants of the same weight.
+pub(super) fn over_instants(errors: &[[f64; 3]]) -> Norms {
+    Norms::of(errors.as_flattened(), 3, &vec![1.0; errors.len()])
+}
