@@ -129,6 +129,13 @@ fn a_bound_with(#[case] bound: &str, #[case] words: &[&str]) {
 }
 
 #[test]
+fn an_energy_beside_an_initial_stress() {
+    let bar = include_str!("../../../verification/prestressed-bar.yaml");
+    let edits = [("{norm: max_rms}", "{of: ▸energy}")];
+    refused(bar, &edits, &["the truth knows no stored energy beside an initial stress"]);
+}
+
+#[test]
 fn a_place_that_is_not_observed() {
     let edits = [("observe: {at: [12.5]}\n", ""), (EXPECTED, "    ▸observed_within: 1e-3\n")];
     refused(BAR, &edits, &["nothing is observed", "add `observe: {at: [...]}` to the suite"]);

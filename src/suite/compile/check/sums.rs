@@ -79,6 +79,10 @@ fn stored_energy(
         let message = "the energy of a body in which heat flows is more than that of its strain";
         return Err(evaluator.diagnostic(path, message));
     }
+    if plan.scene.each().iter().any(|body| !body.initial_stress.is_none()) {
+        let message = "the truth knows no stored energy beside an initial stress";
+        return Err(evaluator.diagnostic(path, message));
+    }
     if problem.equation.energy(&[[0.0; 3]; 3]).is_none() {
         let message = format!("the truth knows no stored energy of `{}`", problem.equation.name());
         let diagnostic = evaluator.diagnostic(path, &message);
