@@ -4,14 +4,12 @@
 //! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
 //! runs. Knows no solver.
 
-mod body_sum;
 mod check;
 mod condition;
 mod equation;
 mod expansion;
 mod forcing;
 pub mod formula;
-mod gauss;
 pub mod heat;
 mod initial_stress;
 pub mod law;
@@ -23,6 +21,7 @@ mod random;
 mod region;
 mod round;
 mod stress;
+mod sum;
 mod tensor;
 mod term;
 mod truth;
@@ -31,7 +30,6 @@ mod violation;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use body_sum::{BodySum, SumDensity, SumPoint, SumRegion};
 pub use check::interface::{Interface, meets};
 pub use condition::{Condition, FacePoint};
 pub use expansion::Expansion;
@@ -44,6 +42,7 @@ pub use problem::{Face, Problem};
 pub use random::Random;
 pub use region::Region;
 pub use round::Round;
+pub use sum::{BodySum, SumDensity, SumPoint, SumRegion};
 pub use term::Term;
 pub use truth::Truth;
 pub use violation::Violation;
