@@ -34,7 +34,7 @@ impl Forcing {
             let label = self.labels.get(place).map_or(&[][..], Vec::as_slice);
             let whole = self.problem.balance(label, t, &now);
             *force = make(std::array::from_fn(|i| {
-                let stated = uniform[i] + self.problem.placed(i, label, t);
+                let stated = uniform[i] + self.problem.placed(i, label, t, &now.u);
                 whole[i] - stated - self.problem.resistance(i, (label, t), &now, stated)
             }));
         }

@@ -144,7 +144,7 @@ impl Problem {
         let now = self.derivatives(label, t);
         let balance = self.balance(label, t, &now);
         std::array::from_fn(|i| {
-            let stated = self.stated(i, label, t);
+            let stated = self.stated(i, label, t, &now.u);
             balance[i] - stated - self.resistance(i, (label, t), &now, stated)
         })
     }
@@ -155,7 +155,7 @@ impl Problem {
             return self.balance(label, t, now);
         }
         std::array::from_fn(|i| {
-            let stated = self.stated(i, label, t);
+            let stated = self.stated(i, label, t, &now.u);
             stated + self.resistance(i, (label, t), now, stated)
         })
     }
@@ -167,20 +167,20 @@ impl Problem {
     }
 
     /// Component i of the stated forces (m/s2).
-    fn stated(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        self.uniform(i, t) + self.placed(i, label, t)
+    fn stated(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
+        self.uniform(i, t) + self.placed(i, label, t, u)
     }
 
     /// Component i of the stated forces that are the same everywhere (m/s2).
     pub(super) fn uniform(&self, i: usize, t: f64) -> f64 {
         let uniform = self.terms.iter().filter(|term| term.is_uniform());
-        uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t))
+        uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t, &[0.0; 3]))
     }
 
-    /// Component i of the stated forces that depend on the place (m/s2).
-    pub(super) fn placed(&self, i: usize, label: &[f64], t: f64) -> f64 {
+    /// Component i of the stated forces (m/s2) that depend on place or displacement `u` (m).
+    pub(super) fn placed(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         let placed = self.terms.iter().filter(|term| !term.is_uniform());
-        placed.fold(0.0, |sum, term| sum + term.stated(i, label, t))
+        placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
     /// Component i of the forces against the motion (m/s2), beside the stated force `stated`.

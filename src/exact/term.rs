@@ -8,12 +8,14 @@ use std::fmt::Debug;
 /// The part of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in what the
 /// motion is held to. A load implements the methods that concern it.
 pub trait Term: Debug + Send + Sync {
-    /// Component i of the stated force per unit mass (m/s2) at the place `label` (m) and time `t`.
-    fn stated(&self, _i: usize, _label: &[f64], _t: f64) -> f64 {
+    /// Component i of the stated force per unit mass (m/s2) at the place `label` (m) and time `t`
+    /// (s), where the displacement is `u` (m).
+    fn stated(&self, _i: usize, _label: &[f64], _t: f64, _u: &[f64; 3]) -> f64 {
         0.0
     }
 
-    /// Whether that force is the same at every place; it is then asked for once per time.
+    /// Whether that force is the same at every place, whatever u: it is then asked for once per
+    /// time.
     fn is_uniform(&self) -> bool {
         false
     }

@@ -23,7 +23,7 @@ fn bind(source: &str, variables: &[&str]) -> Formula {
 pub(super) struct Weight(pub(super) Vec<Formula>);
 
 impl Term for Weight {
-    fn stated(&self, i: usize, _: &[f64], t: f64) -> f64 {
+    fn stated(&self, i: usize, _: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         self.0.get(i).map_or(0.0, |formula| formula.eval(&[t]))
     }
 

@@ -17,8 +17,10 @@ pub struct Bar {
     acceleration: Vec<f64>,
     /// F at the quadrature points of the present state, element after element.
     def_grad: Vec<f64>,
-    /// Positions of the quadrature points (m), and the body force there (m/s2); empty without one.
+    /// Positions of the quadrature points (m), displacements (m) and the body force there (m/s2);
+    /// empty without one.
     places: Vec<f64>,
+    displaced: Vec<f64>,
     load: Vec<f64>,
     time: f64,
     /// How far the velocities are behind the displacements (s).
@@ -43,6 +45,7 @@ impl Bar {
             velocity: interpolant(&nodes, setup.fixed, &setup.initial_velocity),
             acceleration: vec![0.0; nodes.len()],
             def_grad: vec![1.0; mesh.cells() * mesh.points().len()],
+            displaced: vec![0.0; places.len()],
             load: vec![0.0; places.len()],
             places,
             time: 0.0,
@@ -150,8 +153,14 @@ impl Bar {
     /// `int rho0 b N_i dX`.
     fn add_body_force(&mut self) {
         let Some(body_force) = &mut self.setup.body_force else { return };
-        body_force(self.time, &self.places, &mut self.load);
         let points = self.mesh.points();
+        for (cell, values) in self.displaced.chunks_exact_mut(points.len()).enumerate() {
+            let local = self.mesh.local(cell, &self.displacement);
+            for (value, point) in values.iter_mut().zip(points) {
+                *value = dot(&point.shape, local);
+            }
+        }
+        body_force(self.time, (&self.places, &self.displaced), &mut self.load);
         for (cell, loads) in self.load.chunks_exact(points.len()).enumerate() {
             let local = self.mesh.local_mut(cell, &mut self.acceleration);
             for (point, load) in points.iter().zip(loads) {

@@ -10,13 +10,14 @@ use crate::subject::{Failure, Start};
 pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;
-/// A function of time and reference position, at many positions at once: given t (s) and positions
-/// X (m), which are the same in every call, it fills in the values.
-pub type BarLoad = Box<dyn FnMut(f64, &[f64], &mut [f64]) + Send>;
+/// A function of time, reference position and displacement, at many positions at once: given t
+/// (s), positions X (m), which are the same in every call, and displacements u (m) there, it fills
+/// in the values.
+pub type BarLoad = Box<dyn FnMut(f64, (&[f64], &[f64]), &mut [f64]) + Send>;
 
 /// The load that has the value `f(X, t)` at each position.
 pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> BarLoad {
-    Box::new(move |t, places, values| {
+    Box::new(move |t, (places, _), values| {
         for (value, x) in values.iter_mut().zip(places) {
             *value = f(*x, t);
         }
@@ -62,7 +63,7 @@ pub struct BarSetup {
     /// Whether the left and the right end are held at zero displacement. There the initial fields
     /// are not asked.
     pub fixed: [bool; 2],
-    /// Body force `b(X, t)` per unit mass (m/s2); with `None`, no such term is computed.
+    /// Body force `b(X, t, u)` per unit mass (m/s2); with `None`, no such term is computed.
     pub body_force: Option<BarLoad>,
     /// Piola stress `p0(t)` (Pa) that is applied to the left and to the right end: tension is
     /// positive at both. Only a free end can take it.

@@ -1,6 +1,8 @@
-//! A body force that depends on the particle: b(X, t), as manufactured solutions need.
+//! A body force that depends on the particle: b(X, t), as manufactured solutions need, or
+//! b(X, t, u), as that of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
 //!
-//! `f_ext_i = sum_p m_p b(X_p, t) N_i(x_p)`.
+//! `f_ext_i = sum_p m_p b(X_p, t, x_p - X_p) N_i(x_p)`. The displacement is that of the particle at
+//! the start of the step, where its stress is too: the leapfrog of the scheme keeps its order.
 
 use super::contract::Effect;
 use crate::mpm::algebra::Vector;
@@ -9,30 +11,38 @@ use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
-/// Writes the force per unit mass (m/s2) of every particle at a time (s), from their reference
-/// positions. The particles of a run, their order and their reference positions never change.
-pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &[Vector<D>], &mut [Vector<D>]) + Send>;
+/// Writes the force per unit mass (m/s2) of every particle at a time (s), from their reference and
+/// their present positions. The particles of a run, their order and their reference positions never
+/// change.
+pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [Vector<D>]) + Send>;
 
-/// A body force b(X, t) (m/s2).
+/// A body force b (m/s2).
 pub struct BodyForce<const D: usize> {
     field: ForceField<D>,
     /// Of every particle, at the present time.
     b: Vec<Vector<D>>,
+    stiffness: f64,
 }
 
 impl<const D: usize> BodyForce<D> {
     /// A body force that `field` gives.
     pub fn new(field: ForceField<D>) -> Self {
-        Self { field, b: Vec::new() }
+        Self { field, b: Vec::new(), stiffness: 0.0 }
     }
 
     /// A body force that is computed for one particle at a time, from X and t.
     pub fn pointwise(b: impl Fn(&Vector<D>, f64) -> Vector<D> + Send + 'static) -> Self {
-        Self::new(Box::new(move |t, labels, into| {
-            for (into, label) in into.iter_mut().zip(labels) {
+        Self::new(Box::new(move |t, particles, into| {
+            for (into, label) in into.iter_mut().zip(&particles.x0) {
                 *into = b(label, t);
             }
         }))
+    }
+
+    /// With the largest eigenvalue of -db/du (1/s2) among the particles at the start.
+    #[must_use]
+    pub fn with_stiffness(self, stiffness: f64) -> Self {
+        Self { stiffness, ..self }
     }
 }
 
@@ -45,6 +55,10 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
         vec![Column::of_particles("b", &self.b)]
     }
 
+    fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
     fn add_force(
         &mut self,
         t: f64,
@@ -53,7 +67,7 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
         grid: &mut Grid<D>,
     ) -> u64 {
         self.b.resize(particles.len(), Vector::zeros());
-        (self.field)(t, &particles.x0, &mut self.b);
+        (self.field)(t, particles, &mut self.b);
         for (p, (b, mass)) in self.b.iter().zip(&particles.mass).enumerate() {
             kernel.p2g_point_force(particles, p, &(b * *mass), grid);
         }

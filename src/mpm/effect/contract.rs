@@ -29,6 +29,12 @@ pub trait Effect<const D: usize>: Send {
         false
     }
 
+    /// Stiffness per unit mass (1/s2) at the start of loads that depend on the displacement, so
+    /// that a stable time step knows of it.
+    fn stiffness(&self) -> f64 {
+        0.0
+    }
+
     /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
     /// Returns the particle-node pairs visited.
     fn add_force(

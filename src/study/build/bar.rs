@@ -48,7 +48,7 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
         return None;
     }
     let mut forcing = None;
-    Some(Box::new(move |t, places, values| {
+    Some(Box::new(move |t, (places, u), values| {
         match &made {
             None => values.fill(0.0),
             Some(made) => {
@@ -57,21 +57,22 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
                 forcing.at(t, values, |force| force[0]);
             }
         }
-        add_stated(&stated, t, places, values);
+        add_stated(&stated, t, (places, u), values);
     }))
 }
 
-/// Adds the stated forces (m/s2) at each place; those that are uniform are computed once.
-fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], values: &mut [f64]) {
+/// Adds the stated forces (m/s2) at each place with its displacement `u` (m); those that are
+/// uniform are computed once.
+fn add_stated(loads: &[ListedLoad], t: f64, (places, u): (&[f64], &[f64]), values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
-        let everywhere = load.stated(0, &[], t);
+        let everywhere = load.stated(0, &[], t, &[0.0; 3]);
         for value in &mut *values {
             *value += everywhere;
         }
     }
     for load in loads.iter().filter(|load| !load.is_uniform()) {
-        for (value, x) in values.iter_mut().zip(places) {
-            *value += load.stated(0, &[*x], t);
+        for (value, (x, u)) in values.iter_mut().zip(places.iter().zip(u)) {
+            *value += load.stated(0, &[*x], t, &[*u, 0.0, 0.0]);
         }
     }
 }

@@ -11,6 +11,7 @@ mod equilibria;
 mod expectations;
 mod fine_grids;
 mod formulas;
+mod foundation;
 mod grammar;
 mod heat;
 mod initial_stress;

@@ -2,6 +2,7 @@
 
 mod diagnosis;
 mod fine_grid;
+mod foundation;
 mod interrupted;
 mod predicted_error;
 mod preflight;

@@ -1,10 +1,10 @@
 //! The words of a load, and what they are compiled with.
 
 use crate::exact::Region;
-use crate::exact::formula::Formula;
+use crate::exact::formula::{Expr, Formula};
 use crate::mpm::{Particles, Placement, Side};
 use crate::subject::PlaneState;
-use crate::suite::compile::coordinates::coordinates_and_time;
+use crate::suite::compile::coordinates::{DISPLACEMENTS, coordinates_and_time};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
@@ -111,6 +111,23 @@ impl LoadEntry<'_> {
     ) -> Result<Vec<Formula>, Diagnostic> {
         let d = self.dimension();
         self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
+    }
+
+    /// One formula of the coordinates, t and, if one of them names it, the displacement for each
+    /// component.
+    pub(crate) fn of_displacement(
+        &self,
+        path: &Path,
+        texts: &[NumberText],
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        let d = self.dimension();
+        let u = &DISPLACEMENTS[..d];
+        let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| u.contains(&name.as_str()));
+        let is_of_u = |text: &NumberText| Expr::parse(&text.to_string()).is_ok_and(names_it);
+        if !texts.iter().any(is_of_u) {
+            return self.of_place_and_time(path, texts);
+        }
+        self.evaluator.vector(path, texts, d, &[&coordinates_and_time(d)[..], u].concat())
     }
 
     /// One formula of the coordinates and t.

@@ -1,6 +1,6 @@
 //! Formulas as the functions that effects and boundary conditions of the solver take.
 
-use crate::exact::formula::Formula;
+use crate::exact::formula::{Formula, Number};
 use crate::exact::variables;
 use crate::mpm::{ScalarField, Vector, VelocityField};
 
@@ -27,10 +27,20 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
 }
 
-/// Component i of formulas of the coordinates and t at a place; none of them is zero.
-pub(crate) fn component(formulas: &[Formula], i: usize, label: &[f64], t: f64) -> f64 {
-    let all = variables(label, t);
-    formulas.get(i).map_or(0.0, |formula| formula.eval(&all[..=label.len()]))
+/// A formula of the coordinates, t and, where it was bound to that too, the displacement, at the
+/// place `label` (m) with the displacement `u` (m).
+pub(crate) fn of_displacement<T: Number>(
+    formula: &Formula,
+    (label, t): (&[f64], f64),
+    u: &[T; 3],
+) -> T {
+    let (d, place) = (label.len(), variables(label, t));
+    let mut all = [T::from(0.0); 7];
+    for (value, known) in all.iter_mut().zip(place) {
+        *value = T::from(known);
+    }
+    all[d + 1..2 * d + 1].copy_from_slice(&u[..d]);
+    formula.eval(&all[..formula.variables()])
 }
 
 /// The formulas as the suite writes them.

@@ -30,7 +30,7 @@ impl LoadWords for GravitySpec {
 struct GravityLoad(Vec<Formula>);
 
 impl Term for GravityLoad {
-    fn stated(&self, i: usize, _: &[f64], t: f64) -> f64 {
+    fn stated(&self, i: usize, _: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         self.0.get(i).map_or(0.0, |formula| formula.eval(&[t]))
     }
 

@@ -47,7 +47,7 @@ struct SetForceLoad {
 
 /// A force f on a part of volume V is a body force `f/(rho0 V)` inside and none outside.
 impl Term for SetForceLoad {
-    fn stated(&self, i: usize, label: &[f64], t: f64) -> f64 {
+    fn stated(&self, i: usize, label: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         if !self.set.region.holds(label) {
             return 0.0;
         }
