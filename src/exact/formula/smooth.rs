@@ -19,10 +19,12 @@ impl Formula {
             Operand::Register(register) => varying[*register],
         };
         self.code().iter().all(|step| match &step.action {
-            Action::Copy(_) | Action::Negate(_) | Action::Next(_) => true,
+            Action::Copy(_)
+            | Action::Negate(_)
+            | Action::Next(_)
+            | Action::Binary(Binary::Add | Binary::Subtract | Binary::Multiply, ..) => true,
             Action::Powi(a, exponent) => *exponent >= 0 || !varies(a),
             Action::Unary(function, a) => function.is_analytic() || !varies(a),
-            Action::Binary(Binary::Add | Binary::Subtract | Binary::Multiply, ..) => true,
             Action::Binary(Binary::Divide, _, b) => !varies(b),
             Action::Binary(_, a, b) => !varies(a) && !varies(b),
         })
