@@ -12,14 +12,18 @@
 //!   -> report             the text kept as a snapshot; JSON; figures
 //! ```
 //!
-//! The walls: [`mpm`] and [`fem`] are subjects and know nothing but [`subject`]; [`exact`] is the
-//! truth and knows no solver; [`verify`] is the judge and knows no particular subject; [`suite`]
-//! is the only one that knows all; [`report`] knows results only.
+//! The walls: [`mpm`] and [`fem`] are subjects and know nothing but [`subject`], and so does
+//! [`external`], which hands problems to solvers of others; [`exact`] is the truth and knows no
+//! solver; [`verify`] is the judge and knows no particular subject; [`suite`] says what is to be
+//! run and [`study`] runs it; [`report`] knows results only.
 //!
 //! # Judging a solver of your own
 //!
-//! Implement [`subject::Subject`], put it on a series of grids, and ask the judge. Here the subject
-//! is an oscillator `u_tt = -w^2 u` stepped by leapfrog, and time is what is refined:
+//! A program in any language takes part by the protocol of `docs/protocol.md`. A solver in Rust
+//! is put under every suite by a [`external::SolverFactory`], which gets each level ready to be
+//! stepped. Without suites: implement [`subject::Subject`], put it on a series of grids, and ask
+//! the judge. Here the subject is an oscillator `u_tt = -w^2 u` stepped by leapfrog, and time is
+//! what is refined:
 //!
 //! ```
 //! use mpm_verify::{
@@ -78,6 +82,7 @@
 pub mod study;
 pub mod subject;
 
+pub mod external;
 pub mod fem;
 pub mod mpm;
 

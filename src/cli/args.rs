@@ -1,6 +1,7 @@
 //! The words of the command line.
 
 use super::new::args::NewArgs;
+use super::problem_args::ProblemArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use mpm_verify::report::compare;
 use std::path::PathBuf;
@@ -39,6 +40,9 @@ pub(super) enum Command {
     /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
     /// 1 if one is off by more than 1 %
     Steps(StepsArgs),
+    /// Write the initial state of one level, ready to be stepped by any solver, or its exact state
+    /// at a time: particles, grid, faces, material, steps
+    Problem(ProblemArgs),
     /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(CostArgs),
@@ -158,6 +162,25 @@ pub(super) struct RunArgs {
     /// Run again whenever one of the files changes, until Ctrl-C
     #[arg(long)]
     pub(super) watch: bool,
+    #[command(flatten)]
+    pub(super) solver: SolverArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SolverArgs {
+    /// Put this program to the suites instead of their methods: a command with its arguments that
+    /// speaks the protocol of docs/protocol.md
+    #[arg(long, value_name = "COMMAND", conflicts_with = "resume")]
+    pub(super) solver: Option<String>,
+    /// Expect of each case of `--solver` the order that the solver claims
+    #[arg(long, requires = "solver")]
+    pub(super) gate: bool,
+    /// Longest time without an answer of the solver
+    #[arg(long, value_name = "TIME", value_parser = seconds, default_value = "60s")]
+    pub(super) solver_timeout: f64,
+    /// Most memory (address space) of each process of the solver, in MB [default: no limit]
+    #[arg(long, value_name = "MB", requires = "solver")]
+    pub(super) solver_memory: Option<u64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -9,10 +9,13 @@ mod explain;
 mod new;
 mod output;
 mod page;
+mod problem;
+mod problem_args;
 mod propose;
 mod run;
 mod select;
 mod show;
+mod solver;
 mod status;
 mod steps;
 mod watch;
@@ -34,6 +37,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Diagnose(args)) => diagnose::diagnose(&args),
         Some(Command::Propose(targets)) => propose::propose(&targets.targets),
         Some(Command::Steps(args)) => steps::steps(&args),
+        Some(Command::Problem(args)) => problem::problem(&args),
         Some(Command::Cost(args)) => cost::cost(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
     };

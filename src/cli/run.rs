@@ -2,8 +2,9 @@
 
 use super::args::{Format, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, page, select, watch};
+use super::{output, page, select, solver, watch};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::external::SolverProgram;
 use mpm_verify::report;
 use mpm_verify::study::{ResultCache, Runner};
 use mpm_verify::suite::yaml::Source;
@@ -43,8 +44,18 @@ fn all(args: &RunArgs) -> u8 {
     };
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
-    let (sources, suites): (Vec<Source>, Vec<Suite>) =
+    let (sources, mut suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
+    let solver = match solver::greeted(&args.solver) {
+        Ok(solver) => solver,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
+    if let Some(solver) = &solver {
+        suites = solver::judged(suites, solver, args.solver.gate);
+    }
     let twice = twice(&suites);
     for (option, given, clash) in [
         ("--out", args.out.is_some(), "would write the same files"),
@@ -57,8 +68,9 @@ fn all(args: &RunArgs) -> u8 {
         }
     }
     let bar = progress_bar(&suites, extent(args));
+    let judging = Judging { kept: kept.as_ref(), solver: solver.as_ref() };
     let outcomes: Vec<SuiteOutcome> =
-        suites.iter().map(|suite| one(suite, args, kept.as_ref(), &bar)).collect();
+        suites.iter().map(|suite| one(suite, args, judging, &bar)).collect();
     bar.finish_and_clear();
     match args.format {
         Format::Json => output::print(&report::json(&outcomes)),
@@ -81,6 +93,9 @@ fn all(args: &RunArgs) -> u8 {
     }
     if !refused.is_empty() || written.is_err() || unkept.is_some() {
         BAD_INPUT
+    } else if solver.is_some() && !solver::is_applicable(&outcomes) {
+        output::complain("error: no case is applicable to the solver");
+        FAILED
     } else if outcomes.iter().all(SuiteOutcome::passed) {
         PASSED
     } else {
@@ -112,19 +127,26 @@ fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
     bar
 }
 
-fn one(
-    suite: &Suite,
-    args: &RunArgs,
-    kept: Option<&ResultCache>,
-    bar: &ProgressBar,
-) -> SuiteOutcome {
+/// The cache and the solver of a run.
+#[derive(Clone, Copy)]
+struct Judging<'a> {
+    kept: Option<&'a ResultCache>,
+    solver: Option<&'a SolverProgram>,
+}
+
+fn one(suite: &Suite, args: &RunArgs, judging: Judging<'_>, bar: &ProgressBar) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
-    let runner = Runner::over(suite, extent(args)).keeping(kept);
+    let Judging { kept, solver } = judging;
+    let runner = Runner::over(suite, extent(args));
+    let runner = match solver {
+        Some(solver) => runner.judging(solver),
+        None => runner.keeping(kept),
+    };
     for warning in runner.warnings() {
         bar.suspend(|| output::complain(&format!("warning: {warning}")));
     }
     let outcome = runner.run(&|| bar.inc(1));
-    if suite.explores() {
+    if suite.explores() && solver.is_none() {
         let name = &suite.name;
         let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
         bar.suspend(|| output::complain(&format!("note: {name} {note}")));

@@ -20,6 +20,11 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
+    /// Whether it is the same at every time too.
+    fn is_constant(&self) -> bool {
+        false
+    }
+
     /// Whether the equation is checked as one for the force: a stated b is held against the b that
     /// the motion needs.
     fn is_body_force(&self) -> bool {

@@ -3,6 +3,7 @@
 use super::cache::results::ResultCache;
 use super::describe::profiles::Dispensable;
 use super::describe::statement::{Rows, head};
+use crate::external::SolverFactory;
 use crate::subject::Profile;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
@@ -68,6 +69,8 @@ pub(crate) struct RunContext<'a> {
     pub(crate) extent: Extent,
     /// Results and checkpoints of earlier runs.
     pub(crate) storage: Storage<'a>,
+    /// The solver of cases whose method is not of this crate.
+    pub(crate) solver: Option<&'a dyn SolverFactory>,
 }
 
 impl RunContext<'_> {

@@ -9,6 +9,7 @@
 //! cache            results and checkpoints kept on disk
 //! describe         the rows that state a problem in reports
 //! diagnosis        why an order is not that of theory, by runs that change one thing
+//! handover         a level as a problem that any solver can be handed
 //! preflight        warnings about a suite before anything runs
 //! ```
 
@@ -18,6 +19,7 @@ pub(crate) mod convergence;
 pub mod cost;
 pub mod describe;
 pub(crate) mod diagnosis;
+pub(crate) mod handover;
 pub(crate) mod internal_force;
 pub(crate) mod kind;
 pub(crate) mod preflight;
@@ -29,6 +31,7 @@ pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
 pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
+pub use handover::{exact_state, level_problem, needs};
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use preflight::{Estimate, estimate, preflight};
 pub use runner::Runner;

@@ -2,6 +2,7 @@
 
 use super::cache::results::ResultCache;
 use super::kind::{CaseRunner, CheckpointStores, Progress, RunContext, Storage, statement, study};
+use crate::external::SolverFactory;
 use crate::suite::model::Suite;
 use crate::suite::model::refine_plan::Extent;
 use crate::verify::{CaseOutcome, SuiteOutcome};
@@ -22,24 +23,35 @@ impl<'a> Runner<'a> {
 
     /// A runner of so many levels.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
-        Self::with(suite, extent, Storage::Nowhere)
+        Self::with(suite, extent, Storage::Nowhere, None)
+    }
+
+    /// The solver of the cases of [`Suite::of_external`]; of it nothing is stored.
+    #[must_use]
+    pub fn judging(self, solver: &'a dyn SolverFactory) -> Self {
+        Self::with(self.suite, self.extent, Storage::Nowhere, Some(solver))
     }
 
     /// Stores finished levels in a cache, and takes them from it.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
-        Self::with(self.suite, self.extent, cache.map_or(Storage::Nowhere, Storage::Cache))
+        Self::with(self.suite, self.extent, cache.map_or(Storage::Nowhere, Storage::Cache), None)
     }
 
     /// Keeps checkpoints of running levels in stores of the caller's, and no results.
     #[must_use]
     pub fn checkpointing(self, stores: CheckpointStores<'a>) -> Self {
-        Self::with(self.suite, self.extent, Storage::Stores(stores))
+        Self::with(self.suite, self.extent, Storage::Stores(stores), None)
     }
 
-    fn with(suite: &'a Suite, extent: Extent, storage: Storage<'a>) -> Self {
+    fn with(
+        suite: &'a Suite,
+        extent: Extent,
+        storage: Storage<'a>,
+        solver: Option<&'a dyn SolverFactory>,
+    ) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
-        let context = RunContext { suite: name, fingerprint, extent, storage };
+        let context = RunContext { suite: name, fingerprint, extent, storage, solver };
         Self { suite, extent, cases: study(suite).runner(context) }
     }
 

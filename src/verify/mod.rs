@@ -27,6 +27,7 @@ mod cost;
 mod energy_rate;
 pub(crate) mod error;
 mod expectation;
+mod internal_force;
 pub(crate) mod order;
 mod outcome;
 mod stability;
@@ -52,6 +53,7 @@ pub use error::run_result::RunResult;
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
+pub use internal_force::{ForceRow, InternalForce};
 pub use order::axis::Axis;
 pub use order::fit::Interval;
 pub use order::hypothesis::OrderHypothesis;
@@ -60,9 +62,7 @@ pub use order::pairwise::observed_order;
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
-pub use outcome::{
-    CaseOutcome, Convergence, ForceRow, InternalForce, LevelOutcome, StudyResults, SuiteOutcome,
-};
+pub use outcome::{CaseOutcome, Convergence, LevelOutcome, StudyResults, SuiteOutcome};
 pub use stability::{
     Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
     StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,

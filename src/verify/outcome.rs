@@ -55,6 +55,8 @@ pub struct CaseOutcome {
     pub reason: String,
     /// Expectations that are not met; empty if the case passed.
     pub unmet: Vec<String>,
+    /// Everything that the case needs and its solver lacks; empty if the case applies.
+    pub lacks: Vec<String>,
     /// Results of its kind of study; absent if the case could not be set up, for the reason in
     /// `reason`.
     pub study: Option<Arc<dyn StudyResults>>,
@@ -64,7 +66,6 @@ pub struct CaseOutcome {
 pub trait StudyResults: Any + Debug + Send + Sync {}
 
 impl StudyResults for Convergence {}
-impl StudyResults for InternalForce {}
 impl StudyResults for StabilityStudy {}
 
 /// Results of a convergence study.
@@ -131,28 +132,6 @@ pub struct LevelOutcome {
     pub stable_time_step: Option<f64>,
 }
 
-/// Results of an internal-force study.
-#[derive(Debug, Clone)]
-pub struct InternalForce {
-    /// Internal force on the node for every position of the moving particle.
-    pub rows: Vec<ForceRow>,
-}
-
-/// One position of the moving particle in an internal-force study.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ForceRow {
-    /// Position of the moving particle, in cells from the node.
-    pub position: f64,
-    /// Particles in the cell on the left.
-    pub left: u64,
-    /// Particles in the cell on the right.
-    pub right: u64,
-    /// Internal force on the node (N).
-    pub force: f64,
-    /// Force by the formula of the suite (N).
-    pub predicted: f64,
-}
-
 impl SuiteOutcome {
     /// Whether every case passed.
     pub fn passed(&self) -> bool {
@@ -172,8 +151,12 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
-    /// One word: `pass`, `FAIL`, or `explored` where nothing is expected.
+    /// One word: `pass`, `FAIL`, `explored` where nothing is expected, or `n/a` where the solver
+    /// lacks something.
     pub fn result(&self) -> &'static str {
+        if !self.lacks.is_empty() {
+            return "n/a";
+        }
         match (self.passed(), &self.expected) {
             (false, _) => "FAIL",
             (true, Some(_)) => "pass",

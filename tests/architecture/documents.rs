@@ -31,7 +31,7 @@ impl Repository {
         Self {
             files: files.iter().cloned().collect(),
             words: words_of(&["src/", "tests/", "benches/"]),
-            keys: words_of(&["src/report/", "src/verify/"]),
+            keys: words_of(&["src/report/", "src/verify/", "src/external/", "src/mpm/material/"]),
             manifest: manifest.to_owned(),
         }
     }

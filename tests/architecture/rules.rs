@@ -35,6 +35,11 @@ pub(crate) const WALLS: &[Wall] = &[
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
     Wall {
+        around: "external",
+        may: &["subject", "named"],
+        why: "a solver of another program is handed a problem, and must not see how it is judged",
+    },
+    Wall {
         around: "exact",
         may: &["subject", "named", "nearest", "dimension", "members"],
         why: "a truth that is made with a solver can only agree with it",

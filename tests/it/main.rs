@@ -10,6 +10,7 @@ mod conservation;
 mod determinism;
 mod documents;
 mod effects;
+mod external;
 mod figure;
 mod formula;
 mod judge;

@@ -95,14 +95,19 @@ macro_rules! materials {
                 }
             }
 
-            /// Value of the parameter with this key, if the material has it.
-            pub fn parameter(&self, wanted: &str) -> Option<f64> {
+            /// Every parameter under its key in suites.
+            pub fn keyed_parameters(&self) -> Vec<(&'static str, f64)> {
                 match *self {
                     $(Self::$member { $($field),* } => {
-                        let all: &[(&str, f64)] = &[$((key(stringify!($field)), $field)),*];
-                        all.iter().find(|(key, _)| *key == wanted).map(|(_, value)| *value)
+                        vec![$((key(stringify!($field)), $field)),*]
                     })+
                 }
+            }
+
+            /// Value of the parameter with this key, if the material has it.
+            pub fn parameter(&self, wanted: &str) -> Option<f64> {
+                let mut all = self.keyed_parameters().into_iter();
+                all.find(|(key, _)| *key == wanted).map(|(_, value)| value)
             }
 
             /// Every parameter with its value, in the order of registration.

@@ -21,6 +21,7 @@ pub(crate) fn subject(
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
+        (Method::External { .. }, _) => Err("no solver was named on the command line".to_owned()),
         (Method::Mpm { .. }, d) => with_dimension!(d, D => mpm::<D>(plan, method, level)),
         (Method::Heat { basis }, d) => with_dimension!(d, D => {
             Ok(Box::new(conductor::<D>(plan, basis, level)?))
@@ -57,7 +58,7 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         Some(Profile { passes: body.passes(), visits, ..body.profile() })
     }
     with_dimension!(plan.scene.dimension(), D => match method {
-        Method::Fem { .. } => None,
+        Method::Fem { .. } | Method::External { .. } => None,
         Method::Heat { basis } => of_heat::<D>(plan, basis, level),
         Method::Mpm { .. } => of_second_step::<D>(plan, method, level),
     })

@@ -1,5 +1,6 @@
 //! The convergence study: every level of every case, its error, and the verdict.
 
+pub(crate) mod described;
 pub(crate) mod error_scale;
 pub(crate) mod fine_grid_reference;
 pub(crate) mod formal_order;

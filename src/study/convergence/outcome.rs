@@ -1,8 +1,7 @@
 //! From levels that have run to the outcome of a case.
 
+use super::described::described;
 use super::formal_order::formal_order;
-use super::statement;
-use crate::study::describe::profiles;
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::grammar::NormName;
 use crate::suite::model::method::Method;
@@ -221,41 +220,6 @@ fn richardson(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardso
         Some((triple, Richardson::equal_ratio(values, 2.0)))
     };
     (0..levels.len()).filter_map(triple).collect()
-}
-
-/// The part of an outcome that is known before the case runs.
-fn described(
-    plan: &ConvergencePlan,
-    case: &Case,
-    expectation: Option<&Expectation>,
-) -> CaseOutcome {
-    CaseOutcome {
-        case: case.name.clone(),
-        subject: case.method.subject(),
-        settings: statement::settings(plan, case),
-        profile: profiles::of(plan, case),
-        expected: expectation.map(Expectation::summary),
-        because: expectation.map_or(String::new(), |expectation| expectation.because.clone()),
-        verdict: String::new(),
-        reason: String::new(),
-        unmet: Vec::new(),
-        study: None,
-    }
-}
-
-/// The outcome of a case that could not be set up.
-pub(crate) fn refused(
-    plan: &ConvergencePlan,
-    case: &Case,
-    expectation: Option<&Expectation>,
-    reason: String,
-) -> CaseOutcome {
-    CaseOutcome {
-        verdict: verify::Verdict::Failed.to_string(),
-        unmet: vec![format!("the case could not be run: {reason}")],
-        reason,
-        ..described(plan, case, expectation)
-    }
 }
 
 #[cfg(test)]

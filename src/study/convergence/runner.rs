@@ -1,8 +1,9 @@
 //! Running a convergence study: every level of every case, judged.
 
+use super::described::{not_applicable, refused};
 use super::error_scale::error_scale;
 use super::fine_grid_reference::FineGrid;
-use super::outcome::{error_of, judge_levels, judged, refused};
+use super::outcome::{error_of, judge_levels, judged};
 use super::reference::Reference;
 use super::small_step_reference::FineSteps;
 use super::stable_step::StableSteps;
@@ -12,8 +13,9 @@ use crate::study::build::dispatch::subject;
 use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
+use crate::study::handover::{level_problem, needs};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
-use crate::subject::Profile;
+use crate::subject::{Profile, Subject};
 use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
@@ -66,8 +68,22 @@ impl CaseRunner for ConvergenceRunner<'_> {
             (Extent::Full, Some(full)) => Some(full),
             _ => case.expectation.as_ref(),
         };
-        self.run(case, expectation, progress)
-            .unwrap_or_else(|reason| refused(plan, case, expectation, reason))
+        let Some(solver) = self.context.solver else {
+            return self
+                .run(case, expectation, progress)
+                .unwrap_or_else(|reason| refused(plan, case, expectation, reason));
+        };
+        let lacks = solver.lacks(&needs(plan));
+        let mut outcome = if lacks.is_empty() {
+            // What a solver says it cannot do is no fault of it.
+            self.run(case, expectation, progress).unwrap_or_else(|reason| {
+                not_applicable(plan, case, vec![reason], "cannot be put to it:")
+            })
+        } else {
+            not_applicable(plan, case, lacks, "lacks")
+        };
+        outcome.settings.splice(0..0, solver.settings());
+        outcome
     }
 }
 
@@ -131,7 +147,12 @@ impl<'a> ConvergenceRunner<'a> {
         let RunContext { suite, fingerprint, .. } = self.context;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
-        let run = |store: &mut dyn CheckpointStore| run_of(plan, case, truth, level, &clock, store);
+        let run = |store: &mut dyn CheckpointStore| match self.context.solver {
+            None => run_of(plan, truth, (&clock, store), || subject(plan, case.method, level)),
+            Some(solver) => run_of(plan, truth, (&clock, store), || {
+                solver.subject(level_problem(suite, plan, case, level)?)
+            }),
+        };
         Ok(level_of(plan, level, clock.dt(), self.context.cached(&key, &name, run)?))
     }
 
@@ -169,13 +190,10 @@ impl<'a> ConvergenceRunner<'a> {
 
 fn run_of(
     plan: &ConvergencePlan,
-    case: &Case,
     truth: &dyn Truth,
-    level: LevelPlan,
-    clock: &Clock,
-    keeper: &mut dyn CheckpointStore,
+    (clock, keeper): (&Clock, &mut dyn CheckpointStore),
+    make: impl FnMut() -> Result<Box<dyn Subject>, String>,
 ) -> Result<RunResult, String> {
-    let make = || subject(plan, case.method, level);
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
     let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
     let comparison = Comparison { of: plan.of, sum, observe, at_rest: rest };

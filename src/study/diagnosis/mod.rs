@@ -106,7 +106,7 @@ struct Context<'a> {
 impl Context<'_> {
     fn run(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let (suite, extent, storage) = (self.suite, Extent::Usual, Storage::Nowhere);
-        let context = RunContext { suite, fingerprint: 0, extent, storage };
+        let context = RunContext { suite, fingerprint: 0, extent, storage, solver: None };
         let outcome = plan.runner(context).case(0, &|| ());
         outcome.convergence().cloned().ok_or(outcome.reason)
     }

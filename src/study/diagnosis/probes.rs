@@ -64,7 +64,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
                     Method::Mpm { start, .. } | Method::Fem { start, .. } => {
                         *start = Start::HalfStepBack;
                     }
-                    Method::Heat { .. } => {}
+                    Method::Heat { .. } | Method::External { .. } => {}
                 })
             }
             _ => None,
@@ -219,7 +219,7 @@ fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<C
     let after = plan.cases[0].method;
     let combined = match after {
         Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame),
-        Method::Fem { .. } | Method::Heat { .. } => Ok(()),
+        Method::Fem { .. } | Method::Heat { .. } | Method::External { .. } => Ok(()),
     };
     (after != before && combined.is_ok()).then_some(plan)
 }

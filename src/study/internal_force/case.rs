@@ -64,6 +64,7 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
         verdict: verdict.to_owned(),
         reason,
         unmet,
+        lacks: Vec::new(),
         study: Some(Arc::new(InternalForce { rows })),
     }
 }

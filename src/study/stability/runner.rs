@@ -74,6 +74,7 @@ fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
         verdict: study.verdict(),
         reason: study.reason(),
         unmet,
+        lacks: Vec::new(),
         study: Some(Arc::new(study)),
     }
 }

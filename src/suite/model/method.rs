@@ -6,7 +6,7 @@ use crate::subject::Start;
 use crate::suite::grammar::EquationName;
 
 /// A subject, by the names of its parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     /// The reference MPM.
     Mpm {
@@ -41,14 +41,20 @@ pub enum Method {
         /// Where the error is taken.
         sampling: Sampling,
     },
+    /// A solver that is not of this crate.
+    External {
+        /// Order in h that theory gives its displacements, by its own account.
+        formal_order: f64,
+    },
 }
 
 impl Method {
-    /// `mpm` or `fem`.
+    /// `mpm`, `fem` or `external`.
     pub fn subject(&self) -> &'static str {
         match self {
             Self::Mpm { .. } | Self::Heat { .. } => "mpm",
             Self::Fem { .. } => "fem",
+            Self::External { .. } => "external",
         }
     }
 
@@ -61,6 +67,7 @@ impl Method {
             Self::Mpm { basis, .. } | Self::Heat { basis } => basis.formal_order().min(2.0),
             Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
             Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
+            Self::External { formal_order } => *formal_order,
         }
     }
 
@@ -103,6 +110,8 @@ impl Method {
                 ("start", start.name()),
                 ("error taken", sampling.name()),
             ]),
+            // Its maker has more to say.
+            Self::External { .. } => Vec::new(),
         }
     }
 }

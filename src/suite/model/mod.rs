@@ -1,6 +1,7 @@
 //! A suite whose every word has been checked and every number computed.
 
 pub(crate) mod boundary;
+pub(crate) mod external;
 pub(crate) mod fingerprint;
 pub(crate) mod grid_size;
 pub(crate) mod heat;

@@ -6,6 +6,7 @@ pub(crate) mod observed;
 pub(crate) mod proposal;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};
+use super::order::hypothesis::OrderHypothesis;
 use super::verdict::floor::FloorCause;
 use super::verdict::name::Verdict;
 
@@ -50,6 +51,20 @@ pub struct CaseFindings {
 }
 
 impl Expectation {
+    /// Convergence with the order `p`, to the usual tolerance.
+    pub fn of_order(p: f64, because: &str) -> Self {
+        let around = (p - OrderHypothesis::TOLERANCE, p + OrderHypothesis::TOLERANCE);
+        Self {
+            verdict: Some(Verdict::Converging),
+            order: Some(around),
+            finest_pair: None,
+            crossings: None,
+            limits: Limits::default(),
+            floor: None,
+            because: because.to_owned(),
+        }
+    }
+
     /// Everything that did not come as expected, in words, each failure once; empty if all came.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);

@@ -1,6 +1,6 @@
 //! A run that is killed in the middle of a level, and goes on there.
 
-use super::folder::Folder;
+use super::Folder;
 use super::{BAD_INPUT, BAR, SOUND};
 use std::fs;
 use std::path::PathBuf;

@@ -5,27 +5,27 @@ mod compare;
 mod cost;
 mod explain;
 mod explore;
-mod folder;
 mod hostile;
 mod json;
 mod new;
 mod page;
 mod plans;
+mod problem;
 mod run;
 mod steps;
 mod watch;
 
-use folder::Folder;
+pub(crate) use crate::common::folder::Folder;
 use rstest::rstest;
 
 /// Exit status of a run on which everything came as expected.
-const SOUND: i32 = 0;
+pub(crate) const SOUND: i32 = 0;
 
 /// Exit status if some expectation was not met.
-const FAILED: i32 = 1;
+pub(crate) const FAILED: i32 = 1;
 
 /// Exit status if something that was given cannot be used.
-const BAD_INPUT: i32 = 2;
+pub(crate) const BAD_INPUT: i32 = 2;
 
 /// A suite of two subjects that runs in milliseconds.
 const BAR: &str = r#"suite: short-bar

@@ -2,6 +2,7 @@
 
 pub(crate) mod columns;
 pub(crate) mod effect;
+pub(crate) mod folder;
 pub(crate) mod interrupted;
 
 use mpm_verify::mpm::{

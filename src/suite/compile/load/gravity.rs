@@ -37,6 +37,10 @@ impl Term for GravityLoad {
     fn is_uniform(&self) -> bool {
         true
     }
+
+    fn is_constant(&self) -> bool {
+        self.0.iter().all(|formula| formula.constant().is_some())
+    }
 }
 
 impl SceneLoad for GravityLoad {

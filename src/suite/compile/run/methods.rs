@@ -40,6 +40,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
             ("mpm", settings)
         }
         Method::Heat { basis } => ("heat", vec![basis.name().to_owned()]),
+        // No entry of `methods`: it is named after its solver.
+        Method::External { .. } => ("external", Vec::new()),
         Method::Fem { element, mass, law, start, sampling } => {
             let settings = [element.name(), mass.name(), law.name(), start.name(), sampling.name()];
             ("fem", settings.map(ToOwned::to_owned).to_vec())

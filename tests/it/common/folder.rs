@@ -6,17 +6,17 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A new, empty folder that goes when the test ends.
-pub(super) struct Folder(PathBuf);
+pub(crate) struct Folder(PathBuf);
 
 /// Printed text of a call, and its exit status.
-pub(super) struct Answer {
-    pub(super) code: i32,
-    pub(super) out: String,
-    pub(super) errors: String,
+pub(crate) struct Answer {
+    pub(crate) code: i32,
+    pub(crate) out: String,
+    pub(crate) errors: String,
 }
 
 impl Folder {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let name = format!("mpm-verify-cli-{}-{number}", std::process::id());
@@ -26,19 +26,19 @@ impl Folder {
     }
 
     /// Writes a file, and the folders that it needs.
-    pub(super) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         let folder = path.parent().expect("a folder");
         fs::create_dir_all(folder).and_then(|()| fs::write(&path, bytes)).expect("a file");
         path
     }
 
-    pub(super) fn read(&self, name: &str) -> String {
+    pub(crate) fn read(&self, name: &str) -> String {
         fs::read_to_string(self.0.join(name)).expect(name)
     }
 
     /// Names of the files in a folder, sorted.
-    pub(super) fn files(&self, folder: &str) -> Vec<String> {
+    pub(crate) fn files(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.0.join(folder)).expect(folder);
         let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("a name");
         let mut names: Vec<String> = entries.map(|entry| name(entry.expect("an entry"))).collect();
@@ -47,14 +47,14 @@ impl Folder {
     }
 
     /// The program with these arguments, about to be run in this folder.
-    pub(super) fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mpm-verify"));
         command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
         command
     }
 
     /// Runs the program to its end.
-    pub(super) fn call(&self, arguments: &[&str]) -> Answer {
+    pub(crate) fn call(&self, arguments: &[&str]) -> Answer {
         let output = self.command(arguments).output().expect("the program starts");
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
         Answer {
@@ -64,7 +64,7 @@ impl Folder {
         }
     }
 
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.0
     }
 }

@@ -1,0 +1,52 @@
+//! `mpm-verify problem`: a level of a suite as a file.
+
+use super::problem_args::ProblemArgs;
+use super::status::{BAD_INPUT, PASSED};
+use super::{output, select};
+use mpm_verify::external::ProblemFormat;
+use mpm_verify::study::{exact_state, level_problem};
+use mpm_verify::suite::{ConvergencePlan, Suite};
+use std::io::{IsTerminal, stdout};
+
+/// Writes the initial state of a level, or its exact state at a time, to standard output.
+pub(super) fn problem(args: &ProblemArgs) -> u8 {
+    let format = args.out.0;
+    if format == ProblemFormat::Npz && stdout().is_terminal() {
+        output::complain("error: npz is not for a terminal: send it to a file, `> problem.npz`");
+        return BAD_INPUT;
+    }
+    let suites = select::suites(std::slice::from_ref(&args.suite));
+    let written = suites.into_iter().map(|suite| {
+        let suite = suite.map_err(|diagnostic| diagnostic.to_string())?;
+        of_suite(&suite, args, format).map_err(|why| format!("error: {}: {why}", suite.name))
+    });
+    match written.collect::<Result<Vec<Vec<u8>>, String>>() {
+        Ok(files) if files.len() == 1 => {
+            output::print_bytes(&files[0]);
+            PASSED
+        }
+        Ok(_) => {
+            output::complain("error: expected one suite, and not a folder of them");
+            BAD_INPUT
+        }
+        Err(message) => {
+            output::complain(&message);
+            BAD_INPUT
+        }
+    }
+}
+
+fn of_suite(suite: &Suite, args: &ProblemArgs, format: ProblemFormat) -> Result<Vec<u8>, String> {
+    let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
+    let levels = &plan.refine.levels;
+    let number = args.level.unwrap_or(plan.refine.usual);
+    let level = number
+        .checked_sub(1)
+        .and_then(|index| levels.get(index))
+        .ok_or_else(|| format!("there is no level {number}: expected 1 to {}", levels.len()))?;
+    let mut problem = level_problem(&suite.name, plan, &plan.cases[0], *level)?;
+    if let Some(t) = args.at {
+        problem.particles = exact_state(plan, &problem.particles, t)?;
+    }
+    problem.written(format)
+}

@@ -1,0 +1,37 @@
+//! Words of `mpm-verify problem`.
+
+use clap::Args;
+use mpm_verify::external::ProblemFormat;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+#[derive(Debug, Args)]
+pub(super) struct ProblemArgs {
+    /// Suite: a file, or a name
+    #[arg(value_name = "FILE|NAME")]
+    pub(super) suite: PathBuf,
+    /// Level, the coarsest being 1 [default: the finest that the gate runs]
+    #[arg(long, value_name = "N")]
+    pub(super) level: Option<usize>,
+    /// The exact state at this time (s), and not the initial one
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub(super) at: Option<f64>,
+    /// Format, which goes to standard output: csv, json, npz, vtu
+    #[arg(long, value_name = "FORMAT", default_value = "csv")]
+    pub(super) out: ProblemFormatName,
+}
+
+/// A format by its name.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ProblemFormatName(pub(super) ProblemFormat);
+
+impl FromStr for ProblemFormatName {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let known = ProblemFormat::ALL;
+        let found = known.iter().find(|format| format.name() == name);
+        let names = || known.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
+        found.map(|format| Self(*format)).ok_or_else(|| format!("expected one of {}", names()))
+    }
+}

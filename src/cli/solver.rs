@@ -1,0 +1,42 @@
+//! Suites under a solver of another program.
+
+use super::args::SolverArgs;
+use super::output;
+use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
+use mpm_verify::suite::Suite;
+use mpm_verify::verify::SuiteOutcome;
+use std::time::Duration;
+
+/// The solver that the command line names, if it does.
+///
+/// # Errors
+/// One line that says what is wrong with it.
+pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String> {
+    let Some(command) = &args.solver else { return Ok(None) };
+    let silence = Duration::try_from_secs_f64(args.solver_timeout)
+        .map_err(|error| format!("error: --solver-timeout: {error}"))?;
+    let memory = args.solver_memory.map(|mb| mb.saturating_mul(1_000_000));
+    let limits = ProgramLimits { silence, memory };
+    let solver = SolverProgram::greet(command, limits);
+    solver.map(Some).map_err(|reason| format!("error: --solver {command}: the solver {reason}"))
+}
+
+/// The suites with the solver in place of their methods. Those that refine nothing are left out.
+pub(super) fn judged(suites: Vec<Suite>, solver: &SolverProgram, gate: bool) -> Vec<Suite> {
+    let mut judged = Vec::new();
+    for suite in suites {
+        match suite.of_external(solver.name(), solver.formal_order(), gate) {
+            Some(suite) => judged.push(suite),
+            None => output::complain(&format!(
+                "note: {}: left out, since it is no convergence study",
+                suite.name
+            )),
+        }
+    }
+    judged
+}
+
+/// Whether there is a case that the solver could be put to.
+pub(super) fn is_applicable(outcomes: &[SuiteOutcome]) -> bool {
+    outcomes.iter().flat_map(|outcome| &outcome.cases).any(|case| case.lacks.is_empty())
+}

@@ -1,0 +1,34 @@
+//! Makers of solvers.
+
+use super::capabilities::ProblemNeeds;
+use super::problem::LevelProblem;
+use crate::subject::Subject;
+
+/// A solver that can be put on every level of a suite.
+pub trait SolverFactory: Sync {
+    /// Its name, which becomes that of its case.
+    fn name(&self) -> &str;
+
+    /// Order in h that theory gives its displacements on a smooth solution.
+    fn formal_order(&self) -> f64 {
+        2.0
+    }
+
+    /// Settings for reports, as rows of name and value.
+    fn settings(&self) -> Vec<(String, String)> {
+        Vec::new()
+    }
+
+    /// Everything that a problem needs and the solver lacks; empty if it can be tried.
+    fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// The solver in the initial state of `problem`. Its labels are the reference positions of the
+    /// particles, or places of its own.
+    ///
+    /// # Errors
+    /// One line that says why the problem is not for this solver; the case is then not applicable.
+    /// A solver that is broken gives a subject whose first step fails.
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String>;
+}

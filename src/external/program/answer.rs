@@ -1,0 +1,167 @@
+//! Answers of a solver.
+
+use super::frame::MessageFrame;
+use super::printable::printable;
+use crate::external::capabilities::Capabilities;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// An answer of a solver.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub(super) enum Answer {
+    Hello(Hello),
+    Ready {
+        #[serde(default)]
+        points: Option<Points>,
+    },
+    Cannot {
+        reason: String,
+    },
+    State(Box<State>),
+    Failed {
+        reason: String,
+    },
+    /// Not an answer: a question for the body force.
+    BodyForce {
+        t: f64,
+        #[serde(default)]
+        reference_position: Option<ColumnText>,
+    },
+}
+
+/// Who a solver is, and what it can do.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct Hello {
+    pub(super) protocol: u64,
+    pub(super) name: String,
+    #[serde(default)]
+    pub(super) version: String,
+    #[serde(default = "two")]
+    pub(super) formal_order: f64,
+    #[serde(default)]
+    pub(super) capabilities: Capabilities,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+/// Places of a solver that has no particles, or others.
+#[derive(Debug, Deserialize)]
+pub(super) struct Points {
+    pub(super) reference_position: ColumnText,
+    pub(super) weight: ColumnText,
+}
+
+/// A state after a step.
+#[derive(Debug, Deserialize)]
+pub(super) struct State {
+    pub(super) columns: BTreeMap<String, ColumnText>,
+    #[serde(default)]
+    pub(super) crossings: Option<u64>,
+    #[serde(default)]
+    pub(super) left_domain: Option<u64>,
+    #[serde(default)]
+    pub(super) min_j: Option<f64>,
+}
+
+/// A column, as numbers or as a part of the bytes that follow: its offset, and how many doubles.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum ColumnText {
+    Numbers(Vec<f64>),
+    Bytes { f64: (usize, usize) },
+}
+
+/// Size of the block of bytes that a message announces.
+#[derive(Deserialize)]
+struct Announced {
+    #[serde(default)]
+    bytes: usize,
+}
+
+impl Answer {
+    /// Reads the answer in a frame.
+    pub(super) fn read(frame: &MessageFrame) -> Result<Self, String> {
+        serde_json::from_slice(&frame.line).map_err(|error| {
+            let text = String::from_utf8_lossy(&frame.line);
+            // What Python and others write for what JSON has no word for.
+            for word in ["NaN", "Infinity"] {
+                if text.contains(word) {
+                    return format!("answered with {word}, which is no number");
+                }
+            }
+            format!("answered with what is no message ({error}): `{}`", excerpt(&text))
+        })
+    }
+
+    /// Its type, as messages spell it.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::Hello(_) => "hello",
+            Self::Ready { .. } => "ready",
+            Self::Cannot { .. } => "cannot",
+            Self::State(_) => "state",
+            Self::Failed { .. } => "failed",
+            Self::BodyForce { .. } => "body_force",
+        }
+    }
+}
+
+/// How many bytes follow a line; none of a line that is no message, which [`Answer::read`] refuses.
+pub(super) fn announced(line: &[u8]) -> usize {
+    // Most lines announce none: they need not be read twice.
+    if !line.windows(7).any(|word| word == b"\"bytes\"") {
+        return 0;
+    }
+    serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
+}
+
+/// The beginning of a stranger's text.
+fn excerpt(text: &str) -> String {
+    let start = printable(&text.chars().take(60).collect::<String>());
+    if text.chars().nth(60).is_some() { format!("{start}...") } else { start }
+}
+
+impl ColumnText {
+    /// How many numbers the column says that it has.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Bytes { f64: (_, length) } => *length,
+        }
+    }
+
+    /// The numbers of the column `name`, of which there must be `count`, all finite.
+    pub(super) fn numbers(
+        self,
+        name: &str,
+        count: usize,
+        bytes: &[u8],
+    ) -> Result<Vec<f64>, String> {
+        let numbers = match self {
+            Self::Numbers(numbers) => numbers,
+            Self::Bytes { f64: (offset, length) } => {
+                let end = length.checked_mul(8).and_then(|length| offset.checked_add(length));
+                let part = end.and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
+                    format!(
+                        "gave the column `{name}` as {length} doubles from byte {offset} on, of \
+                         {} bytes",
+                        bytes.len()
+                    )
+                })?;
+                let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
+                part.chunks_exact(8).map(number).collect()
+            }
+        };
+        if numbers.len() != count {
+            let found = numbers.len();
+            return Err(format!("gave the column `{name}` {found} numbers, expected {count}"));
+        }
+        match numbers.iter().position(|number| !number.is_finite()) {
+            Some(at) => Err(format!("gave the column `{name}` {} as number {at}", numbers[at])),
+            None => Ok(numbers),
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! A solver's process, within limits of time and memory.
+//!
+//! Two threads read what it writes, and one writes what it should read: a process that does none
+//! of this blocks nobody. Each ends when its pipe does, which a kill brings about.
+
+use super::answer::Answer;
+use super::frame::{MessageFrame, Outgoing};
+use super::limits::ProgramLimits;
+use super::printable::printable;
+use super::reader::read_all;
+use std::io::{Read, Write};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// Longest answer before a problem is known (bytes).
+const SHORT: usize = 1 << 20;
+
+/// Bytes of standard error that are kept.
+const LAST_WORDS: usize = 2000;
+
+/// Time that a process has to end by itself.
+const GRACE: Duration = Duration::from_secs(1);
+
+/// Time between two looks at a process that says nothing.
+const GLANCE: Duration = Duration::from_millis(50);
+
+/// A process with its pipes. It is killed when this is dropped, with all that it has started in
+/// its group.
+pub(super) struct Connection {
+    child: Child,
+    requests: Option<Sender<Vec<u8>>>,
+    answers: Receiver<Result<MessageFrame, String>>,
+    longest: Arc<AtomicUsize>,
+    last_words: Arc<Mutex<Vec<u8>>>,
+    listener: JoinHandle<()>,
+    silence: Duration,
+}
+
+impl Connection {
+    /// Starts `command`.
+    ///
+    /// # Errors
+    /// One line that says why it does not start.
+    pub(super) fn start(command: &[String], limits: ProgramLimits) -> Result<Self, String> {
+        let mut process = limited(command, limits.memory)?;
+        process.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut process, 0);
+        let name = &command[0];
+        let mut child =
+            process.spawn().map_err(|error| format!("`{}`: {error}", printable(name)))?;
+        let missing = || "has no pipe".to_owned();
+        let mut input = child.stdin.take().ok_or_else(missing)?;
+        let output = child.stdout.take().ok_or_else(missing)?;
+        let mut errors = child.stderr.take().ok_or_else(missing)?;
+        let (requests, to_write) = channel::<Vec<u8>>();
+        thread::spawn(move || {
+            // A process that reads no more has its answer judged, not its ears.
+            while let Ok(message) = to_write.recv() {
+                if input.write_all(&message).and_then(|()| input.flush()).is_err() {
+                    break;
+                }
+            }
+        });
+        let longest = Arc::new(AtomicUsize::new(SHORT));
+        // A process that talks on and on waits in its own pipe.
+        let (found, answers) = sync_channel(1);
+        let most = Arc::clone(&longest);
+        thread::spawn(move || read_all(output, &most, &found));
+        let last_words = Arc::new(Mutex::new(Vec::new()));
+        let kept = Arc::clone(&last_words);
+        let listener = thread::spawn(move || {
+            let mut part = [0; 1024];
+            while let Ok(read @ 1..) = errors.read(&mut part) {
+                let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+                kept.extend_from_slice(&part[..read]);
+                let surplus = kept.len().saturating_sub(LAST_WORDS);
+                kept.drain(..surplus);
+            }
+        });
+        let silence = limits.silence;
+        let requests = Some(requests);
+        Ok(Self { child, requests, answers, longest, last_words, listener, silence })
+    }
+
+    /// Lets answers have so many bytes from now on.
+    pub(super) fn expect_up_to(&mut self, bytes: usize) {
+        self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
+    }
+
+    /// Sends a message. A process that takes none is found by its silence.
+    pub(super) fn send(&mut self, message: Outgoing) {
+        if let Some(requests) = &self.requests {
+            let _ = requests.send(message.into_bytes());
+        }
+    }
+
+    /// Waits for the next answer, with the block of bytes that came with it.
+    ///
+    /// # Errors
+    /// One line that says what came instead; the process is killed then.
+    pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), String> {
+        let found = match self.heard() {
+            Ok(Ok(frame)) => Answer::read(&frame).map(|answer| (answer, frame.bytes)),
+            Ok(Err(reason)) => Err(reason),
+            Err(RecvTimeoutError::Timeout) => {
+                Err(format!("has been silent for {} s", self.silence.as_secs_f64()))
+            }
+            Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
+        };
+        found.map_err(|reason| {
+            self.kill();
+            self.with_last_words(reason)
+        })
+    }
+
+    /// The next message, if one comes in time. A process may end and leave its pipe to another one
+    /// that it has started, and then nothing else tells its end.
+    fn heard(&mut self) -> Result<Result<MessageFrame, String>, RecvTimeoutError> {
+        let start = Instant::now();
+        loop {
+            let left = self.silence.saturating_sub(start.elapsed());
+            match self.answers.recv_timeout(left.min(GLANCE)) {
+                Err(RecvTimeoutError::Timeout) if left > GLANCE => {}
+                found => return found,
+            }
+            if matches!(self.child.try_wait(), Ok(Some(_))) {
+                let last = self.answers.recv_timeout(GLANCE);
+                return last.map_err(|_| RecvTimeoutError::Disconnected);
+            }
+        }
+    }
+
+    /// How a process has ended that says nothing any more.
+    fn ended(&mut self) -> String {
+        match self.status() {
+            Some(status) => format!("ended without an answer ({})", shown(status)),
+            None => "closed its output and went on".to_owned(),
+        }
+    }
+
+    fn with_last_words(&self, reason: String) -> String {
+        // The process is dead, but what it said may still be on its way.
+        patiently(GRACE, || self.listener.is_finished().then_some(()));
+        let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = String::from_utf8_lossy(&kept);
+        match text.lines().rev().map(str::trim).find(|line| !line.is_empty()) {
+            Some(last) => format!("{reason}; its last words: {}", printable(last)),
+            None => reason,
+        }
+    }
+
+    /// The status with which the process ends, if it does so soon.
+    fn status(&mut self) -> Option<ExitStatus> {
+        patiently(GRACE, || self.child.try_wait().ok().flatten())
+    }
+
+    /// Says `bye`, and lets the process end.
+    pub(super) fn end(mut self) {
+        self.send(Outgoing::new("bye", serde_json::Value::Null, false));
+        self.requests = None;
+        self.status();
+    }
+
+    fn kill(&mut self) {
+        #[cfg(unix)]
+        let _ = rustix::process::kill_process_group(
+            rustix::process::Pid::from_child(&self.child),
+            rustix::process::Signal::KILL,
+        );
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Drop for Connection {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+/// The finding of `look`, if there is one within a time.
+fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T> {
+    let start = Instant::now();
+    loop {
+        let found = look();
+        if found.is_some() || start.elapsed() >= most {
+            return found;
+        }
+        thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// The command, with a limit of its address space (bytes) that it hands on to all that it starts.
+fn limited(command: &[String], memory: Option<u64>) -> Result<Command, String> {
+    let Some(memory) = memory else {
+        let mut process = Command::new(&command[0]);
+        process.args(&command[1..]);
+        return Ok(process);
+    };
+    if cfg!(not(unix)) {
+        return Err("no limit of memory can be set on this system".to_owned());
+    }
+    let mut process = Command::new("sh");
+    process.args(["-c", "ulimit -v \"$0\" && exec \"$@\"", &(memory / 1024).to_string()]);
+    process.args(command);
+    Ok(process)
+}
+
+fn shown(status: ExitStatus) -> String {
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return format!("killed by signal {signal}");
+    }
+    status.code().map_or("no status".to_owned(), |code| format!("exit status {code}"))
+}

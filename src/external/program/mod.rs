@@ -1,0 +1,22 @@
+//! A command that speaks the protocol of docs/protocol.md.
+//!
+//! ```text
+//! solver       greets the command, and starts it for each level
+//! connection   the process: requests in, answers out, within limits of time and memory
+//! reader       answers, as they come
+//! frame        one message: a line of JSON, and a block of bytes
+//! answer       what a solver may say
+//! subject      a level on its way
+//! ```
+
+mod answer;
+mod connection;
+mod frame;
+mod limits;
+mod printable;
+mod reader;
+mod solver;
+mod subject;
+
+pub use limits::ProgramLimits;
+pub use solver::SolverProgram;

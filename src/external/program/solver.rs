@@ -1,0 +1,150 @@
+//! A solver behind a command, as a maker of subjects.
+
+use super::answer::{Answer, Hello};
+use super::connection::Connection;
+use super::frame::Outgoing;
+use super::limits::ProgramLimits;
+use super::printable::printable;
+use super::subject::{ProgramSubject, longest_answer};
+use crate::external::capabilities::ProblemNeeds;
+use crate::external::factory::SolverFactory;
+use crate::external::problem::LevelProblem;
+use crate::subject::{Failure, RunCounters, Samples, Subject};
+use serde_json::json;
+
+/// Version of the protocol.
+const PROTOCOL: u64 = 1;
+
+/// Longest name of a solver, in bytes.
+const LONGEST_NAME: usize = 64;
+
+/// A solver behind a command.
+#[derive(Debug, Clone)]
+pub struct SolverProgram {
+    command: Vec<String>,
+    limits: ProgramLimits,
+    hello: Hello,
+}
+
+impl SolverProgram {
+    /// Starts `command` (words as a shell splits them) and asks who it is.
+    ///
+    /// # Errors
+    /// One line that says what is wrong with the command or its answer.
+    pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, String> {
+        let command = shlex::split(command).filter(|words| !words.is_empty());
+        let command = command.ok_or("expected a command with its arguments")?;
+        let (connection, hello) = connected(&command, limits)?;
+        connection.end();
+        Ok(Self { command, limits, hello })
+    }
+
+    fn start(&self, problem: &LevelProblem) -> Result<Result<ProgramSubject, String>, String> {
+        let (mut connection, hello) = connected(&self.command, self.limits)?;
+        if hello != self.hello {
+            return Err("said another hello than the first time".to_owned());
+        }
+        connection.expect_up_to(longest_answer(problem));
+        let mut message = Outgoing::new("problem", json!(problem), hello.capabilities.binary);
+        let forced = match (&problem.constant_body_force, &problem.body_force) {
+            (Some(_), _) => "constant",
+            (None, Some(_)) => "asked",
+            (None, None) => "none",
+        };
+        message.set("body_force", json!(forced));
+        for (name, column) in problem.particles.columns() {
+            message.column("particles", name, column);
+        }
+        connection.send(message);
+        Ok(match connection.answer()? {
+            (Answer::Ready { points }, bytes) => {
+                Ok(ProgramSubject::new(connection, problem, points, &bytes, &hello)?)
+            }
+            (Answer::Cannot { reason }, _) => Err(printable(&reason)),
+            (Answer::Failed { reason }, _) => return Err(format!("says: {}", printable(&reason))),
+            (other, _) => return Err(format!("answered `problem` with `{}`", other.name())),
+        })
+    }
+}
+
+fn connected(command: &[String], limits: ProgramLimits) -> Result<(Connection, Hello), String> {
+    let mut connection = Connection::start(command, limits)?;
+    let harness = concat!("mpm-verify ", env!("CARGO_PKG_VERSION"));
+    let message = json!({"protocol": PROTOCOL, "harness": harness});
+    connection.send(Outgoing::new("hello", message, false));
+    let (answer, _) = connection.answer()?;
+    let Answer::Hello(hello) = answer else {
+        return Err(format!("answered `hello` with `{}`", answer.name()));
+    };
+    if hello.protocol != PROTOCOL {
+        let theirs = hello.protocol;
+        return Err(format!("speaks version {theirs} of the protocol; this is version {PROTOCOL}"));
+    }
+    let sound = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    let name = &hello.name;
+    if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(sound) {
+        return Err(format!(
+            "is called `{}`: expected up to {LONGEST_NAME} letters, digits, `-`, `_` or `.`",
+            printable(name)
+        ));
+    }
+    if !(hello.formal_order > 0.0 && hello.formal_order <= 20.0) {
+        return Err(format!("has the formal order {}: expected one up to 20", hello.formal_order));
+    }
+    Ok((connection, hello))
+}
+
+impl SolverFactory for SolverProgram {
+    fn name(&self) -> &str {
+        &self.hello.name
+    }
+
+    fn formal_order(&self) -> f64 {
+        self.hello.formal_order
+    }
+
+    fn settings(&self) -> Vec<(String, String)> {
+        let version = printable(&self.hello.version);
+        let version = if version.is_empty() { "not said".to_owned() } else { version };
+        vec![
+            ("solver".to_owned(), self.hello.name.clone()),
+            ("version".to_owned(), version),
+            ("formal order".to_owned(), format!("{}, by its own account", self.hello.formal_order)),
+        ]
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        self.hello.capabilities.lacking(needs)
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+        match self.start(&problem) {
+            Ok(Ok(subject)) => Ok(Box::new(subject)),
+            Ok(Err(cannot)) => Err(cannot),
+            Err(broken) => Ok(Box::new(Broken(broken))),
+        }
+    }
+}
+
+/// A solver that failed before its first step.
+struct Broken(String);
+
+impl Subject for Broken {
+    fn step(&mut self, _: f64) -> Result<(), Failure> {
+        Err(Failure::External(self.0.clone()))
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters {
+            particles: None,
+            transfers: 0,
+            crossings: None,
+            left_domain: None,
+            min_j: f64::NAN,
+        }
+    }
+}

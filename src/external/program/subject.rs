@@ -1,0 +1,239 @@
+//! A level on its way in another process.
+
+use super::answer::{Answer, ColumnText, Hello, Points, State};
+use super::connection::Connection;
+use super::frame::Outgoing;
+use super::printable::printable;
+use crate::external::problem::{BodyForceField, LevelProblem};
+use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
+use serde_json::json;
+
+/// Most questions for the body force between two instants, for each step.
+const QUESTIONS_PER_STEP: u64 = 1000;
+
+/// Longest answer (bytes) that a solver of `problem` can have to give: every column of three times
+/// as many points as particles, in decimals.
+pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
+    let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
+    32 * points * (3 * d + 2 * d * d + 2)
+}
+
+/// A subject behind a connection. Steps are asked for in one message up to each instant, since the
+/// state between instants is nobody's concern.
+pub(super) struct ProgramSubject {
+    connection: Connection,
+    dimension: usize,
+    dt: f64,
+    /// Steps after which the state is wanted, from the next one on.
+    instants: std::vec::IntoIter<u64>,
+    next: Option<u64>,
+    /// Steps that were called for, and those that were asked of the process.
+    called: u64,
+    taken: u64,
+    body_force: Option<BodyForceField>,
+    /// Bodies of the particles, where these are the points.
+    bodies: Option<Vec<usize>>,
+    /// Masses of the particles (kg), where these are the points.
+    mass: Vec<f64>,
+    binary: bool,
+    samples: Samples,
+    counters: RunCounters,
+}
+
+impl ProgramSubject {
+    /// The subject in the initial state of `problem`; its places are `points`, if there are any.
+    ///
+    /// # Errors
+    /// One line that says what is wrong with the points.
+    pub(super) fn new(
+        connection: Connection,
+        problem: &LevelProblem,
+        points: Option<Points>,
+        bytes: &[u8],
+        hello: &Hello,
+    ) -> Result<Self, String> {
+        let (d, particles) = (problem.dimension, &problem.particles);
+        let mut samples = Samples { dimension: d, ..Samples::default() };
+        let (mut bodies, mut mass) = (None, Vec::new());
+        if let Some(points) = points {
+            let count = points.weight.count();
+            samples.weight = points.weight.numbers("weight", count, bytes)?;
+            let places = points.reference_position;
+            samples.label = places.numbers("reference_position", count * d, bytes)?;
+            samples.displacement = vec![0.0; count * d];
+            samples.velocity = vec![0.0; count * d];
+            if count == 0 {
+                return Err("has no points".to_owned());
+            }
+        } else {
+            let displaced = particles.position.iter().zip(&particles.reference_position);
+            samples.displacement = displaced.map(|(x, label)| x - label).collect();
+            samples.label.clone_from(&particles.reference_position);
+            samples.velocity.clone_from(&particles.velocity);
+            samples.weight.clone_from(&particles.reference_volume);
+            mass.clone_from(&particles.mass);
+            bodies = Some(particles.body.iter().map(|body| *body as usize).collect());
+        }
+        let counters = RunCounters {
+            particles: bodies.is_some().then_some(particles.len() as u64),
+            transfers: 0,
+            crossings: None,
+            left_domain: None,
+            min_j: f64::NAN,
+        };
+        let mut instants = problem.instants.clone().into_iter();
+        Ok(Self {
+            connection,
+            dimension: d,
+            dt: problem.dt,
+            next: instants.next(),
+            instants,
+            called: 0,
+            taken: 0,
+            body_force: problem.body_force.clone(),
+            bodies,
+            mass,
+            binary: hello.capabilities.binary,
+            samples,
+            counters,
+        })
+    }
+
+    /// Takes all steps that were called for, in the process.
+    fn advance(&mut self) -> Result<(), String> {
+        let steps = self.called - self.taken;
+        let from = self.taken as f64 * self.dt;
+        let content = json!({"steps": steps, "dt": self.dt, "from": from});
+        self.connection.send(Outgoing::new("advance", content, false));
+        let mut questions = 0;
+        loop {
+            match self.connection.answer()? {
+                (Answer::State(state), bytes) => {
+                    self.taken = self.called;
+                    return self.look(*state, &bytes);
+                }
+                (Answer::Failed { reason }, _) => {
+                    return Err(format!("says: {}", printable(&reason)));
+                }
+                (Answer::BodyForce { t, reference_position }, bytes) => {
+                    questions += 1;
+                    if questions > steps.saturating_mul(QUESTIONS_PER_STEP) {
+                        return Err(format!("asked for the body force {questions} times"));
+                    }
+                    self.tell_body_force(t, reference_position, &bytes)?;
+                }
+                (other, _) => return Err(format!("answered `advance` with `{}`", other.name())),
+            }
+        }
+    }
+
+    fn tell_body_force(
+        &mut self,
+        t: f64,
+        places: Option<ColumnText>,
+        bytes: &[u8],
+    ) -> Result<(), String> {
+        let d = self.dimension;
+        if !t.is_finite() {
+            return Err(format!("asked for the body force at t = {t}"));
+        }
+        let own = places.map(|places| {
+            let count = places.count();
+            let whole = if count % d == 0 { count } else { d * (count / d + 1) };
+            places.numbers("reference_position", whole, bytes)
+        });
+        let own = own.transpose()?;
+        let labels = own.as_ref().unwrap_or(&self.samples.label);
+        let body = |point: usize| match (&own, &self.bodies) {
+            (None, Some(bodies)) => bodies[point],
+            _ => 0,
+        };
+        let values: Vec<f64> = match &self.body_force {
+            None => vec![0.0; labels.len()],
+            Some(BodyForceField(force)) => labels
+                .chunks_exact(d)
+                .enumerate()
+                .flat_map(|(point, label)| force(body(point), label, t).into_iter().take(d))
+                .collect(),
+        };
+        let mut message = Outgoing::new("body_force", json!({}), self.binary);
+        message.set_numbers("values", &values);
+        self.connection.send(message);
+        Ok(())
+    }
+
+    /// Takes over a state.
+    fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), String> {
+        let (d, n) = (self.dimension, self.samples.len());
+        let State { mut columns, crossings, left_domain, min_j } = state;
+        let mut column = |name: &str, count: usize| -> Result<Option<Vec<f64>>, String> {
+            columns.remove(name).map(|column| column.numbers(name, count, bytes)).transpose()
+        };
+        let missing = |name: &str| format!("gave no column `{name}`");
+        let samples = &mut self.samples;
+        samples.displacement =
+            column("displacement", n * d)?.ok_or_else(|| missing("displacement"))?;
+        samples.velocity = column("velocity", n * d)?.ok_or_else(|| missing("velocity"))?;
+        samples.stress = column("stress", n * d * d)?.unwrap_or_default();
+        samples.deformation_gradient =
+            column("deformation_gradient", n * d * d)?.unwrap_or_default();
+        samples.temperature = column("temperature", n)?.unwrap_or_default();
+        if let Some((name, _)) = columns.first_key_value() {
+            return Err(format!("gave a column `{}`, which there is not", printable(name)));
+        }
+        self.counters.crossings = crossings;
+        self.counters.left_domain = left_domain;
+        self.counters.min_j = min_j.unwrap_or(f64::NAN);
+        Ok(())
+    }
+}
+
+impl Subject for ProgramSubject {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        if dt != self.dt {
+            let told = self.dt;
+            return Err(Failure::External(format!("was told of steps of {told} s, not of {dt} s")));
+        }
+        self.called += 1;
+        if self.next == Some(self.called) {
+            self.next = self.instants.next();
+            self.advance().map_err(Failure::External)?;
+        }
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clone_from(&self.samples);
+    }
+
+    fn counters(&self) -> RunCounters {
+        self.counters
+    }
+
+    /// Sums over the particles; none of a solver with places of its own.
+    fn totals(&self) -> Option<Totals> {
+        self.bodies.as_ref()?;
+        let d = self.dimension;
+        let mut totals = Totals::default();
+        for (p, mass) in self.mass.iter().enumerate() {
+            let at = |column: &[f64], i: usize| if i < d { column[p * d + i] } else { 0.0 };
+            let v: [f64; 3] = std::array::from_fn(|i| at(&self.samples.velocity, i));
+            let x: [f64; 3] = std::array::from_fn(|i| {
+                at(&self.samples.label, i) + at(&self.samples.displacement, i)
+            });
+            let speed = v.iter().map(|v| v * v).sum::<f64>();
+            let turn =
+                [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
+            totals.mass += mass;
+            totals.momentum_size += mass * speed.sqrt();
+            totals.kinetic_energy += 0.5 * mass * speed;
+            for i in 0..3 {
+                totals.momentum[i] += mass * v[i];
+                totals.angular_momentum[i] += mass * turn[i];
+            }
+            totals.angular_momentum_size +=
+                mass * turn.iter().map(|turn| turn * turn).sum::<f64>().sqrt();
+        }
+        Some(totals)
+    }
+}

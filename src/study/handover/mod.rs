@@ -1,0 +1,15 @@
+//! A level of a study as a problem that any solver can be handed.
+//!
+//! ```text
+//! initial   particles, grid, faces, materials, steps at the start of a level
+//! exact     the exact state at a later time
+//! needs     what a solver must be able to do
+//! ```
+
+mod exact;
+mod initial;
+mod needs;
+
+pub use exact::exact_state;
+pub use initial::level_problem;
+pub use needs::needs;

@@ -1,0 +1,57 @@
+//! Abilities that a suite asks of a solver.
+
+use crate::external::ProblemNeeds;
+use crate::subject::PlaneState;
+use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
+use crate::verify::Quantity;
+
+/// The needs of a convergence study.
+pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
+    let scene = &plan.scene;
+    let starts =
+        plan.exact.as_ref().filter(|problem| problem.follows_motion).is_some_and(|problem| {
+            let from = problem.motion.derivatives(&middle(scene), 0.0);
+            from.u != [0.0; 3] || from.grad != [[0.0; 3]; 3]
+        });
+    let displaced = scene.each().iter().any(|body| !body.initial_displacement.is_empty());
+    let mut needs = ProblemNeeds {
+        dimension: scene.dimension(),
+        laws: scene.each().iter().map(|body| body.material.name()).collect(),
+        conditions: scene.faces.iter().map(SceneFace::condition).collect(),
+        loads: scene.loads.iter().map(|load| load.effect.name()).collect(),
+        column: column(plan.of),
+        manufactured: plan.manufactured().is_some(),
+        initial_deformation: starts || displaced,
+        several_bodies: !scene.bodies.is_empty(),
+        beyond: Vec::new(),
+    };
+    for names in [&mut needs.laws, &mut needs.conditions, &mut needs.loads] {
+        names.sort_unstable();
+        names.dedup();
+    }
+    if scene.contact.is_some() {
+        needs.beyond.push("contact of bodies, which this protocol does not hand over");
+    }
+    if scene.plane == PlaneState::Stress {
+        needs.beyond.push("plane stress, which this protocol does not hand over");
+    }
+    if scene.heat().is_some() {
+        needs.beyond.push("heat, which this protocol does not hand over");
+    }
+    if scene.loads.iter().any(|load| load.driven().is_some()) {
+        needs.beyond.push("driven sets, which this protocol does not hand over");
+    }
+    needs
+}
+
+/// A place inside the body where nothing is likely to vanish by symmetry.
+fn middle(scene: &Scene) -> Vec<f64> {
+    let ends = scene.from.iter().zip(&scene.to);
+    ends.map(|(from, to)| from + (to - from) / std::f64::consts::PI).collect()
+}
+
+/// The column that is judged, if it is none that every solver gives.
+fn column(of: Quantity) -> Option<&'static str> {
+    let name = of.name();
+    (!["displacement", "velocity"].contains(&name)).then_some(name)
+}

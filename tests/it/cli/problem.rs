@@ -1,0 +1,103 @@
+//! `mpm-verify problem`: a level of a suite as a file.
+
+use super::{BAD_INPUT, BAR, Folder, SOUND};
+use rstest::rstest;
+use serde_json::Value;
+
+fn problem(arguments: &[&str]) -> String {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let found = folder.call(&[&["problem", "bar.yaml"], arguments].concat());
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    found.out
+}
+
+/// Numbers of one column of a table.
+fn column(table: &str, name: &str) -> Vec<f64> {
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().expect("a head");
+    let at = head.iter().position(|known| *known == name).unwrap_or_else(|| panic!("{head:?}"));
+    lines.map(|line| line[at].parse().expect("a number")).collect()
+}
+
+#[test]
+fn a_level_is_a_table_of_its_particles() {
+    let table = problem(&["--level", "1"]);
+    let x = column(&table, "reference_position_x");
+    assert_eq!(x.len(), 16);
+    assert_eq!((x[0], x[1]), (0.03125, 0.09375));
+    assert_eq!(column(&table, "position_x"), x);
+    let v = column(&table, "velocity_x");
+    assert!((v[0] - 1e-3 * libm::sin(std::f64::consts::FRAC_PI_2 * x[0])).abs() < 1e-18);
+    assert!(column(&table, "mass").iter().all(|mass| *mass == 0.0625));
+    assert!(column(&table, "deformation_gradient_xx").iter().all(|f| *f == 1.0));
+    // The finest level, where none is named.
+    assert_eq!(problem(&[]).lines().count(), 1 + 48);
+}
+
+/// The state of the formula, which is another one than at the start.
+#[test]
+fn the_exact_state_is_that_of_the_formula() {
+    let table = problem(&["--level", "2", "--at", "0.05"]);
+    let omega = 5.0 * std::f64::consts::PI;
+    let labels = column(&table, "reference_position_x");
+    for (p, x) in column(&table, "position_x").iter().enumerate() {
+        let k = std::f64::consts::FRAC_PI_2;
+        let amplitude = 1e-3 / omega * libm::sin(omega * 0.05);
+        let u = amplitude * libm::sin(k * labels[p]);
+        assert!((x - labels[p] - u).abs() < 1e-16, "particle {p}");
+        let strain = k * amplitude * libm::cos(k * labels[p]);
+        assert!((column(&table, "stress_xx")[p] - 100.0 * strain).abs() < 1e-13, "particle {p}");
+    }
+}
+
+#[test]
+fn json_has_the_keys_of_the_protocol() {
+    let document: Value = serde_json::from_str(&problem(&["--out", "json"])).expect("JSON");
+    assert_eq!(document["grid"]["h"], 1.0 / 12.0);
+    assert_eq!(document["faces"][0]["condition"], "fixed");
+    assert_eq!(document["materials"][0]["parameters"]["young"], 100.0);
+    assert_eq!(document["steps"], 50);
+    assert_eq!(document["particles"]["mass"].as_array().map(Vec::len), Some(48));
+}
+
+#[test]
+fn a_file_for_paraview_has_a_vertex_for_each_particle() {
+    let xml = problem(&["--out", "vtu", "--level", "1"]);
+    assert!(xml.contains("<Piece NumberOfPoints=\"16\" NumberOfCells=\"16\">"), "{xml}");
+    let first = xml.lines().skip_while(|line| !line.contains("\"position\"")).nth(1);
+    assert_eq!(first, Some("0.03125 0 0"));
+    for (tag, count) in [("DataArray", 13), ("PointData", 1), ("VTKFile", 1)] {
+        assert_eq!(xml.matches(&format!("</{tag}>")).count(), count, "{tag}");
+    }
+}
+
+#[test]
+fn arrays_for_numpy_are_a_zip_file() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let mut command = folder.command(&["problem", "bar.yaml", "--out", "npz"]);
+    let bytes = command.output().expect("the program starts").stdout;
+    assert!(bytes.starts_with(b"PK") && bytes.windows(8).any(|name| name == b"mass.npy"));
+}
+
+#[rstest]
+#[case::no_such_level(&["--level", "9"], "there is no level 9: expected 1 to 4")]
+#[case::level_zero(&["--level", "0"], "there is no level 0: expected 1 to 4")]
+#[case::no_such_format(&["--out", "xls"], "expected one of csv, json, npz, vtu")]
+fn bad_input_is_told(#[case] arguments: &[&str], #[case] words: &str) {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let found = folder.call(&[&["problem", "bar.yaml"], arguments].concat());
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains(words), "{}", found.errors);
+}
+
+#[rstest]
+#[case::another_study(&["problem", "courant-limit"], "it is no convergence study")]
+#[case::no_motion(&["problem", "heat-step", "--at", "0.1"], "the suite states no exact motion")]
+fn only_what_moves_has_a_problem(#[case] arguments: &[&str], #[case] words: &str) {
+    let found = Folder::new().call(arguments);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains(words), "{}", found.errors);
+}

@@ -1,0 +1,94 @@
+//! Solvers of a user of the library.
+
+use super::BAR;
+use mpm_verify::external::{LevelProblem, SolverFactory};
+use mpm_verify::study::Runner;
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::{Extent, Suite};
+use mpm_verify::verify::CaseOutcome;
+
+/// Finite differences of second order, one unknown at each particle: `u_tt = c^2 u_XX`.
+struct Differences {
+    problem: LevelProblem,
+    u: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl Subject for Differences {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        let material = &self.problem.materials[0];
+        let c2 = material.parameters[0].1 / material.density;
+        let x = &self.problem.particles.reference_position;
+        let (n, dx) = (self.u.len(), x[1] - x[0]);
+        for (u, v) in self.u.iter_mut().zip(&self.v) {
+            *u += 0.5 * dt * v;
+        }
+        // Half a spacing beyond the ends: u is odd about the fixed one and even about the free one.
+        let at = |i: isize| match i {
+            -1 => -self.u[0],
+            i if i as usize == n => self.u[n - 1],
+            i => self.u[i as usize],
+        };
+        for i in 0..n as isize {
+            self.v[i as usize] += dt * c2 * (at(i + 1) - 2.0 * at(i) + at(i - 1)) / (dx * dx);
+        }
+        for (u, v) in self.u.iter_mut().zip(&self.v) {
+            *u += 0.5 * dt * v;
+        }
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+        samples.dimension = 1;
+        samples.label.clone_from(&self.problem.particles.reference_position);
+        samples.weight.clone_from(&self.problem.particles.reference_volume);
+        samples.displacement.clone_from(&self.u);
+        samples.velocity.clone_from(&self.v);
+    }
+
+    fn counters(&self) -> RunCounters {
+        let (particles, crossings, left_domain) = (None, None, None);
+        RunCounters { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
+    }
+}
+
+struct Maker(&'static str);
+
+impl SolverFactory for Maker {
+    fn name(&self) -> &str {
+        self.0
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+        if problem.faces[0].condition != "fixed" {
+            return Err("a left end that is not held".to_owned());
+        }
+        let u = vec![0.0; problem.particles.len()];
+        let v = problem.particles.velocity.clone();
+        Ok(Box::new(Differences { problem, u, v }))
+    }
+}
+
+fn outcome(text: &str) -> CaseOutcome {
+    let source = Source::from_text("bar.yaml", text).expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let maker = Maker("differences");
+    let suite = suite.of_external(maker.name(), 2.0, true).expect("a convergence study");
+    Runner::over(&suite, Extent::Usual).judging(&maker).case(0, &|| ())
+}
+
+#[test]
+fn a_solver_in_a_few_lines_has_the_order_of_theory() {
+    let found = outcome(BAR);
+    assert!(found.passed() && found.verdict.contains("converging"), "{}", found.reason);
+}
+
+#[test]
+fn what_a_maker_refuses_is_not_applicable() {
+    let free = BAR.replace("sin(pi*X/2)", "cos(pi*X/2)").replace("left: fixed", "right: fixed");
+    let found = outcome(&free);
+    assert_eq!((found.result(), found.verdict.as_str()), ("n/a", "not applicable"));
+    assert!(found.reason.contains("a left end that is not held"), "{}", found.reason);
+}

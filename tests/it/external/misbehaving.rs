@@ -1,0 +1,139 @@
+//! Processes that break the protocol, each in its own way. Whatever they do, the other levels go
+//! on, and the verdict says what happened.
+
+use super::BAR;
+use super::program::HELLO;
+use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
+use rstest::rstest;
+
+/// A script that is sound until it is asked to advance, and then does `then`.
+fn script(then: &str) -> String {
+    format!(
+        "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
+         echo '{{\"type\":\"ready\"}}'\nread -r m\n{then}\n"
+    )
+}
+
+/// What a run of `script` prints, with its exit status.
+fn run(script: &str, more: &[&str]) -> (i32, String) {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.write("solver.sh", script);
+    let mut arguments = vec!["run", "bar.yaml", "--solver", "sh solver.sh"];
+    arguments.extend(more);
+    let found = folder.call(&arguments);
+    (found.code, found.out + &found.errors)
+}
+
+#[rstest]
+#[case::a_crash("exit 3", "the solver ended without an answer (exit status 3)")]
+#[case::a_signal("kill -9 $$", "the solver ended without an answer (killed by signal 9)")]
+#[case::last_words(
+    "echo 'out of cheese' >&2; echo 'first'",
+    "`first`; its last words: out of cheese"
+)]
+#[case::garbage("echo hello there", "answered with what is no message (expected value at line 1")]
+#[case::another_type("echo '{\"type\":\"ready\"}'", "answered `advance` with `ready`")]
+#[case::an_unknown_type("echo '{\"type\":\"done\"}'", "unknown variant `done`")]
+#[case::half_a_line("printf '{\"type\":\"sta'", "ended in the middle of an answer")]
+#[case::half_a_block(
+    "printf '{\"type\":\"state\",\"bytes\":100,\"columns\":{}}\\nabc'",
+    "ended in the middle of a block of bytes"
+)]
+#[case::too_few_numbers(
+    "echo '{\"type\":\"state\",\"columns\":{\"displacement\":[0],\"velocity\":[0]}}'",
+    "gave the column `displacement` 1 numbers, expected 16"
+)]
+#[case::no_column("echo '{\"type\":\"state\",\"columns\":{}}'", "gave no column `displacement`")]
+#[case::nan(
+    "echo '{\"type\":\"state\",\"columns\":{\"displacement\":[NaN]}}'",
+    "answered with NaN, which is no number"
+)]
+#[case::beyond_the_block(
+    "printf '{\"type\":\"state\",\"bytes\":1,\"columns\":{\"displacement\":{\"f64\":[0,16]}}}\\nx'",
+    "gave the column `displacement` as 16 doubles from byte 0 on, of 1 bytes"
+)]
+#[case::an_impossible_block(
+    "echo '{\"type\":\"state\",\"bytes\":99999999999999,\"columns\":{}}'; sleep 9",
+    "answered with more than 1048576 bytes"
+)]
+#[case::a_flood_of_bytes("yes | tr -d '\\n'", "answered with more than 1048576 bytes")]
+#[case::a_flood_of_lines("yes", "answered with what is no message")]
+#[case::endless_questions(
+    "while :; do echo '{\"type\":\"body_force\",\"t\":0}'; read -r m; done",
+    "asked for the body force 1001 times"
+)]
+#[case::silence("sleep 99", "has been silent for 0.5 s")]
+#[case::a_closed_pipe("exec >&-; sleep 99", "closed its output and went on")]
+#[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
+fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
+    let more = ["--solver-timeout", "500ms"];
+    let (code, said) = run(&script(then), &more);
+    assert!(code == SOUND && said.contains("explored  short-bar::odd  failed"), "{said}");
+    let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains(words), "no `{words}` in\n{said}");
+}
+
+/// A process that reads nothing is found by its silence, however much waits in its pipe.
+#[test]
+fn a_process_that_reads_nothing_is_silent() {
+    let deaf = format!(
+        "read -r m; echo '{HELLO}'; read -r m; case \"$m\" in *bye*) ;; *) sleep 99;; esac"
+    );
+    let (_, said) = run(&deaf, &["--solver-timeout", "500ms"]);
+    assert!(said.contains("has been silent for 0.5 s"), "{said}");
+}
+
+#[test]
+fn a_gate_fails_with_its_solver() {
+    assert_eq!(run(&script("exit 1"), &["--gate", "--brief"]).0, FAILED);
+}
+
+/// Whatever a process has started dies with it.
+#[test]
+fn no_grandchild_is_left() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.write("solver.sh", script("sleep 98 & echo $! >> pids; exit 1"));
+    folder.call(&["run", "bar.yaml", "--solver", "sh solver.sh"]);
+    let pids = std::fs::read_to_string(folder.path().join("pids")).expect("pids");
+    assert_eq!(pids.lines().count(), 4, "one for each level");
+    for pid in pids.lines() {
+        let alive = || {
+            let status = std::fs::read_to_string(format!("/proc/{pid}/stat"));
+            status.is_ok_and(|status| !status.contains(") Z "))
+        };
+        let patient = (0..100).any(|_| {
+            std::thread::sleep(std::time::Duration::from_millis(10));
+            !alive()
+        });
+        assert!(patient, "process {pid} goes on");
+    }
+}
+
+#[rstest]
+#[case::no_command("", "expected a command with its arguments")]
+#[case::no_program("/no/such/program -x", "`/no/such/program`: No such file")]
+#[case::no_hello("true", "ended without an answer (exit status 0)")]
+#[case::an_older_version(
+    "sh -c 'read m; echo \"{\\\"type\\\":\\\"hello\\\",\\\"protocol\\\":7,\\\"name\\\":\\\"x\\\"}\"'",
+    "speaks version 7 of the protocol; this is version 1"
+)]
+#[case::a_name_that_is_a_path(
+    "sh -c 'read m; echo \"{\\\"type\\\":\\\"hello\\\",\\\"protocol\\\":1,\\\"name\\\":\\\"../x\\\"}\"'",
+    "is called `../x`: expected up to 64 letters"
+)]
+fn a_command_that_cannot_be_greeted_is_bad_input(#[case] command: &str, #[case] words: &str) {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let found = folder.call(&["run", "bar.yaml", "--solver", command]);
+    assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
+    assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+}
+
+#[test]
+fn memory_has_a_limit() {
+    let hungry = script("awk 'BEGIN { s = \"x\"; while (1) s = s s }'; exit 7");
+    let (_, said) = run(&hungry, &["--solver-memory", "200"]);
+    assert!(said.contains("exit status 7"), "{said}");
+}

@@ -1,0 +1,96 @@
+//! A sound solver in a shell script.
+
+use super::BAR;
+use crate::cli::{FAILED, Folder, SOUND};
+
+/// What a solver of one-dimensional elasticity says first.
+pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
+
+/// The exact solution with an error of h^2: a solver of order 2 that needs no steps.
+const SECOND_ORDER: &str = r#"
+read -r m; echo 'HELLO'
+read -r problem || exit 0
+case "$problem" in *'"bye"'*) exit 0;; esac
+echo '{"type":"ready"}'
+while read -r m; do
+    case "$m" in *'"bye"'*) exit 0;; esac
+    printf '%s\n%s\n' "$problem" "$m" | awk '
+        function number(name, rest) {
+            rest = substr($0, index($0, "\"" name "\":") + length(name) + 3)
+            return rest + 0
+        }
+        NR == 1 {
+            x = substr($0, index($0, "\"reference_position\":[") + 22)
+            n = split(substr(x, 1, index(x, "]") - 1), X, ",")
+            h = number("h")
+        }
+        NR == 2 {
+            pi = 3.14159265358979
+            t = number("from") + number("steps") * number("dt")
+            for (p = 1; p <= n; p++) {
+                s = 1e-3 * sin(pi * X[p] / 2) * (1 + h * h)
+                u = u (p > 1 ? "," : "") sprintf("%.17g", s * sin(5 * pi * t) / (5 * pi))
+                v = v (p > 1 ? "," : "") sprintf("%.17g", s * cos(5 * pi * t))
+            }
+            printf "{\"type\":\"state\",\"columns\":{\"displacement\":[%s],\"velocity\":[%s]}}\n", u, v
+        }'
+done
+"#;
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.write("solver.sh", SECOND_ORDER.replace("HELLO", HELLO));
+    folder
+}
+
+const SOLVER: &str = "sh solver.sh";
+
+#[test]
+fn a_program_is_judged_like_any_method() {
+    let found = folder().call(&["run", "bar.yaml", "--solver", SOLVER]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    for words in [
+        "== odd ==",
+        "solver: odd; version: 1; formal order: 2, by its own account",
+        "converging: order 2.000 [2.000, 2.000] over 4 levels",
+        "explored  short-bar::odd  converging",
+    ] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+/// With the order that the solver claims as the expectation of each case.
+#[test]
+fn a_gate_holds_a_program_to_its_order() {
+    let folder = folder();
+    let gate = ["run", "bar.yaml", "--solver", SOLVER, "--gate", "--brief"];
+    let found = folder.call(&gate);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("pass  short-bar::odd"), "{}", found.out);
+    let boastful = HELLO.replace(r#""version""#, r#""formal_order":3,"version""#);
+    folder.write("solver.sh", SECOND_ORDER.replace("HELLO", &boastful));
+    let found = folder.call(&gate);
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+}
+
+/// What a solver lacks is no verdict on it, and never a pass.
+#[test]
+fn what_a_program_lacks_is_not_applicable() {
+    let folder = folder();
+    let poor = HELLO.replace(r#""laws":["linear_elastic"]"#, r#""laws":[]"#);
+    folder.write("poor.sh", SECOND_ORDER.replace("HELLO", &poor));
+    let found = folder.call(&["run", "bar.yaml", "--solver", "sh poor.sh"]);
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("the solver lacks laws: linear_elastic"), "{}", found.out);
+    assert!(found.out.contains("n/a  short-bar::odd  not applicable"), "{}", found.out);
+    assert!(found.errors.contains("no case is applicable to the solver"), "{}", found.errors);
+}
+
+/// Studies of another kind have no levels to be put on.
+#[test]
+fn other_studies_are_left_out() {
+    let found = folder().call(&["run", "bar.yaml", "courant-limit", "--solver", SOLVER, "--brief"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    assert!(found.errors.contains("courant-limit: left out"), "{}", found.errors);
+}
