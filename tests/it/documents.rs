@@ -16,7 +16,9 @@ use std::process::Command;
 fn documents() -> Vec<Document> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut documents = Vec::new();
-    for folder in ["", "docs", "docs/design", "docs/exercises", "benches", "tests/fuzz"] {
+    for folder in
+        ["", "docs", "docs/design", "docs/exercises", "examples/solvers", "benches", "tests/fuzz"]
+    {
         for entry in fs::read_dir(root.join(folder)).expect("a folder of documents") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|end| end == "md") {
@@ -29,10 +31,16 @@ fn documents() -> Vec<Document> {
     documents
 }
 
-/// The arguments that a line gives to the program, as far as the shell would pass them on.
+/// The arguments that a line gives to the program, as far as the shell would pass them on. Single
+/// quotes hold words together.
 fn arguments(line: &str) -> Option<Vec<&str>> {
     let call = line.split(['#', '>', '|']).next().unwrap_or_default();
-    let mut words = call.split_whitespace().peekable();
+    let mut is_quoted = false;
+    let words = call.split(|sign: char| {
+        is_quoted ^= sign == '\'';
+        sign == '\'' || (!is_quoted && sign.is_whitespace())
+    });
+    let mut words = words.filter(|word| !word.is_empty()).peekable();
     match words.next()? {
         "mpm-verify" => {}
         "cargo" if words.peek() == Some(&"run") => {
@@ -75,6 +83,12 @@ fn the_program_understands_every_command_line() {
         }
     }
     assert!(count > 10, "documents show {count} command lines: are they still found?");
+}
+
+#[test]
+fn quotes_hold_words_together() {
+    let words = arguments("mpm-verify run a.yaml --solver 'python3 b.py --flip 1'  # slow");
+    assert_eq!(words, Some(vec!["run", "a.yaml", "--solver", "python3 b.py --flip 1"]));
 }
 
 #[test]

@@ -1,0 +1,205 @@
+"""An explicit MPM in one to three dimensions, in NumPy, as a solver under test.
+
+    mpm-verify run SUITE --solver 'python3 examples/solvers/numpy_mpm.py --scheme usl'
+
+Sulsky, Chen & Schreyer (1994) with a lumped mass matrix; B-splines at walls as in Steffen, Kirby &
+Berzins (2008).
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+
+import numpy as np
+
+from mpm_verify import Array, Message, Problem, serve
+
+DEGREES = {"linear": 1, "quadratic_bspline": 2, "cubic_bspline": 3}
+
+
+def bsplines(degree: int, s: Array, cell: Array, cells: int, periodic: bool) -> tuple[Array, Array]:
+    """Values and slopes, per cell, of the `degree + 1` functions that do not vanish at `s` (in
+    cells), a row each: the recursion of Cox and de Boor. Knots are repeated at walls."""
+    knots = [cell + 1.0 + k - degree for k in range(2 * degree)]
+    if not periodic:
+        knots = [np.clip(knot, 0, cells) for knot in knots]
+    value, lower = [np.ones_like(s)], []
+    for p in range(1, degree + 1):
+        lower, value, saved = value, [], np.zeros_like(s)
+        for r in range(p):
+            left, right = knots[degree + r - p], knots[degree + r]
+            share = lower[r] / (right - left)
+            value.append(saved + (right - s) * share)
+            saved = (s - left) * share
+        value.append(saved)
+    spans = [knots[degree + r] - knots[r] for r in range(degree)]
+    terms = [degree * low / span for low, span in zip(lower, spans)]
+    return np.array(value), -np.diff(terms, axis=0, prepend=0, append=0)
+
+
+class Mpm:
+    """The solver: n particles, each with k nodes around it, in d dimensions."""
+
+    name = "numpy-mpm"
+    version = "1.0"
+    formal_order = 2
+    capabilities = {
+        "dimensions": [1, 2, 3],
+        "laws": ["linear_elastic", "neo_hookean"],
+        "conditions": ["free", "fixed", "roller", "periodic"],
+        "loads": ["gravity", "body_force"],
+        "columns": ["stress", "deformation_gradient"],
+        "manufactured": True,
+        "initial_deformation": True,
+    }
+
+    def __init__(self, basis: str, scheme: str, flip: float, start: str) -> None:
+        self.degree, self.scheme, self.flip, self.start = DEGREES[basis], scheme, flip, start
+
+    def setup(self, problem: Problem) -> None:
+        self.problem, self.d = problem, problem.dimension
+        law, parameters = problem.materials[0]["law"], problem.materials[0]["parameters"]
+        young, poisson = parameters["young"], parameters["poisson"]
+        self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+        self.mu = young / (2 * (1 + poisson))
+        self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean}[law]
+        self.x, self.v = problem.position.copy(), problem.velocity.copy()
+        self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()
+        self.m, self.vol = problem.mass, problem.volume.copy()
+        self.vol0 = self.vol / np.linalg.det(self.f)
+        # With knots repeated at walls, the first and the last function alone do not vanish there.
+        self.counts = [n if periodic else n + self.degree
+                       for n, periodic in zip(problem.cells, problem.periodic)]
+        self.free = np.ones((*self.counts, self.d))
+        for face in problem.faces:
+            end = (slice(None),) * face["axis"] + (-1 if face["high"] else 0,)
+            if face["condition"] == "fixed":
+                self.free[end] = 0
+            elif face["condition"] == "roller":
+                self.free[(*end, ..., face["axis"])] = 0
+        self.free = self.free.reshape(-1, self.d)
+        self.crossings, self.min_j, self.started = 0, (self.vol / self.vol0).min(), False
+        self.locate()
+
+    def locate(self) -> None:
+        """Finds the places of the particles in the grid, and their cells."""
+        problem = self.problem
+        self.s = (self.x - problem.origin) / problem.h
+        ends, periodic = np.array(problem.cells), np.array(problem.periodic)
+        self.s -= np.where(periodic, ends * np.floor(self.s / ends), 0)
+        outside = ~np.all((self.s >= 0) & (self.s <= ends), axis=1)
+        if outside.any():
+            p = np.argmax(outside)
+            raise ArithmeticError(f"particle {p} left the grid, at {self.x[p].tolist()}")
+        self.cell = np.minimum(self.s.astype(int), ends - 1)
+
+    def weigh(self) -> None:
+        """Nodes (n, k) around the particles, their functions (n, k) and gradients (n, k, d)."""
+        k = self.degree + 1
+        axes = []
+        for a, (cells, periodic) in enumerate(zip(self.problem.cells, self.problem.periodic)):
+            along = bsplines(self.degree, self.s[:, a], self.cell[:, a], cells, periodic)
+            axes.append((np.arange(k)[:, None] + self.cell[:, a], *along))
+        nodes, values, gradients = [], [], []
+        for offsets in itertools.product(range(k), repeat=self.d):
+            at = [index[r] % count for (index, _, _), r, count in zip(axes, offsets, self.counts)]
+            nodes.append(np.ravel_multi_index(at, self.counts))
+            value = [n[r] for (_, n, _), r in zip(axes, offsets)]
+            slope = [dn[r] / self.problem.h for (_, _, dn), r in zip(axes, offsets)]
+            values.append(np.prod(value, axis=0))
+            gradients.append([np.prod([*value[:a], slope[a], *value[a + 1:]], axis=0)
+                              for a in range(self.d)])
+        self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy()
+        self.dn = np.array(gradients).transpose(2, 0, 1).copy()
+        self.mass = self.add(self.n * self.m[:, None])
+
+    def add(self, terms: Array) -> Array:
+        """Sums at the nodes of terms (n, k)."""
+        size = len(self.free)
+        return np.asarray(np.bincount(self.nodes.ravel(), terms.ravel(), size), float)
+
+    def per_mass(self, terms: Array) -> Array:
+        """Sums at the nodes of terms (n, k, d), divided by the nodal mass; zero where held."""
+        sums = np.stack([self.add(terms[..., a]) for a in range(self.d)], axis=1)
+        mass = self.mass[:, None]
+        return self.free * np.divide(sums, mass, out=np.zeros_like(sums), where=mass > 0)
+
+    def gather(self, field: Array) -> Array:
+        """A nodal field at the particles."""
+        return np.asarray(np.einsum("pk,pkd->pd", self.n, field[self.nodes]))
+
+    def velocity(self) -> Array:
+        """Velocities of the nodes (m/s), from those of the particles."""
+        return self.per_mass(self.n[..., None] * (self.m[:, None] * self.v)[:, None])
+
+    def acceleration(self, time: float) -> Array:
+        """Accelerations of the nodes (m/s2), from stresses and body forces at `time` (s)."""
+        stress = np.einsum("pkb,pab->pka", self.dn, self.vol[:, None, None] * self.sigma)
+        force = self.m[:, None] * self.problem.body_force(time)
+        return self.per_mass(self.n[..., None] * force[:, None] - stress)
+
+    def advance(self, steps: int, dt: float, time: float) -> None:
+        for step in range(steps):
+            self.step(dt, time + step * dt)
+
+    def step(self, dt: float, time: float) -> None:
+        self.weigh()
+        acceleration = self.acceleration(time)
+        change = dt * self.gather(acceleration)
+        if not self.started and self.start == "half_step_back":
+            self.v -= 0.5 * change
+        self.started = True
+        if self.scheme == "usl" or self.flip < 1:
+            velocity = self.velocity() + dt * acceleration
+        self.v += change
+        if self.flip < 1:
+            self.v = self.flip * self.v + (1 - self.flip) * self.gather(velocity)
+        if self.scheme == "musl":
+            velocity = self.velocity()
+        self.strain(dt * np.einsum("pka,pkb->pab", velocity[self.nodes], self.dn))
+        self.x += dt * self.gather(velocity)
+        before = self.cell
+        self.locate()
+        self.crossings += np.any(self.cell != before, axis=1).sum()
+
+    def strain(self, step: Array) -> None:
+        """Deformation, volume and stress after `step`, the velocity gradient times dt."""
+        self.f += step @ self.f
+        self.update_stress(step)
+        j = self.vol / self.vol0
+        if not j.min() > 0:
+            p = np.argmax(~(j > 0))
+            raise ArithmeticError(f"particle {p} is inside out: J = {j[p]}")
+        self.min_j = min(self.min_j, j.min())
+
+    def rate(self, step: Array) -> None:
+        """sigma += lambda tr(d eps) I + 2 mu d eps; strain is plane or uniaxial."""
+        one, strain = np.eye(self.d), 0.5 * (step + step.transpose(0, 2, 1))
+        self.vol *= np.linalg.det(one + step)
+        trace = np.trace(strain, axis1=1, axis2=2)[:, None, None]
+        self.sigma += self.lam * trace * one + 2 * self.mu * strain
+
+    def neo_hookean(self, _: Array) -> None:
+        """sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)."""
+        j = np.linalg.det(self.f)
+        self.vol = j * self.vol0
+        by_j = 1 / j[:, None, None]
+        spherical = (self.lam * np.log(j)[:, None, None] - self.mu) * by_j
+        left = self.f @ self.f.transpose(0, 2, 1)
+        self.sigma = spherical * np.eye(self.d) + self.mu * by_j * left
+
+    def state(self) -> Message:
+        return {"displacement": self.x - self.problem.reference_position, "velocity": self.v,
+                "stress": self.sigma, "deformation_gradient": self.f,
+                "crossings": self.crossings, "left_domain": 0, "min_j": self.min_j}
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--basis", choices=DEGREES, default="linear")
+    parser.add_argument("--scheme", choices=["usl", "musl"], default="musl")
+    parser.add_argument("--flip", type=float, default=1.0, help="share of FLIP; the rest is PIC")
+    parser.add_argument("--start", choices=["at_zero", "half_step_back"], default="at_zero",
+                        help="time of the first velocity; the latter takes it to -dt/2")
+    serve(Mpm(**vars(parser.parse_args())))
