@@ -76,7 +76,8 @@ impl Capabilities {
                 lacking.push(capability.to_owned());
             }
         }
-        lacking.extend(needs.beyond.iter().map(|what| (*what).to_owned()));
+        let beyond = needs.beyond.iter();
+        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not hand over")));
         lacking
     }
 }
@@ -108,7 +109,7 @@ mod tests {
             "manufactured",
             "initial_deformation",
             "several_bodies",
-            "heat",
+            "heat, which the protocol does not hand over",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
         let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
@@ -123,6 +124,6 @@ mod tests {
             several_bodies: true,
             binary: false,
         };
-        assert_eq!(able.lacking(&needs), ["heat"]);
+        assert_eq!(able.lacking(&needs), all[9..]);
     }
 }

@@ -3,7 +3,7 @@
 use crate::external::ProblemNeeds;
 use crate::subject::PlaneState;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
-use crate::verify::Quantity;
+use crate::verify::{Quantity, SumNeed};
 
 /// The needs of a convergence study.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
@@ -29,17 +29,21 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         names.sort_unstable();
         names.dedup();
     }
-    if scene.contact.is_some() {
-        needs.beyond.push("contact of bodies, which this protocol does not hand over");
-    }
-    if scene.plane == PlaneState::Stress {
-        needs.beyond.push("plane stress, which this protocol does not hand over");
-    }
-    if scene.heat().is_some() {
-        needs.beyond.push("heat, which this protocol does not hand over");
-    }
-    if scene.loads.iter().any(|load| load.driven().is_some()) {
-        needs.beyond.push("driven sets, which this protocol does not hand over");
+    let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];
+    for (is_needed, what) in [
+        (scene.contact.is_some(), "contact of bodies"),
+        (scene.plane == PlaneState::Stress, "plane stress"),
+        (scene.each().iter().any(|body| !body.initial_stress.is_none()), "an initial stress"),
+        (scene.heat().is_some(), "heat"),
+        (scene.loads.iter().any(|load| load.driven().is_some()), "driven sets"),
+        (
+            plan.of.sum_need().is_some_and(|need| energy_or_wall.contains(&need)),
+            "the judged energy or reaction",
+        ),
+    ] {
+        if is_needed {
+            needs.beyond.push(what);
+        }
     }
     needs
 }
@@ -52,6 +56,5 @@ fn middle(scene: &Scene) -> Vec<f64> {
 
 /// The column that is judged, if it is none that every solver gives.
 fn column(of: Quantity) -> Option<&'static str> {
-    let name = of.name();
-    (!["displacement", "velocity"].contains(&name)).then_some(name)
+    (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
