@@ -25,6 +25,11 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
+    /// Whether the displacement has a part in it.
+    fn depends_on_displacement(&self) -> bool {
+        false
+    }
+
     /// Whether the equation is checked as one for the force: a stated b is held against the b that
     /// the motion needs.
     fn is_body_force(&self) -> bool {

@@ -145,7 +145,7 @@ fn body_force(plan: &ConvergencePlan) -> Option<BodyForceField> {
         let made = made.as_ref().map_or([0.0; 3], |made| made.manufactured_force(label, t));
         let terms = terms.get(body).map_or(&[][..], Vec::as_slice);
         std::array::from_fn(|i| {
-            terms.iter().fold(made[i], |sum, term| sum + term.stated(i, label, t))
+            terms.iter().fold(made[i], |sum, term| sum + term.stated(i, label, t, &[0.0; 3]))
         })
     })))
 }
@@ -156,6 +156,6 @@ fn constant_body_force(plan: &ConvergencePlan) -> Option<Vec<f64>> {
     let is_constant = plan.manufactured().is_none()
         && !terms.is_empty()
         && terms.iter().all(|term| term.is_constant());
-    let component = |i: usize| terms.iter().map(|term| term.stated(i, &[], 0.0)).sum();
+    let component = |i: usize| terms.iter().map(|term| term.stated(i, &[], 0.0, &[0.0; 3])).sum();
     is_constant.then(|| (0..plan.scene.dimension()).map(component).collect())
 }

@@ -35,6 +35,10 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         (scene.plane == PlaneState::Stress, "plane stress"),
         (scene.each().iter().any(|body| !body.initial_stress.is_none()), "an initial stress"),
         (scene.heat().is_some(), "heat"),
+        (
+            scene.terms().iter().any(|term| term.depends_on_displacement()),
+            "a body force of the displacement",
+        ),
         (scene.loads.iter().any(|load| load.driven().is_some()), "driven sets"),
         (
             plan.of.sum_need().is_some_and(|need| energy_or_wall.contains(&need)),

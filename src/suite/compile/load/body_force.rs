@@ -79,6 +79,11 @@ impl Term for BodyForceLoad {
         self.0.get(i).map_or(0.0, |formula| of_displacement(formula, (label, t), u))
     }
 
+    fn depends_on_displacement(&self) -> bool {
+        let place_and_time = self.0.len() + 1;
+        self.0.iter().any(|formula| formula.variables() > place_and_time)
+    }
+
     fn is_body_force(&self) -> bool {
         true
     }
@@ -93,7 +98,7 @@ impl SceneLoad for BodyForceLoad {
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
     /// The formula of a force may be too long to be taken apart.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
-        if self.0.iter().any(|formula| formula.variables() > D + 1) {
+        if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));
         }
         if self.0.iter().any(|formula| formula.operations() > MOST_OPERATIONS) {
