@@ -2,6 +2,7 @@
 
 use super::motion::{Derivatives, Places};
 use super::problem::Problem;
+use crate::subject::PlaneState;
 
 /// The manufactured body force at places that have been given once.
 pub struct Forcing {
@@ -17,7 +18,9 @@ impl Forcing {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
         let varies = problem.terms.iter().any(|term| !term.is_uniform());
-        let needed = varies || !problem.initial_stress.is_none();
+        let needed = varies
+            || !problem.initial_stress.is_none()
+            || problem.plane == PlaneState::Axisymmetric;
         let labels = if needed { labels } else { Vec::new() };
         Self { problem: problem.clone(), places, labels }
     }
@@ -30,8 +33,8 @@ impl Forcing {
         let mut now = Derivatives::default();
         for (place, force) in into.iter_mut().enumerate() {
             self.places.derivatives(place, &mut now);
-            self.problem.complete(&mut now);
             let label = self.labels.get(place).map_or(&[][..], Vec::as_slice);
+            self.problem.complete(label, &mut now);
             let whole = self.problem.balance(label, t, &now);
             *force = make(std::array::from_fn(|i| {
                 let stated = uniform[i] + self.problem.placed(i, label, t, &now.u);

@@ -8,7 +8,12 @@ use crate::subject::PlaneState;
 
 /// Adds the displacement gradient across the plane, `F_33 - 1`, and its derivatives along the plane
 /// to those of a motion in the plane.
-pub(super) fn complete(plane: PlaneState, equation: &Equation, now: &mut Derivatives) {
+pub(super) fn complete(
+    plane: PlaneState,
+    equation: &Equation,
+    label: &[f64],
+    now: &mut Derivatives,
+) {
     match plane {
         PlaneState::Strain => {}
         PlaneState::Stress => {
@@ -19,6 +24,17 @@ pub(super) fn complete(plane: PlaneState, equation: &Equation, now: &mut Derivat
             let Some(across) = equation.free_gradient(&varying) else { return };
             now.grad[2][2] = across.value();
             now.second[2][2] = [across.d(0), across.d(1), 0.0];
+        }
+        PlaneState::Axisymmetric => {
+            let (radius, [along_r, along_z, _]) = (label[0], now.grad[0]);
+            (now.grad[2][2], now.second[2][2]) = if radius == 0.0 {
+                // The limits on the axis, where u_r = 0.
+                let [along_rr, along_rz, _] = now.second[0][0];
+                (along_r, [0.5 * along_rr, along_rz, 0.0])
+            } else {
+                let hoop = now.u[0] / radius;
+                (hoop, [(along_r - hoop) / radius, along_z / radius, 0.0])
+            };
         }
     }
 }
@@ -47,7 +63,7 @@ mod tests {
             let grad = [[0.3 + 0.1 * x, 0.2, 0.0], [0.1, -0.2 - 0.5 * x, 0.0], [0.0; 3]];
             let mut now = Derivatives { grad, ..Derivatives::default() };
             (now.second[0][0][0], now.second[1][1][0]) = (0.1, -0.5);
-            complete(PlaneState::Stress, &law, &mut now);
+            complete(PlaneState::Stress, &law, &[], &mut now);
             now
         };
         let here = at(0.0);

@@ -1,7 +1,7 @@
 //! The continuum problem that an exact solution is held to.
 
-use super::condition::Condition;
 use super::expansion::{Swelling, swollen_cauchy};
+use super::face::Face;
 use super::formula::Formula;
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
@@ -15,22 +15,6 @@ use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
 use std::sync::Arc;
-
-/// One face of a box-shaped body.
-#[derive(Debug, Clone)]
-pub struct Face {
-    /// Name that a suite gives it.
-    pub name: &'static str,
-    /// Axis of its normal.
-    pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
-    pub high: bool,
-    /// Length (m) of the axis on which the body moves: a period, where the axis has no end. It is
-    /// that of the body itself, unless a periodic body starts deformed.
-    pub period: f64,
-    /// Condition on the motion there.
-    pub condition: Arc<dyn Condition>,
-}
 
 /// An initial-boundary-value problem on a box or a round body, with its claimed solution.
 #[derive(Debug, Clone)]
@@ -130,13 +114,13 @@ impl Problem {
     /// All derivatives of the motion, with those across a plane.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         let mut now = self.motion.derivatives(label, t);
-        self.complete(&mut now);
+        self.complete(label, &mut now);
         now
     }
 
     /// Adds the derivatives across a plane to those of the motion in it.
-    pub(super) fn complete(&self, now: &mut Derivatives) {
-        plane::complete(self.plane, &self.equation, now);
+    pub(super) fn complete(&self, label: &[f64], now: &mut Derivatives) {
+        plane::complete(self.plane, &self.equation, label, now);
     }
 
     /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less the terms of the loads.

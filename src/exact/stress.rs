@@ -47,10 +47,31 @@ impl Problem {
             None => self.equation.divergence(axes, slopes.0, slopes.1),
             Some(swelling) => swollen_divergence(&self.equation, axes, slopes, &swelling),
         };
+        let hoops = self.hoop_force(label, t, now);
+        let force: [f64; 3] = std::array::from_fn(|i| force[i] + hoops[i]);
         if self.initial_stress.is_none() {
             return force;
         }
         let initial = self.initial_stress.divergence(label, slopes, self.equation.is_finite());
         std::array::from_fn(|i| force[i] + initial[i])
+    }
+
+    /// The part of Div P (N/m3) of a body of revolution that is no derivative: `((P_rR - P_tT)/R,
+    /// P_zR/R)` at the radius R (Malvern 1969, appendix II). None of others.
+    pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
+        if self.plane != PlaneState::Axisymmetric {
+            return [0.0; 3];
+        }
+        let (radius, piola) = (label[0], self.piola(label, t, now));
+        [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
+    }
+
+    /// Length (m/rad) of the ring at `label`, one but in a body of revolution, and the hoop
+    /// stress that acts against the components of a displacement there (Pa).
+    pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
+        match self.plane {
+            PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
+            PlaneState::Strain | PlaneState::Stress => (1.0, [0.0; 3]),
+        }
     }
 }

@@ -137,17 +137,23 @@ fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
 }
 
-/// So must it be for a plate that becomes thinner where it is stretched.
+/// So must it be for a plate that becomes thinner where it is stretched, and for hoops.
 #[rstest]
-fn a_sound_motion_of_a_plate_passes(
+fn a_sound_motion_passes_whatever_happens_across(
     #[values(
         SmallStrainLaw::new(10.0, 0.3).into(),
         NeoHookeanLaw::new(10.0, 0.3).into(),
         HenckyLaw::new(10.0, 0.3).into()
     )]
     equation: Equation,
+    #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
 ) {
-    Problem { equation, plane: PlaneState::Stress, ..held(2) }.check().unwrap();
+    Problem { plane, equation, ..ring() }.check().unwrap();
+}
+
+/// The wave of [`held`] where the first coordinate goes from 1 to 2.
+fn ring() -> Problem {
+    Problem { from: vec![1.0, 0.0], to: vec![2.0, 1.0], ..held(2) }
 }
 
 /// The weak form needs no other check to see that a force is missing.
@@ -158,11 +164,34 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
+/// Neither does it need one to see that the force is that of plane strain.
+#[rstest]
+fn the_weak_form_sees_what_happens_across(
+    #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
+) {
+    let given = Problem { terms: Vec::new(), ..ring() };
+    let terms: Vec<Arc<dyn Term>> = vec![Arc::new(Given(given))];
+    let found = |plane| Problem { plane, terms: terms.clone(), manufactured: false, ..ring() };
+    super::check::weak::momentum(&found(PlaneState::Strain)).unwrap();
+    let found = super::check::weak::momentum(&found(plane)).unwrap_err();
+    assert!(found.condition.starts_with("momentum balance"), "{found}");
+}
+
+/// The force (m/s2) that another problem needs.
+#[derive(Debug)]
+struct Given(Problem);
+
+impl Term for Given {
+    fn stated(&self, i: usize, label: &[f64], t: f64, _: &[f64; 3]) -> f64 {
+        self.0.manufactured_force(label, t)[i]
+    }
+}
+
 /// A run evaluates all places at one time after another, with the bits of a single evaluation.
 #[rstest]
 fn the_force_of_a_run_is_the_force(
     #[values(1, 2, 3)] dimension: usize,
-    #[values(PlaneState::Strain, PlaneState::Stress)] plane: PlaneState,
+    #[values(PlaneState::Strain, PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
 ) {
     let plane = if dimension == 2 { plane } else { PlaneState::Strain };
     let (problem, mut random) = (Problem { plane, ..held(dimension) }, Random::new(1));

@@ -101,11 +101,21 @@ pub fn combine_bodies(
 ///
 /// # Errors
 /// One line that names the part and says why it does not go with the state.
-pub fn combine_across(plane: PlaneState, transfer: TransferChoice) -> Result<(), String> {
+pub fn combine_across(
+    plane: PlaneState,
+    basis: BasisName,
+    transfer: TransferChoice,
+) -> Result<(), String> {
+    let (b, t, p) = (basis.name(), transfer.name(), plane.name());
+    if plane == PlaneState::Axisymmetric && domain(basis) != Domain::Point {
+        return Err(format!(
+            "the functions of the basis `{b}` are means over domains in the plane, and in \
+             `plane: {p}` they would have to be means around the axis (Nairn & Guilkey 2015)"
+        ));
+    }
     if plane == PlaneState::Strain || transfer.kind() != TransferKind::Cells {
         return Ok(());
     }
-    let (t, p) = (transfer.name(), plane.name());
     Err(format!(
         "the transfer `{t}` integrates over cells in the plane, and in `plane: {p}` volumes are not \
          those of the plane"

@@ -28,6 +28,11 @@ pub struct Particles<const D: usize> {
     pub def_grad: Vec<Matrix<D>>,
     /// Stretches across the plane of two dimensions, F_33; empty in plane strain, where they are 1.
     pub across: Vec<f64>,
+    /// Their rates D_33 of the present step (1/s), and stresses sigma_33 (Pa); empty but in a body
+    /// of revolution.
+    pub rate_across: Vec<f64>,
+    /// See `rate_across`.
+    pub stress_across: Vec<f64>,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
     /// columns of each matrix are the vectors from the particle to the middles of its domain's
     /// faces, F diag(spacing)/2 (m). They follow F when positions move, not before: a domain that
@@ -103,6 +108,8 @@ impl<const D: usize> Particles<D> {
             current_position: Vec::new(),
             def_grad: Vec::new(),
             across: Vec::new(),
+            rate_across: Vec::new(),
+            stress_across: Vec::new(),
             domain: Vec::new(),
             domain0: Vec::new(),
             temperature: Vec::new(),
@@ -199,6 +206,8 @@ impl<const D: usize> Particles<D> {
             Column::of_particles("sigma", &self.sigma),
             Column::of_particles("F", &self.def_grad),
             Column::of_particles("F33", &self.across),
+            Column::of_particles("D33", &self.rate_across),
+            Column::of_particles("sigma33", &self.stress_across),
             Column::of_particles("domain", &self.domain),
             Column::of_particles("domain0", &self.domain0),
             Column::of_particles("grad v", &self.grad_v),

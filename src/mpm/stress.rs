@@ -11,12 +11,15 @@ use crate::subject::{Failure, Site};
 impl<const D: usize> Solver<D> {
     /// Deformation, stress and volume from the velocity gradients of the particles.
     pub(super) fn stress(&mut self, dt: f64) -> Result<(), Failure> {
-        let Setup { particles, material, frame, effects, .. } = &mut self.setup;
+        let Setup { particles, material, frame, effects, kernel, grid, .. } = &mut self.setup;
         if *frame == FrameName::Total {
             particles.push_gradients_forward();
         }
         for (f, grad_v) in particles.def_grad.iter_mut().zip(&particles.grad_v) {
             *f = (Matrix::identity() + grad_v * dt) * *f;
+        }
+        for effect in effects.iter_mut() {
+            self.transfers += effect.map_velocity(dt, kernel.as_ref(), grid, particles);
         }
         strain(effects, material.as_mut(), dt, particles);
         self.jacobians()?;

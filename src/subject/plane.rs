@@ -11,5 +11,7 @@ named! {
         Strain = "strain",
         /// A plate with free faces: sigma_33 = 0.
         Stress = "stress",
+        /// The meridian plane (r, z) of a body of revolution: F_33 = r/R.
+        Axisymmetric = "axisymmetric",
     }
 }

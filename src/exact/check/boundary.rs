@@ -3,10 +3,11 @@
 use super::friction;
 use super::pointwise::{AXES, Event, POINTS, largest, scale, strain, stress};
 use crate::exact::condition::FacePoint;
+use crate::exact::face::Face;
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
-use crate::exact::problem::{Face, Problem};
+use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 use std::cell::Cell;

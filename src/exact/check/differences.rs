@@ -72,7 +72,7 @@ fn stress_differences(
 ) -> Result<(), Violation> {
     let d = problem.dimension();
     let exact = problem.divergence(&event.label, event.t, all);
-    let (mut divergence, mut size) = ([0.0; 3], 0.0);
+    let (mut divergence, mut size) = (problem.hoop_force(&event.label, event.t, all), 0.0);
     for axis in 0..d {
         let step = 1e-5 * (problem.to[axis] - problem.from[axis]);
         let stress = |sign: f64| {

@@ -4,8 +4,9 @@
 //! Forces are those on the reference area, of which both sides of Coulomb's law have the same.
 
 use super::pointwise::{AXES, Event};
+use crate::exact::face::Face;
 use crate::exact::motion::Derivatives;
-use crate::exact::problem::{Face, Problem};
+use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
 /// Holds the motion `now` of a point of `face` against a wall with a coefficient of friction.

@@ -171,9 +171,11 @@ pub(crate) fn equation(problem: &Problem) -> Result<f64, Violation> {
         (inertia, stress, problem.density * problem.force(&event.label, event.t, d)[i])
     };
     let size = scale(problem, |event, d| {
+        // In a tube at rest the hoops balance the rest of Div P.
+        let hoops = largest(&problem.hoop_force(&event.label, event.t, d));
         (0..problem.dimension())
             .map(|i| terms(event, d, i))
-            .map(|(a, b, c)| a.abs() + b.abs() + c.abs())
+            .map(|(a, b, c)| a.abs() + b.abs() + c.abs() + hoops)
             .sum()
     });
     let mut left = 0.0;

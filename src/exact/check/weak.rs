@@ -3,7 +3,8 @@
 //! Waves behind a sudden load carry kinks: `u_X` jumps, and the equation holds point by point on
 //! both sides whatever the speed of the front. The weak form sees the front: for any smooth `phi`
 //! that vanishes on the rim of a patch,
-//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`.
+//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`; of a body of revolution with
+//! `R dX` in the place of dX, and less `P_tT phi` in the radial component.
 
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
@@ -205,16 +206,18 @@ fn sums(problem: &Problem, patch: &SpaceTimePatch) -> [Sums; 3] {
         let loaded = problem.loaded(time.at);
         for (place, point) in points.iter().enumerate() {
             places.derivatives(place, &mut now);
-            problem.complete(&mut now);
+            problem.complete(&labels[place], &mut now);
             let mut event = [*time; 4];
             event[..d].copy_from_slice(point);
             let (phi, slope) = bump(&event[..=d]);
             let piola = problem.piola(&labels[place], time.at, &now);
             let force = problem.force(&labels[place], loaded, &now);
+            let (ring, hoops) = problem.ring(&labels[place], &piola);
             for (i, sums) in all[..d].iter_mut().enumerate() {
-                let inertia = problem.density * now.velocity[i] * slope[d];
+                let inertia = ring * problem.density * now.velocity[i] * slope[d];
                 let stress: f64 = (0..d).map(|j| piola[i][j] * slope[j]).sum();
-                let force = problem.density * force[i] * phi;
+                let stress = ring * stress + hoops[i] * phi;
+                let force = ring * problem.density * force[i] * phi;
                 sums.gain -= inertia;
                 sums.loss += force - stress;
                 sums.size += inertia.abs() + stress.abs() + force.abs();

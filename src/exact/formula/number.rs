@@ -85,6 +85,8 @@ pub trait Number:
         "-1, 0 or 1." sign Sign;
         "0 for x < 0, 1 for x >= 0." step Step;
         "Largest whole number not above x." floor Floor;
+        "Bessel function of the first kind, of order 0." bessel_j0 BesselJ0;
+        "Bessel function of the first kind, of order 1." bessel_j1 BesselJ1;
         "Principal branch of Lambert's W, for x >= 0." lambert_w LambertW;
     }
 }

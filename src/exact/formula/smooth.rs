@@ -64,6 +64,8 @@ impl Unary {
                 | Self::Atan
                 | Self::Asinh
                 | Self::Exp
+                | Self::BesselJ0
+                | Self::BesselJ1
         )
     }
 }
@@ -78,6 +80,7 @@ mod tests {
     #[case("3*x^2*sin(t) - exp(-t)/7", true)]
     #[case("sum(n, 1, 4, sin(n*pi*x)*exp(-n^2*t)/n)", true)]
     #[case("sum(n, 1, 4, sqrt(n)*x)", true)]
+    #[case("bessel_j1(x)*sin(t)", true)]
     #[case("2^x", false)]
     #[case("step(x - t)*(x - t)", false)]
     #[case("sqrt((x - t)^2)", false)]

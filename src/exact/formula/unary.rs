@@ -71,6 +71,10 @@ functions! { x, f;
     step Step = step(x), 0.0, 0.0;
     "Largest whole number not above x; its derivative is 0 everywhere."
     floor Floor = libm::floor(x), 0.0, 0.0;
+    "Bessel function of the first kind, of order 0."
+    bessel_j0 BesselJ0 = libm::j0(x), -libm::j1(x), 0.5 * (libm::jn(2, x) - f);
+    "Bessel function of the first kind, of order 1."
+    bessel_j1 BesselJ1 = libm::j1(x), 0.5 * (libm::j0(x) - libm::jn(2, x)), bessel_j1_curvature(x, f);
     "Principal branch of Lambert's W for x >= 0, the solution of w*exp(w) = x."
     lambert_w LambertW = lambert_w(x), lambert_slope(f), lambert_curvature(f);
 }
@@ -93,6 +97,11 @@ fn cube(x: f64) -> f64 {
 /// sqrt(1 - x^2), accurate near 1 and -1 too.
 fn root(x: f64) -> f64 {
     sqrt((1.0 - x) * (1.0 + x))
+}
+
+/// The second derivative of J1 at `x`, where its value is `j1`: `J2/x - J1`.
+fn bessel_j1_curvature(x: f64, j1: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { libm::jn(2, x) / x - j1 }
 }
 
 /// The derivative of W where its value is `w`.

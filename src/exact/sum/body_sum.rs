@@ -1,8 +1,9 @@
 //! Exact sums over the body or over faces of it, by quadrature in the reference configuration.
 
 use super::gauss::points;
+use crate::exact::face::Face;
 use crate::exact::motion::Derivatives;
-use crate::exact::problem::{Face, Problem};
+use crate::exact::problem::Problem;
 
 /// Up to three components, and the size that an error of their sum is small against.
 type ValueAndSize = ([f64; 3], f64);

@@ -52,6 +52,8 @@ struct InitialState<const D: usize> {
     sigma: Vec<Matrix<D>>,
     def_grad: Vec<Matrix<D>>,
     vol: Vec<f64>,
+    across: Vec<f64>,
+    stress_across: Vec<f64>,
     velocity_time: f64,
 }
 
@@ -167,6 +169,8 @@ impl<const D: usize> Solver<D> {
             sigma: particles.sigma.clone(),
             def_grad: particles.def_grad.clone(),
             vol: particles.vol.clone(),
+            across: particles.across.clone(),
+            stress_across: particles.stress_across.clone(),
             velocity_time: self.velocity_time,
         }
     }
@@ -177,6 +181,8 @@ impl<const D: usize> Solver<D> {
         particles.sigma.copy_from_slice(&start.sigma);
         particles.def_grad.copy_from_slice(&start.def_grad);
         particles.vol.copy_from_slice(&start.vol);
+        particles.across.copy_from_slice(&start.across);
+        particles.stress_across.copy_from_slice(&start.stress_across);
         self.velocity_time = start.velocity_time;
     }
 }

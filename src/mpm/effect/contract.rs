@@ -67,6 +67,18 @@ pub trait Effect<const D: usize>: Send {
     /// Completes the initial state of the particles, once their columns are there.
     fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
 
+    /// Hook before strains, with the velocities of the grid that strain the particles over `dt`
+    /// (s). Returns the particle-node pairs visited.
+    fn map_velocity(
+        &mut self,
+        _dt: f64,
+        _kernel: &dyn Kernel<D>,
+        _grid: &Grid<D>,
+        _particles: &mut Particles<D>,
+    ) -> u64 {
+        0
+    }
+
     /// Hook before the constitutive update.
     fn before_stress(&mut self, _particles: &mut Particles<D>) {}
 

@@ -2,6 +2,7 @@
 //! effects, and one that it does not list costs nothing: no call, no column, no branch.
 
 mod contract;
+mod hoop;
 mod mapped_face;
 mod strain;
 mod surface;
@@ -10,6 +11,7 @@ mod thermal_face;
 pub use body_force::ForceField;
 pub use contract::Effect;
 pub use heat::HeatSource;
+pub use hoop::Hoop;
 pub use pressure::PressureField;
 pub(super) use strain::strain;
 pub use surface::Placement;

@@ -131,6 +131,13 @@ impl Surface {
         here * 1.5 - below * 0.5
     }
 
+    /// Share of the face of particle `p` in the reference configuration (m^(D-1)), in a body of
+    /// revolution that of one radian, at the radius of the face (m^2/rad).
+    fn area<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
+        let is_revolved = !particles.stress_across.is_empty();
+        if is_revolved { self.area * self.label(particles, p)[0] } else { self.area }
+    }
+
     /// Puts a traction (Pa, per reference area) on every particle of the layer; returns the
     /// particle-node pairs visited.
     pub(super) fn pull<const D: usize>(
@@ -141,7 +148,7 @@ impl Surface {
         traction: impl Fn(usize) -> Vector<D>,
     ) -> u64 {
         for &p in &self.layer {
-            let force = traction(p) * self.area;
+            let force = traction(p) * self.area(particles, p);
             kernel.p2g_point_force(particles, p, &force, grid);
             if self.placement == Placement::Surface {
                 let arm = self.arm(particles, p);

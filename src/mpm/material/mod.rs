@@ -1,6 +1,7 @@
 //! Materials: the family. A member is one file and one line of `members`; a parameter that no other
 //! material has is one line in `parameter`.
 
+mod axisymmetric;
 #[cfg(test)]
 mod closed_forms;
 mod contract;
@@ -22,6 +23,7 @@ pub use prestressed::Prestressed;
 
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;
+use axisymmetric::Axisymmetric;
 use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
 use registry::materials;
 
@@ -34,6 +36,7 @@ impl MaterialPlan {
         match plane {
             PlaneState::Strain => Some(self.build()),
             PlaneState::Stress => self.build().in_plane_stress(),
+            PlaneState::Axisymmetric => Some(Box::new(Axisymmetric::new(self.build()))),
         }
     }
 

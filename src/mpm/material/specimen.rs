@@ -36,6 +36,9 @@ impl<const D: usize> Specimen<D> {
     pub(super) fn in_plane(plan: MaterialPlan, plane: PlaneState) -> Option<Self> {
         let Self(_, mut particles) = Self::new(plan);
         particles.across = vec![1.0];
+        if plane == PlaneState::Axisymmetric {
+            (particles.rate_across, particles.stress_across) = (vec![0.0], vec![0.0]);
+        }
         Some(Self(plan.in_plane(plane)?, particles))
     }
 
@@ -46,6 +49,13 @@ impl<const D: usize> Specimen<D> {
         particles.def_grad[0] = (Matrix::identity() + grad_v * dt) * particles.def_grad[0];
         material.update(dt, particles);
         particles.sigma[0]
+    }
+
+    /// The same at this rate (1/s) of the hoops.
+    pub(super) fn flow_in_hoops(&mut self, grad_v: &Matrix<D>, rate: f64, dt: f64) -> Matrix<D> {
+        self.1.rate_across[0] = rate;
+        self.1.across[0] *= 1.0 + rate * dt;
+        self.flow(grad_v, dt)
     }
 
     /// The stress after a step in which F becomes `step * F`.
@@ -82,6 +92,11 @@ impl<const D: usize> Specimen<D> {
     /// The stretch across the plane.
     pub(super) fn across(&self) -> f64 {
         self.1.across[0]
+    }
+
+    /// The stress across the plane (Pa).
+    pub(super) fn stress_across(&self) -> f64 {
+        self.1.stress_across[0]
     }
 
     pub(super) fn j(&self) -> f64 {

@@ -2,4 +2,5 @@
 
 pub(crate) mod mapped;
 pub(crate) mod quadrilateral;
+pub(crate) mod revolution;
 pub(crate) mod sort_by_cell;

@@ -56,7 +56,9 @@ impl<const D: usize> Particles<D> {
             ..
         } = self;
         permute([x0, x, current_position, v], order);
-        permute([mass, vol0, vol, &mut self.across, &mut self.temperature], order);
+        permute([mass, vol0, vol, &mut self.temperature], order);
+        let Self { across, rate_across, stress_across, .. } = self;
+        permute([across, rate_across, stress_across], order);
         permute([sigma, def_grad, domain, domain0, grad_v], order);
     }
 }

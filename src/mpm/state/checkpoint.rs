@@ -33,6 +33,8 @@ impl<const D: usize> Memory for Particles<D> {
             sigma,
             def_grad,
             across,
+            rate_across,
+            stress_across,
             domain,
             domain0: _,
             grad_v,
@@ -42,7 +44,7 @@ impl<const D: usize> Memory for Particles<D> {
         for column in [x, current_position, v] {
             checkpoint.visit::<[Vector<D>]>(column);
         }
-        for column in [vol, across, temperature] {
+        for column in [vol, across, rate_across, stress_across, temperature] {
             checkpoint.visit::<[f64]>(column);
         }
         for column in [sigma, def_grad, domain, grad_v] {

@@ -31,6 +31,7 @@ impl<const D: usize> Particles<D> {
     /// [`Failure::NonFinite`].
     pub(in crate::mpm) fn strained_finite(&self) -> Result<(), Failure> {
         first("deformation gradient", &self.def_grad, matrix)?;
+        first("hoop stress", &self.stress_across, |s| s.is_finite())?;
         first("stress", &self.sigma, matrix)
     }
 

@@ -21,7 +21,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
     material: &mut dyn Material<D>,
 ) -> Result<f64, Failure> {
     particles.all_finite()?;
-    let deformed = particles.is_deformed();
+    let deformed = particles.is_deformed() || particles.is_widened();
     if domain == Domain::Follows {
         particles.track_domains();
     }

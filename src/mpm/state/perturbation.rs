@@ -39,11 +39,13 @@ impl<const D: usize> Perturbable for Solver<D> {
         state.extend(particles.v.iter().flatten());
         state.extend(matrices(particles).flatten());
         state.extend(&particles.vol);
+        state.extend(particles.across.iter().chain(&particles.stress_across));
         state.extend(affine(self).into_iter().flat_map(Affine::state).flatten());
     }
 
     fn set_state(&mut self, state: &[f64]) {
-        let Particles { v, sigma, def_grad, vol, .. } = &mut self.setup.particles;
+        let Particles { v, sigma, def_grad, vol, across, stress_across, .. } =
+            &mut self.setup.particles;
         let affine_state = affine_state_mut(self.setup.transfer.as_mut());
         let numbers = v
             .iter_mut()
@@ -51,6 +53,8 @@ impl<const D: usize> Perturbable for Solver<D> {
             .chain(sigma.iter_mut().flatten())
             .chain(def_grad.iter_mut().flatten())
             .chain(vol.iter_mut())
+            .chain(across.iter_mut())
+            .chain(stress_across.iter_mut())
             .chain(affine_state.iter_mut().flatten());
         for (number, value) in numbers.zip(state) {
             *number = *value;
@@ -67,6 +71,8 @@ impl<const D: usize> Perturbable for Solver<D> {
         for vol in &particles.vol0 {
             same(*vol, 1);
         }
+        same(1.0, particles.across.len());
+        same(modulus, particles.stress_across.len());
         if let Some(affine) = affine(self) {
             same(affine.size(speed, self.setup.grid.h), D * D * affine.state().len());
         }

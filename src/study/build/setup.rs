@@ -6,8 +6,9 @@ use super::seeding;
 use crate::exact::heat::Conduction;
 use crate::exact::{Forcing, Problem};
 use crate::mpm::{
-    BasisName, BodyForce, Effect, Grid, HeatSolver, Kernel, Particles, Setup, Vector, kernel,
+    BasisName, BodyForce, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, Setup, Vector, kernel,
 };
+use crate::subject::PlaneState;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::load::{self, BodySite, ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
@@ -66,11 +67,17 @@ pub(crate) fn setup<const D: usize>(
     let grid = grid(scene, h, kernel.as_ref());
     let mut particles = seeding::particles(body.own, &grid.origin, h, per_axis);
     body.lattice.apply(&mut particles);
+    if scene.plane == PlaneState::Axisymmetric {
+        particles.revolve();
+    }
     if body.keeps_deformation {
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
-    let effects = effects_of(body, (&grid, basis), &mut particles)?;
+    let mut effects = effects_of(body, (&grid, basis), &mut particles)?;
+    if scene.plane == PlaneState::Axisymmetric {
+        effects.insert(0, Box::new(Hoop::default()));
+    }
     let law = body.own.material.in_plane(scene.plane).ok_or("a law unknown in its plane")?;
     Ok(Setup {
         kernel,

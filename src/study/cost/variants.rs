@@ -1,6 +1,6 @@
 //! A suite with other settings than its own: particles per cell, time steps, bases.
 
-use crate::mpm::{BasisName, combine, combine_bodies};
+use crate::mpm::{BasisName, combine, combine_across, combine_bodies};
 use crate::named::named;
 use crate::suite::model::grid_size::per_axis;
 use crate::suite::model::method::Method;
@@ -93,7 +93,8 @@ fn with_bases(plan: &ConvergencePlan) -> Vec<Case> {
         };
         for basis in BasisName::ALL {
             let contact = plan.scene.contact.is_some();
-            let mut known = combine(*basis, transfer, mass, frame);
+            let mut known = combine(*basis, transfer, mass, frame)
+                .and_then(|()| combine_across(plan.scene.plane, *basis, transfer));
             if plan.scene.bodies.len() > 1 {
                 known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));
             }

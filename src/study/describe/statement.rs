@@ -86,6 +86,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let across = match scene.plane {
         PlaneState::Strain => "",
         PlaneState::Stress => "stress, sigma_33 = 0",
+        PlaneState::Axisymmetric => "axisymmetric, X is the radius; sums are those of one radian",
     };
     push(rows, "plane", across);
     for (number, face) in scene.faces.iter().enumerate() {

@@ -2,7 +2,7 @@
 //!
 //! A member is one entry of [`PROBES`].
 
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, combine};
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, combine, combine_across};
 use crate::study::preflight::alignment::is_aligned;
 use crate::subject::Start;
 use crate::suite::compile::check::size;
@@ -218,7 +218,8 @@ fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<C
     let plan = with_case(plan, |case| change(&mut case.method));
     let after = plan.cases[0].method;
     let combined = match after {
-        Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame),
+        Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame)
+            .and_then(|()| combine_across(plan.scene.plane, basis, transfer)),
         Method::Fem { .. } | Method::Heat { .. } | Method::External { .. } => Ok(()),
     };
     (after != before && combined.is_ok()).then_some(plan)

@@ -33,6 +33,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     for (is_needed, what) in [
         (scene.contact.is_some(), "contact of bodies"),
         (scene.plane == PlaneState::Stress, "plane stress"),
+        (scene.plane == PlaneState::Axisymmetric, "axisymmetry"),
         (scene.each().iter().any(|body| !body.initial_stress.is_none()), "an initial stress"),
         (scene.heat().is_some(), "heat"),
         (

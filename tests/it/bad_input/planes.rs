@@ -46,6 +46,80 @@ fn a_plate_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(WAVE, edits, words);
 }
 
+const TUBE: &str = include_str!("../../../verification/pressurised-cylinder.yaml");
+const ROD: &str = include_str!("../../../verification/axisymmetric-wave.yaml");
+
+#[rstest]
+#[case::a_negative_radius(
+    &[("body: {box: {from: [0, 0]", "▸body: {box: {from: [-1, 0]")],
+    &["the body begins at a radius of -1", "the first coordinate of the meridian plane"]
+)]
+#[case::an_axis_that_is_free(
+    &[("boundary: {left: roller, ", "▸boundary: {")],
+    &["the left face is the axis, and is free", "state `left: roller`"]
+)]
+#[case::a_radius_without_end(
+    &[("boundary: {left: roller, right: roller,", "boundary: {▸left: periodic, right: periodic,")],
+    &["a radius has no period, and the face `left` is periodic"]
+)]
+#[case::domains_in_the_plane(
+    &[("- mpm: {basis: linear", "- ▸mpm: {basis: cpgimp")],
+    &["the basis `cpgimp` are means over domains in the plane", "Nairn & Guilkey 2015"]
+)]
+#[case::integrals_over_the_plane(
+    &[("transfer: [flip, apic]", "transfer: tls"), ("- mpm", "- ▸mpm")],
+    &["the transfer `tls` integrates over cells in the plane", "`plane: axisymmetric`"]
+)]
+#[case::several_bodies(
+    &[
+        ("  body: {box: {from: [0, 0], to: [b, b/4]}}\n", "  ▸bodies:\n    - body: {box: {from: [0, 0], to: [b, b/4]}}\n"),
+        ("  material:", "      material:"),
+        ("  initial_velocity: [\"v0*bessel_j1(k*X)\", 0]\n", ""),
+    ],
+    &["`plane: axisymmetric`, and several bodies"]
+)]
+#[case::a_panel(
+    &[("body: {box: {from: [0, 0], to: [b, b/4]}}", "▸body: {quadrilateral: {corners: [[0, 0], [b, 0], [b, b/4], [0, b/4]]}}")],
+    &["`plane: axisymmetric`, and quadrilaterals"]
+)]
+#[case::an_initial_stress(
+    &[("  initial_velocity", "  ▸initial_stress: {xx: \"1\"}\n  initial_velocity")],
+    &["`plane: axisymmetric`, and an initial stress has no word for its hoops"]
+)]
+#[case::a_judged_energy(
+    &[("judge: {norm: max_l2}", "judge: {of: ▸kinetic_energy, norm: linf}")],
+    &["the kinetic energy of a body of revolution is not known to the truth"]
+)]
+#[case::a_total_force(
+    &[("  initial_velocity", "  sets: {tip: {box: {from: [b/2, 0], to: [b, b/4]}}}\n  loads: [▸force: {on: tip, value: [1, 0]}]\n  initial_velocity")],
+    &["`plane: axisymmetric`, and a total force on a set"]
+)]
+#[case::the_wave_of_a_bar(
+    &[("3.8317059702075123/b", "pi/b"), ("bessel_j1(k*X)*sin", "sin(k*X)*sin"), ("[\"v0/omega", "[▸\"v0/omega"), ("v0*bessel_j1", "v0*sin")],
+    &["equation of motion in X", "this is not a solution"]
+)]
+#[case::plane_strain_with_the_wave_of_a_rod(
+    &[("plane: axisymmetric", "plane: strain"), ("[\"v0/omega", "[▸\"v0/omega")],
+    &["equation of motion in X", "this is not a solution"]
+)]
+#[case::a_radial_momentum(
+    &[("  - order: [1.9, 2.1]\n", "  - drift: {▸momentum: 1e-9}\n")],
+    &["a sum over the meridian plane, which a body of revolution does not keep"]
+)]
+fn a_rod_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(ROD, edits, words);
+}
+
+/// The stress of the hoops is part of the balance at the inner face, and the pressure acts there.
+#[rstest]
+#[case::without_hoops(("plane: axisymmetric", "plane: strain"))]
+#[case::with_another_pressure(("p: 1e-5", "p: 1.1e-5"))]
+fn a_tube_with(#[case] edit: (&str, &str)) {
+    let q = ("Q: \"(1 + nu)/E*p*", "Q: \"(1 + nu)/E*1e-5*");
+    let edits = [q, edit, ("strain\n  displacement: [\"u", "strain\n  displacement: [▸\"u")];
+    refused(TUBE, &edits, &["left is under pressure, traction in X", "this is not a solution"]);
+}
+
 #[rstest]
 #[case(BAR, 1)]
 #[case(CUBE, 3)]

@@ -16,6 +16,8 @@ pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<
         sigma,
         def_grad,
         across,
+        rate_across,
+        stress_across,
         domain,
         domain0,
         grad_v,
@@ -24,6 +26,6 @@ pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<
     } = particles;
     let vectors = [x0, x, current_position, v].into_iter().flatten().flatten();
     let matrices = [sigma, def_grad, domain, domain0, grad_v].into_iter().flatten().flatten();
-    let scalars = [mass, vol0, vol, across].into_iter().flatten();
+    let scalars = [mass, vol0, vol, across, rate_across, stress_across].into_iter().flatten();
     (temperature, vectors.chain(matrices).chain(scalars).chain(spacing).copied().collect())
 }

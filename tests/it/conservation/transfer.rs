@@ -38,6 +38,8 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
         sigma: rows.iter().map(|row| Matrix::from_fn(|i, j| row.2[i.min(j)][i.max(j)])).collect(),
         def_grad: vec![Matrix::identity(); rows.len()],
         across: Vec::new(),
+        rate_across: Vec::new(),
+        stress_across: Vec::new(),
         current_position: Vec::new(),
         domain: vec![Matrix::identity() * (0.5 * H); rows.len()],
         domain0: Vec::new(),

@@ -55,6 +55,8 @@ fn derivatives_agree_with_differences(
         "sign(x*y)*x",
         "step(x)*y*x",
         "floor(x*y)+x",
+        "bessel_j0(x*y)",
+        "bessel_j1(x*y)",
         "lambert_w(x*y)",
         "min(x*x,y*x)",
         "max(x*x,y*x)",
@@ -99,6 +101,8 @@ fn derivatives_agree_with_differences(
 #[case("x^-1", -2.0, [-0.5, -0.25, -0.25])]
 #[case("x^2.5", 0.0, [0.0, 0.0, 0.0])]
 #[case("sum(n,0,2,x^n)", 0.0, [1.0, 1.0, 2.0])]
+#[case("bessel_j0(x)", 0.0, [1.0, 0.0, -0.5])]
+#[case("bessel_j1(x)", 0.0, [0.0, 0.5, 0.0])]
 #[case("lambert_w(x)", 0.0, [0.0, 1.0, -2.0])]
 #[case("abs(x)", 0.0, [0.0, 1.0, 0.0])]
 #[case("abs(x)", -2.0, [2.0, -1.0, 0.0])]

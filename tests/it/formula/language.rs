@@ -39,6 +39,8 @@ use super::{Expr, bind};
 #[case("min(1,2)+10*max(1,2)", 21.0)]
 #[case("step(0)+step(-1)*10+sign(-3)*100+abs(-2)*1000", 1901.0)]
 #[case("floor(-1.5)", -2.0)]
+#[case("bessel_j0(1)", 0.765_197_686_557_966_6)]
+#[case("bessel_j1(1)", 0.440_050_585_744_933_5)]
 #[case("lambert_w(exp(1))", 1.0)]
 #[case("4*atan2(1,1)", PI)]
 #[case("sum(n,1,4,n^2)", 30.0)]

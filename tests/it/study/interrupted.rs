@@ -118,6 +118,8 @@ fn goes_on(suite: &Suite) -> Vec<u8> {
 #[case("plane-stress-wave")]
 #[case("plane-stress-pull")]
 #[case("vibrating-bar-reaction")]
+#[case("axisymmetric-wave")]
+#[case("pressurised-cylinder")]
 fn an_interrupted_level_shows_what_a_whole_one_does(#[case] name: &str) {
     let suite = load(name);
     let plan: &ConvergencePlan = suite.plan().unwrap();

@@ -3,6 +3,7 @@
 use super::energy;
 use crate::exact::Problem;
 use crate::mpm::MassName;
+use crate::subject::PlaneState;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face;
@@ -38,6 +39,10 @@ pub(crate) fn judged(
         return Err(diagnostic.with_help("take `rms`, or `linf` for the largest over the instants"));
     }
     let path = path.then("of");
+    if plan.scene.plane == PlaneState::Axisymmetric {
+        let message = format!("the {name} of a body of revolution is not known to the truth");
+        return Err(evaluator.diagnostic(&path, &message));
+    }
     let Some(problem) = &plan.exact else {
         let message = format!("no truth tells the {name} of the body");
         let diagnostic = evaluator.diagnostic(&path, &message);

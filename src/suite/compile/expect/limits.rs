@@ -1,5 +1,6 @@
 //! Bounds on figures, from an entry of `expect`.
 
+use crate::subject::PlaneState;
 use crate::suite::compile::check::energy;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::interval::interval;
@@ -77,6 +78,12 @@ fn drifts(
         if sum == Conserved::AngularMomentum && plan.scene.dimension() == 1 {
             let message = "there is no angular momentum in 1-D";
             return Err(evaluator.diagnostic_at_key(&path, message));
+        }
+        let is_revolved = plan.scene.plane == PlaneState::Axisymmetric;
+        if is_revolved && matches!(sum, Conserved::Momentum | Conserved::AngularMomentum) {
+            let message = "a sum over the meridian plane, which a body of revolution does not keep";
+            let diagnostic = evaluator.diagnostic_at_key(&path, message);
+            return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
         }
         if sum == Conserved::Energy {
             energy::check(evaluator, &path, plan)?;

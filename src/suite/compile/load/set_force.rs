@@ -5,6 +5,7 @@ use super::fields::{of_time, sources};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Effect, SetForce};
+use crate::subject::PlaneState;
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -31,6 +32,11 @@ impl LoadWords for SetForceSpec {
             density: scene.density,
             set,
         }))
+    }
+
+    fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
+        let reason = "a total force on a set is not one of a body of revolution";
+        (plane == PlaneState::Axisymmetric).then_some(reason)
     }
 }
 

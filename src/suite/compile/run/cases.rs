@@ -124,7 +124,7 @@ fn combined(
 ) -> Result<(), Diagnostic> {
     let Method::Mpm { basis, transfer, mass, frame, start, .. } = method else { return Ok(()) };
     let mut known = combine(basis, transfer, mass, frame)
-        .and_then(|()| combine_across(plan.scene.plane, transfer));
+        .and_then(|()| combine_across(plan.scene.plane, basis, transfer));
     if plan.scene.bodies.len() > 1 {
         let contact = plan.scene.contact.is_some();
         known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));

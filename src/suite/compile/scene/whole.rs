@@ -92,6 +92,7 @@ fn body(
         contact: None,
     };
     combined(evaluator, &words.loads)?;
+    plane::revolves(evaluator, &path, &scene)?;
     if scene.is_at_rest() {
         rest::settle(evaluator, &own.at, words, &mut scene.faces)?;
     }

@@ -149,7 +149,7 @@ fn drafts(
         }
         for draft in methods(i, spec, own) {
             if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
-                let across = |()| combine_across(plane, transfer);
+                let across = |()| combine_across(plane, basis, transfer);
                 combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
                     evaluator.diagnostic(&path, &reason).with_help(help)

@@ -1,0 +1,67 @@
+//! Hoops of a body of revolution, in its meridian plane.
+//!
+//! `D_tt = sum_i v_i,r N_i(x_p)/r_p` stretches them, and their stress pulls towards the axis:
+//! `f_i,r -= sum_p V_p sigma_tt N_i(x_p)/r_p` (Sulsky & Schreyer 1996, Comput. Methods Appl. Mech.
+//! Engrg. 139; Nairn & Guilkey 2015, Int. J. Numer. Meth. Engng 101). Masses and volumes are those
+//! of one radian, `V_p = r_p A_p`, so that the plane's own forces and inertias are as they are in
+//! the plane. The weights of force and rate are the same: what the rate takes, the force gives.
+
+use super::contract::Effect;
+use crate::mpm::algebra::Vector;
+use crate::mpm::grid::Grid;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::particles::Particles;
+use crate::subject::Column;
+
+/// The hoops of all particles.
+#[derive(Debug, Clone, Default)]
+pub struct Hoop<const D: usize> {
+    /// Velocities of the grid at the particles (m/s).
+    velocity: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Effect<D> for Hoop<D> {
+    fn name(&self) -> &'static str {
+        "hoop"
+    }
+
+    fn makes_stress(&self) -> bool {
+        true
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::of_particles("grid v", &self.velocity)]
+    }
+
+    fn map_velocity(
+        &mut self,
+        dt: f64,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        particles: &mut Particles<D>,
+    ) -> u64 {
+        self.velocity.resize(particles.len(), Vector::zeros());
+        kernel.g2p(grid, &grid.velocity, particles, (0.0, 1.0), &mut self.velocity);
+        for (p, velocity) in self.velocity.iter().enumerate() {
+            let rate = velocity[0] / particles.position(p)[0];
+            particles.rate_across[p] = rate;
+            particles.across[p] *= 1.0 + rate * dt;
+        }
+        particles.len() as u64 * kernel.support()
+    }
+
+    fn add_force(
+        &mut self,
+        _: f64,
+        particles: &Particles<D>,
+        kernel: &dyn Kernel<D>,
+        grid: &mut Grid<D>,
+    ) -> u64 {
+        for (p, x) in particles.positions().iter().enumerate() {
+            let mut force = Vector::zeros();
+            force[0] = -particles.vol[p] * particles.stress_across[p] / x[0];
+            kernel.p2g_point_force(particles, p, &force, grid);
+        }
+        particles.len() as u64 * kernel.support()
+    }
+}

@@ -1,0 +1,149 @@
+//! Bodies of revolution: a law in space whose third axis is the hoop, with F_33 = r/R.
+//!
+//! Any law can be one of a body of revolution: it is asked in three dimensions, where the shears
+//! between the meridian plane and the hoop are zero.
+
+use super::contract::Material;
+use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::particles::{Block, Particles};
+use crate::subject::{Checkpoint, Column, Failure};
+
+/// A law in space, of a body in its meridian plane.
+pub(super) struct Axisymmetric {
+    law: Box<dyn Material<3>>,
+    /// The columns of the body that the law reads and writes, in space.
+    space: Particles<3>,
+}
+
+impl Axisymmetric {
+    /// A body of revolution of this law.
+    pub(super) fn new(law: Box<dyn Material<3>>) -> Self {
+        Self { law, space: none() }
+    }
+
+    /// Lets the law act on the body as it is in space.
+    fn in_space<const D: usize, T>(
+        &mut self,
+        particles: &mut Particles<D>,
+        act: impl FnOnce(&mut dyn Material<3>, &mut Particles<3>) -> T,
+    ) -> T {
+        enter(particles, &mut self.space);
+        let acted = act(self.law.as_mut(), &mut self.space);
+        particles.vol.copy_from_slice(&self.space.vol);
+        let stresses = particles.sigma.iter_mut().zip(&mut particles.stress_across);
+        for ((sigma, across), of_space) in stresses.zip(&self.space.sigma) {
+            *sigma = of_space.fixed_view::<D, D>(0, 0).into_owned();
+            *across = of_space[(2, 2)];
+        }
+        acted
+    }
+}
+
+/// No particles.
+fn none() -> Particles<3> {
+    let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+    Particles::fill_where(&Block { from, to, density: 1.0 }, 1.0, 1, |_| false)
+}
+
+/// Puts the state of a body into `space`. Allocates the first time only.
+fn enter<const D: usize>(particles: &Particles<D>, space: &mut Particles<3>) {
+    let Particles { def_grad, grad_v, sigma, across, rate_across, stress_across, .. } = particles;
+    space.x.resize(particles.len(), Vector::zeros());
+    space.vol0.clone_from(&particles.vol0);
+    space.vol.clone_from(&particles.vol);
+    for (column, across, into) in [
+        (def_grad, across, &mut space.def_grad),
+        (grad_v, rate_across, &mut space.grad_v),
+        (sigma, stress_across, &mut space.sigma),
+    ] {
+        into.resize(column.len(), Matrix::zeros());
+        for ((block, across), into) in column.iter().zip(across).zip(into) {
+            into.fixed_view_mut::<D, D>(0, 0).copy_from(block);
+            into[(2, 2)] = *across;
+        }
+    }
+}
+
+impl<const D: usize> Material<D> for Axisymmetric {
+    fn reads_deformation(&self) -> bool {
+        self.law.reads_deformation()
+    }
+
+    fn keeps_stretch_across(&self) -> bool {
+        true
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let Particles { x, vol0, vol, sigma, def_grad, grad_v, .. } = &self.space;
+        let mut columns = self.law.columns();
+        columns.extend([
+            Column::of_particles("x in space", x),
+            Column::of_particles("V0 in space", vol0),
+            Column::of_particles("V in space", vol),
+            Column::of_particles("sigma in space", sigma),
+            Column::of_particles("F in space", def_grad),
+            Column::of_particles("grad v in space", grad_v),
+        ]);
+        columns
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        self.law.checkpoint(checkpoint);
+    }
+
+    /// Per radian.
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let mut space = none();
+        enter(particles, &mut space);
+        self.law.energy(&space)
+    }
+
+    /// The hoop stretch is that of the positions, its rate that of the velocities.
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        for p in 0..particles.len() {
+            let r = particles.position(p)[0];
+            particles.across[p] = r / particles.x0[p][0];
+            particles.rate_across[p] = particles.v[p][0] / r;
+            particles.vol[p] *= particles.across[p];
+        }
+        self.in_space(particles, |law, space| law.start_deformed(space))
+    }
+
+    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
+        self.in_space(particles, |law, space| law.update(dt, space));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::specimen::{SLOW, Specimen, every, scattered};
+    use crate::mpm::algebra::Matrix;
+    use crate::subject::PlaneState;
+    use approx::{assert_abs_diff_eq, assert_relative_eq};
+
+    fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
+        let mut space = Matrix::<3>::from_diagonal_element(across);
+        space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);
+        space
+    }
+
+    /// The stress, volume and energy of every law in space, hoop included, step after step.
+    #[test]
+    fn a_body_of_revolution_has_its_law_in_space() {
+        for plan in every() {
+            let mut body = Specimen::<2>::in_plane(plan, PlaneState::Axisymmetric).unwrap();
+            let mut space = Specimen::<3>::new(plan);
+            for (seed, hoop) in [(0.3, 0.1), (1.1, -0.2), (2.6, 0.05)] {
+                let grad_v = scattered::<2>(0.2 / SLOW, seed);
+                let sigma = body.flow_in_hoops(&grad_v, hoop / SLOW, SLOW);
+                let found = space.flow(&in_space(&grad_v, hoop / SLOW), SLOW);
+                assert_abs_diff_eq!(found, in_space(&sigma, body.stress_across()), epsilon = 1e-11);
+                assert_relative_eq!(body.j(), space.j(), max_relative = 1e-14);
+                assert_eq!(body.energy().is_some(), space.energy().is_some());
+                let energies = body.energy().zip(space.energy());
+                let (found, expected) = energies.unwrap_or_default();
+                assert_relative_eq!(found, expected, max_relative = 1e-13, epsilon = 1e-13);
+            }
+        }
+    }
+}
