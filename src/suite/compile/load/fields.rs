@@ -39,7 +39,7 @@ pub(crate) fn of_displacement<T: Number>(
     for (value, known) in all.iter_mut().zip(place) {
         *value = T::from(known);
     }
-    all[d + 1..2 * d + 1].copy_from_slice(&u[..d]);
+    all[d + 1..][..d].copy_from_slice(&u[..d]);
     formula.eval(&all[..formula.variables()])
 }
 
