@@ -10,7 +10,7 @@ use crate::suite::model::{ConvergencePlan, Suite};
 pub struct Linearisation {
     /// Residual of the equation of motion and of tractions, relative to their terms.
     pub residual: f64,
-    /// Estimated error (m) of the displacement, by [`Linearisation::of`].
+    /// Estimated error (m) of the displacement, by `Linearisation::of`.
     pub error: f64,
 }
 
