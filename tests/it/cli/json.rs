@@ -3,12 +3,13 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
 use serde_json::{Value, json};
 
-const CASE: [&str; 16] = [
+const CASE: [&str; 17] = [
     "case",
     "subject",
     "axis",
     "formal_order",
     "judge",
+    "lacks",
     "observed_order",
     "verdict",
     "expected",
