@@ -17,18 +17,17 @@ pub struct History {
 
 impl History {
     /// Starts watching the label of `samples` that is nearest to `wanted`; of two equally near
-    /// ones the first.
-    pub fn start(samples: &Samples, wanted: &[f64]) -> (usize, Self) {
+    /// ones the first. `None` of a subject without labels.
+    pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {
             let label = &samples.label[p * d..(p + 1) * d];
             label.iter().zip(wanted).map(|(a, b)| (a - b) * (a - b)).sum()
         };
         let nearest = (0..samples.len())
-            .reduce(|best, p| if distance(p) < distance(best) * (1.0 - 1e-9) { p } else { best })
-            .unwrap_or(0);
+            .reduce(|best, p| if distance(p) < distance(best) * (1.0 - 1e-9) { p } else { best })?;
         let label = samples.label[nearest * d..(nearest + 1) * d].to_vec();
-        (nearest, Self { label, velocity: Vec::new() })
+        Some((nearest, Self { label, velocity: Vec::new() }))
     }
 
     /// Records the state at an instant.
@@ -153,7 +152,12 @@ mod tests {
 
     #[test]
     fn of_two_equally_near_labels_the_first_is_watched() {
-        let (index, history) = History::start(&cubic(&[0.1, 0.45, 0.55, 0.9]), &[0.5]);
+        let (index, history) = History::start(&cubic(&[0.1, 0.45, 0.55, 0.9]), &[0.5]).unwrap();
         assert_eq!((index, history.label), (1, vec![0.45]));
+    }
+
+    #[test]
+    fn without_labels_nothing_is_watched() {
+        assert_eq!(History::start(&Samples::default(), &[0.5]), None);
     }
 }

@@ -96,10 +96,10 @@ impl<'a> RunMonitor<'a> {
     fn new(subject: &dyn Subject, truth: &'a dyn Truth, comparison: &'a Comparison<'a>) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
-        let history = comparison.observe.map(|place| {
-            let (at, mut history) = History::start(&samples, place);
+        let history = comparison.observe.and_then(|place| {
+            let (at, mut history) = History::start(&samples, place)?;
             history.record(at, &samples, truth, 0.0);
-            (at, history)
+            Some((at, history))
         });
         Self {
             truth,
