@@ -10,15 +10,14 @@ use std::io::{IsTerminal, stdout};
 
 /// Writes the initial state of a level, or its exact state at a time, to standard output.
 pub(super) fn problem(args: &ProblemArgs) -> u8 {
-    let format = args.out.0;
-    if format == ProblemFormat::Npz && stdout().is_terminal() {
+    if args.out == ProblemFormat::Npz && stdout().is_terminal() {
         output::complain("error: npz is not for a terminal: send it to a file, `> problem.npz`");
         return BAD_INPUT;
     }
     let suites = select::suites(std::slice::from_ref(&args.suite));
     let written = suites.into_iter().map(|suite| {
         let suite = suite.map_err(|diagnostic| diagnostic.to_string())?;
-        of_suite(&suite, args, format).map_err(|why| format!("error: {}: {why}", suite.name))
+        of_suite(&suite, args).map_err(|why| format!("error: {}: {why}", suite.name))
     });
     match written.collect::<Result<Vec<Vec<u8>>, String>>() {
         Ok(files) if files.len() == 1 => {
@@ -36,7 +35,7 @@ pub(super) fn problem(args: &ProblemArgs) -> u8 {
     }
 }
 
-fn of_suite(suite: &Suite, args: &ProblemArgs, format: ProblemFormat) -> Result<Vec<u8>, String> {
+fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, String> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
     let levels = &plan.refine.levels;
     let number = args.level.unwrap_or(plan.refine.usual);
@@ -48,5 +47,5 @@ fn of_suite(suite: &Suite, args: &ProblemArgs, format: ProblemFormat) -> Result<
     if let Some(t) = args.at {
         problem.particles = exact_state(plan, &problem.particles, t)?;
     }
-    problem.written(format)
+    problem.written(args.out)
 }

@@ -3,7 +3,6 @@
 use clap::Args;
 use mpm_verify::external::ProblemFormat;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 #[derive(Debug, Args)]
 pub(super) struct ProblemArgs {
@@ -17,21 +16,14 @@ pub(super) struct ProblemArgs {
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(super) at: Option<f64>,
     /// Format, which goes to standard output: csv, json, npz, vtu
-    #[arg(long, value_name = "FORMAT", default_value = "csv")]
-    pub(super) out: ProblemFormatName,
+    #[arg(long, value_name = "FORMAT", value_parser = format, default_value = "csv")]
+    pub(super) out: ProblemFormat,
 }
 
-/// A format by its name.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ProblemFormatName(pub(super) ProblemFormat);
-
-impl FromStr for ProblemFormatName {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        let known = ProblemFormat::ALL;
-        let found = known.iter().find(|format| format.name() == name);
-        let names = || known.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
-        found.map(|format| Self(*format)).ok_or_else(|| format!("expected one of {}", names()))
-    }
+/// The format with this name.
+fn format(name: &str) -> Result<ProblemFormat, String> {
+    let known = ProblemFormat::ALL;
+    let names = || known.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
+    let found = known.iter().find(|format| format.name() == name);
+    found.copied().ok_or_else(|| format!("expected one of {}", names()))
 }

@@ -1,7 +1,6 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
-use super::status::{BAD_INPUT, PASSED};
-use super::{output, select};
+use super::show;
 use mpm_verify::report;
 use mpm_verify::study::{Runner, preflight};
 use mpm_verify::suite::Suite;
@@ -10,18 +9,7 @@ use std::path::PathBuf;
 
 /// Runs each suite as if it expected nothing, and prints what it could expect.
 pub(super) fn propose(targets: &[PathBuf]) -> u8 {
-    let mut code = PASSED;
-    for found in select::with_sources(targets) {
-        let found = found.map_err(|diagnostic| diagnostic.to_string());
-        match found.and_then(|(source, suite)| of_suite(&source, &suite)) {
-            Ok(page) => output::print(&page),
-            Err(message) => {
-                output::complain(&message);
-                code = BAD_INPUT;
-            }
-        }
-    }
-    code
+    show::try_each(targets, of_suite)
 }
 
 fn of_suite(source: &Source, suite: &Suite) -> Result<String, String> {

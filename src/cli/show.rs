@@ -119,12 +119,21 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
 
 /// Prints a page of each suite that can be loaded, and the complaints about others.
 pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> u8 {
+    try_each(targets, |_, suite| Ok(page(suite)))
+}
+
+/// The same with pages that read the file too, and that there may be a complaint about.
+pub(super) fn try_each(
+    targets: &[PathBuf],
+    page: impl Fn(&Source, &Suite) -> Result<String, String>,
+) -> u8 {
     let mut code = PASSED;
-    for suite in select::suites(targets) {
-        match suite {
-            Ok(suite) => output::print(&page(&suite)),
-            Err(diagnostic) => {
-                output::complain(&diagnostic.to_string());
+    for found in select::with_sources(targets) {
+        let found = found.map_err(|diagnostic| diagnostic.to_string());
+        match found.and_then(|(source, suite)| page(&source, &suite)) {
+            Ok(page) => output::print(&page),
+            Err(message) => {
+                output::complain(&message);
                 code = BAD_INPUT;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::formula::Slope;
 use super::law::Equation;
-use super::tensor::{Tensor, cofactor, sum, tensor, unit};
+use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit};
 
 impl Equation {
     /// Whether strains are taken as they are; a theory of small strains has no deformed
@@ -18,9 +18,7 @@ impl Equation {
         if !self.is_finite() {
             return piola;
         }
-        let f: Tensor<f64> = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
-        let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
-        tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
+        pushed_forward(&piola, grad)
     }
 
     /// Present area vector of a unit of area on a face of the reference body, normal to `axis`,

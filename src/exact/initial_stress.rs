@@ -7,7 +7,7 @@
 //! beside `C : eps`: S0 is small beside the moduli there, as strains are beside one.
 
 use super::formula::{Formula, Number, Slope};
-use super::tensor::{Tensor, sum, tensor, unit};
+use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
 
 /// S0 (Pa), a symmetric tensor field on the reference body.
 #[derive(Debug, Clone, Default)]
@@ -65,10 +65,7 @@ impl InitialStress {
         if !is_finite {
             return piola;
         }
-        let f: Tensor<f64> = tensor(|i, j| grad[i][j] + unit::<f64>(i, j));
-        let cofactor: Tensor<f64> = tensor(|i, j| super::tensor::cofactor(&f, i, j));
-        let det = super::tensor::det(&f, &cofactor);
-        tensor(|i, j| sum::<f64, 3>(|k| piola[i][k] * f[j][k]) / det)
+        pushed_forward(&piola, grad)
     }
 
     /// Its part of Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.

@@ -56,6 +56,13 @@ pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor
     sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
+/// The Cauchy stress that belongs to a P, `P F^T/J`, in the units of P.
+pub(super) fn pushed_forward(piola: &Tensor<f64>, grad: &Tensor<f64>) -> Tensor<f64> {
+    let f: Tensor<f64> = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
+    let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
+    tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
+}
+
 /// det F in a plane, of the displacement gradient.
 pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
     let f: Tensor<T, 2> = tensor(|i, j| grad[i][j] + unit(i, j));

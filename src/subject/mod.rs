@@ -8,11 +8,13 @@ mod checkpoint;
 mod plane;
 mod profile;
 mod reaction;
+mod totals;
 
 pub use checkpoint::{Checkpoint, Memory};
 pub use plane::PlaneState;
 pub use profile::{Column, Holder, Profile};
 pub use reaction::Reaction;
+pub use totals::Totals;
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};
@@ -161,49 +163,6 @@ pub struct RunCounters {
     pub left_domain: Option<u64>,
     /// Smallest J = det F met so far.
     pub min_j: f64,
-}
-
-/// Sums over the body, p, of what a motion without outer forces keeps; components beyond the
-/// dimension are zero.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Totals {
-    /// `sum m_p` (kg).
-    pub mass: f64,
-    /// `sum m_p v_p` (kg m/s).
-    pub momentum: [f64; 3],
-    /// `sum m_p |v_p|`, against which a change of the momentum is small or not (kg m/s).
-    pub momentum_size: f64,
-    /// `sum m_p x_p x v_p` about the origin, and what particles carry within themselves (kg m2/s).
-    /// In 2-D the third component only; zero in 1-D.
-    pub angular_momentum: [f64; 3],
-    /// The sum of the magnitudes of those terms (kg m2/s).
-    pub angular_momentum_size: f64,
-    /// `sum m_p v_p^2 / 2` (J).
-    pub kinetic_energy: f64,
-    /// Energy that the material stores (J); `None` if its law has none.
-    pub strain_energy: Option<f64>,
-}
-
-impl Totals {
-    /// Kinetic and stored energy together (J).
-    pub fn energy(&self) -> Option<f64> {
-        self.strain_energy.map(|stored| self.kinetic_energy + stored)
-    }
-
-    /// The sums over two bodies.
-    #[must_use]
-    pub fn plus(self, other: Self) -> Self {
-        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
-        Self {
-            mass: self.mass + other.mass,
-            momentum: sum(self.momentum, other.momentum),
-            momentum_size: self.momentum_size + other.momentum_size,
-            angular_momentum: sum(self.angular_momentum, other.angular_momentum),
-            angular_momentum_size: self.angular_momentum_size + other.angular_momentum_size,
-            kinetic_energy: self.kinetic_energy + other.kinetic_energy,
-            strain_energy: self.strain_energy.zip(other.strain_energy).map(|(a, b)| a + b),
-        }
-    }
 }
 
 /// Where a failure happened.

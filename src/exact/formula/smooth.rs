@@ -13,11 +13,7 @@ impl Formula {
     /// behind a pole. For the same reason `exp(ln(x^2)/2)`, which is `abs(x)`, is none.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
-        let varies = |operand: &Operand| match operand {
-            Operand::Constant(_) => false,
-            Operand::Variable(_) => true,
-            Operand::Register(register) => varying[*register],
-        };
+        let varies = |operand: &Operand| varies(*operand, &varying);
         self.code().iter().all(|step| match &step.action {
             Action::Copy(_)
             | Action::Negate(_)
@@ -37,17 +33,22 @@ impl Formula {
         loop {
             let before = varying.clone();
             for step in self.code() {
-                let varies = step.action.arguments().any(|operand| match operand {
-                    Operand::Constant(_) => false,
-                    Operand::Variable(_) => true,
-                    Operand::Register(register) => varying[register],
-                });
+                let varies = step.action.arguments().any(|operand| varies(operand, &varying));
                 varying[step.to] |= varies;
             }
             if varying == before {
                 return varying;
             }
         }
+    }
+}
+
+/// Whether an operand depends on a variable, where the `varying` registers do.
+fn varies(operand: Operand, varying: &[bool]) -> bool {
+    match operand {
+        Operand::Constant(_) => false,
+        Operand::Variable(_) => true,
+        Operand::Register(register) => varying[register],
     }
 }
 

@@ -221,18 +221,9 @@ impl Subject for ProgramSubject {
             let x: [f64; 3] = std::array::from_fn(|i| {
                 at(&self.samples.label, i) + at(&self.samples.displacement, i)
             });
-            let speed = v.iter().map(|v| v * v).sum::<f64>();
             let turn =
                 [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
-            totals.mass += mass;
-            totals.momentum_size += mass * speed.sqrt();
-            totals.kinetic_energy += 0.5 * mass * speed;
-            for i in 0..3 {
-                totals.momentum[i] += mass * v[i];
-                totals.angular_momentum[i] += mass * turn[i];
-            }
-            totals.angular_momentum_size +=
-                mass * turn.iter().map(|turn| turn * turn).sum::<f64>().sqrt();
+            totals.add(*mass, v, turn.map(|turn| mass * turn));
         }
         Some(totals)
     }

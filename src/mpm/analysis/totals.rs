@@ -11,18 +11,9 @@ impl<const D: usize> Particles<D> {
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
         for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
-            let speed = v.norm();
-            totals.mass += m;
-            totals.momentum_size += m * speed;
-            totals.kinetic_energy += 0.5 * m * speed * speed;
-            for (total, v) in totals.momentum.iter_mut().zip(v.iter()) {
-                *total += m * v;
-            }
             let spin = axial(&self.moment(p, own(p))).map(|component| m * component);
-            totals.angular_momentum_size += libm::hypot(libm::hypot(spin[0], spin[1]), spin[2]);
-            for (total, spin) in totals.angular_momentum.iter_mut().zip(spin) {
-                *total += spin;
-            }
+            let v = std::array::from_fn(|i| if i < D { v[i] } else { 0.0 });
+            totals.add(*m, v, spin);
         }
         totals
     }

@@ -116,16 +116,9 @@ impl<const D: usize> Material<D> for Axisymmetric {
 
 #[cfg(test)]
 mod tests {
-    use super::super::specimen::{SLOW, Specimen, every, scattered};
-    use crate::mpm::algebra::Matrix;
+    use super::super::specimen::{SLOW, Specimen, every, in_space, scattered};
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
-
-    fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
-        let mut space = Matrix::<3>::from_diagonal_element(across);
-        space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);
-        space
-    }
 
     /// The stress, volume and energy of every law in space, hoop included, step after step.
     #[test]

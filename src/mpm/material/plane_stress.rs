@@ -108,7 +108,7 @@ impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::specimen::{SLOW, Specimen, every, scattered};
+    use super::super::specimen::{SLOW, Specimen, every, in_space, scattered};
     use crate::mpm::algebra::{Matrix, det};
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
@@ -120,12 +120,6 @@ mod tests {
         let plates: Vec<_> = every().into_iter().filter_map(plate).collect();
         assert!(plates.len() >= 3, "linear elasticity, neo-Hookean, Hencky");
         plates
-    }
-
-    fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
-        let mut space = Matrix::<3>::from_diagonal_element(across);
-        space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);
-        space
     }
 
     /// The law in space, stretched across as the plate is, has the plate's stress and none across.

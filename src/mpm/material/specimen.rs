@@ -120,3 +120,10 @@ pub(super) fn diagonal<const D: usize>(first: f64) -> Matrix<D> {
     m[(0, 0)] = first;
     m
 }
+
+/// A tensor of the plane with a component `across` it.
+pub(super) fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
+    let mut space = Matrix::<3>::from_diagonal_element(across);
+    space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);
+    space
+}

@@ -1,7 +1,9 @@
 //! The exact state at the places of a level's particles.
 
+use crate::dimension::with_dimension;
 use crate::exact::Truth;
 use crate::external::ProblemParticles;
+use crate::mpm::{Matrix, det};
 use crate::suite::model::ConvergencePlan;
 
 /// The particles as the exact motion has them at time `t` (s): position, velocity, and where they
@@ -25,23 +27,10 @@ pub fn exact_state(
         truth.velocity(label, t, &mut state.velocity[vector]);
         let f = &mut state.deformation_gradient[tensor.clone()];
         if truth.deformation_gradient(label, t, f) {
-            state.volume[p] = determinant(f, d) * start.reference_volume[p];
+            let j = with_dimension!(d, D => det(&Matrix::<D>::from_row_slice(f)));
+            state.volume[p] = j * start.reference_volume[p];
         }
         truth.stress(label, t, &mut state.stress[tensor]);
     }
     Ok(state)
-}
-
-/// Determinant of a tensor in d dimensions, row after row.
-fn determinant(f: &[f64], d: usize) -> f64 {
-    match d {
-        1 => f[0],
-        2 => f[0] * f[3] - f[1] * f[2],
-        _ => (0..3)
-            .map(|i| {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                f[i] * (f[3 + j] * f[6 + k] - f[3 + k] * f[6 + j])
-            })
-            .sum(),
-    }
 }

@@ -49,6 +49,17 @@ pub fn level_problem(
     })
 }
 
+/// Whether a particle of the coarsest level starts displaced, or with another F than I.
+pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
+    let d = plan.scene.dimension();
+    let Some(level) = plan.refine.levels.first() else { return false };
+    // A level that cannot be handed over says so where that is tried.
+    let Ok(start) = with_dimension!(d, D => particles::<D>(plan, *level)) else { return false };
+    let identity = |k: usize| f64::from(u8::from(k / d == k % d));
+    let mut f = start.deformation_gradient.iter().enumerate();
+    start.position != start.reference_position || f.any(|(k, f)| *f != identity(k % (d * d)))
+}
+
 fn load(load: &ListedLoad) -> ProblemLoad {
     ProblemLoad { load: load.effect.name(), rows: load.rows() }
 }

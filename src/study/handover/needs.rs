@@ -1,19 +1,14 @@
 //! Abilities that a suite asks of a solver.
 
+use super::initial::starts_deformed;
 use crate::external::ProblemNeeds;
 use crate::subject::PlaneState;
-use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
+use crate::suite::model::{ConvergencePlan, SceneFace};
 use crate::verify::{Quantity, SumNeed};
 
 /// The needs of a convergence study.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     let scene = &plan.scene;
-    let starts =
-        plan.exact.as_ref().filter(|problem| problem.follows_motion).is_some_and(|problem| {
-            let from = problem.motion.derivatives(&middle(scene), 0.0);
-            from.u != [0.0; 3] || from.grad != [[0.0; 3]; 3]
-        });
-    let displaced = scene.each().iter().any(|body| !body.initial_displacement.is_empty());
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
         laws: scene.each().iter().map(|body| body.material.name()).collect(),
@@ -21,7 +16,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         loads: scene.loads.iter().map(|load| load.effect.name()).collect(),
         column: column(plan.of),
         manufactured: plan.manufactured().is_some(),
-        initial_deformation: starts || displaced,
+        initial_deformation: starts_deformed(plan),
         several_bodies: !scene.bodies.is_empty(),
         beyond: Vec::new(),
     };
@@ -51,12 +46,6 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         }
     }
     needs
-}
-
-/// A place inside the body where nothing is likely to vanish by symmetry.
-fn middle(scene: &Scene) -> Vec<f64> {
-    let ends = scene.from.iter().zip(&scene.to);
-    ends.map(|(from, to)| from + (to - from) / std::f64::consts::PI).collect()
 }
 
 /// The column that is judged, if it is none that every solver gives.

@@ -28,7 +28,7 @@ pub(crate) const FAILED: i32 = 1;
 pub(crate) const BAD_INPUT: i32 = 2;
 
 /// A suite of two subjects that runs in milliseconds.
-const BAR: &str = r#"suite: short-bar
+pub(crate) const BAR: &str = r#"suite: short-bar
 title: Short bar
 source: a textbook
 

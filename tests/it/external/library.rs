@@ -1,6 +1,6 @@
 //! Solvers of a user of the library.
 
-use super::BAR;
+use super::bar;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::Runner;
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
@@ -81,13 +81,13 @@ fn outcome(text: &str) -> CaseOutcome {
 
 #[test]
 fn a_solver_in_a_few_lines_has_the_order_of_theory() {
-    let found = outcome(BAR);
+    let found = outcome(&bar());
     assert!(found.passed() && found.verdict.contains("converging"), "{}", found.reason);
 }
 
 #[test]
 fn what_a_maker_refuses_is_not_applicable() {
-    let free = BAR.replace("sin(pi*X/2)", "cos(pi*X/2)").replace("left: fixed", "right: fixed");
+    let free = bar().replace("sin(pi*X/2)", "cos(pi*X/2)").replace("left: fixed", "right: fixed");
     let found = outcome(&free);
     assert_eq!((found.result(), found.verdict.as_str()), ("n/a", "not applicable"));
     assert!(found.reason.contains("a left end that is not held"), "{}", found.reason);

@@ -1,7 +1,7 @@
 //! Processes that break the protocol, each in its own way. Whatever they do, the other levels go
 //! on, and the verdict says what happened.
 
-use super::BAR;
+use super::bar;
 use super::program::HELLO;
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use rstest::rstest;
@@ -17,7 +17,7 @@ fn script(then: &str) -> String {
 /// What a run of `script` prints, with its exit status.
 fn run(script: &str, more: &[&str]) -> (i32, String) {
     let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    folder.write("bar.yaml", bar());
     folder.write("solver.sh", script);
     let mut arguments = vec!["run", "bar.yaml", "--solver", "sh solver.sh"];
     arguments.extend(more);
@@ -93,7 +93,7 @@ fn a_gate_fails_with_its_solver() {
 #[test]
 fn no_grandchild_is_left() {
     let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    folder.write("bar.yaml", bar());
     folder.write("solver.sh", script("sleep 98 & echo $! >> pids; exit 1"));
     folder.call(&["run", "bar.yaml", "--solver", "sh solver.sh"]);
     let pids = std::fs::read_to_string(folder.path().join("pids")).expect("pids");
@@ -125,7 +125,7 @@ fn no_grandchild_is_left() {
 )]
 fn a_command_that_cannot_be_greeted_is_bad_input(#[case] command: &str, #[case] words: &str) {
     let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    folder.write("bar.yaml", bar());
     let found = folder.call(&["run", "bar.yaml", "--solver", command]);
     assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
     assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);

@@ -1,6 +1,6 @@
 //! A sound solver in a shell script.
 
-use super::BAR;
+use super::bar;
 use crate::cli::{FAILED, Folder, SOUND};
 
 /// What a solver of one-dimensional elasticity says first.
@@ -39,7 +39,7 @@ done
 
 fn folder() -> Folder {
     let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    folder.write("bar.yaml", bar());
     folder.write("solver.sh", SECOND_ORDER.replace("HELLO", HELLO));
     folder
 }
