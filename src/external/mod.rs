@@ -11,15 +11,19 @@
 
 mod capabilities;
 mod factory;
+#[cfg(feature = "external-programs")]
 mod format;
 mod problem;
+#[cfg(feature = "external-programs")]
 mod program;
 
 pub use capabilities::{Capabilities, ProblemNeeds};
 pub use factory::SolverFactory;
+#[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
 pub use problem::{
     BodyForceField, BodyForceFunction, LevelProblem, ProblemFace, ProblemGrid, ProblemLoad,
     ProblemMaterial, ProblemParticles,
 };
+#[cfg(feature = "external-programs")]
 pub use program::{ProgramLimits, SolverProgram};
