@@ -26,11 +26,9 @@
 //! what is refined:
 //!
 //! ```
-//! use mpm_verify::{
-//!     exact::Truth,
-//!     subject::{Failure, RunCounters, Samples, Subject},
-//!     verify::{Clock, Comparison, Level, OrderHypothesis, Verdict, judge, run},
-//! };
+//! use mpm_verify::exact::Truth;
+//! use mpm_verify::prelude::*;
+//! use mpm_verify::verify::{Clock, Comparison, Level, OrderHypothesis, judge, run};
 //!
 //! const W: f64 = 3.0;
 //!
@@ -46,17 +44,12 @@
 //!     }
 //!
 //!     fn sample(&self, samples: &mut Samples) {
-//!         samples.clear();
-//!         samples.dimension = 1;
-//!         samples.label.push(0.0);
-//!         samples.displacement.push(self.u);
-//!         samples.velocity.push(self.v);
-//!         samples.weight.push(1.0);
+//!         samples.restart(1);
+//!         samples.push(&[0.0], &[self.u], &[self.v], 1.0);
 //!     }
 //!
 //!     fn counters(&self) -> RunCounters {
-//!         let (particles, crossings, left_domain) = (None, None, None);
-//!         RunCounters { particles, transfers: self.steps, crossings, left_domain, min_j: 1.0 }
+//!         RunCounters::new(self.steps)
 //!     }
 //! }
 //!
@@ -91,6 +84,8 @@ pub mod verify;
 
 pub mod report;
 pub mod suite;
+
+pub mod prelude;
 
 mod dimension;
 mod members;

@@ -29,6 +29,7 @@ pub struct Capabilities {
 
 /// Needs of a problem, each by the name that suites and capabilities have for it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ProblemNeeds {
     /// Number of space dimensions.
     pub dimension: usize,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 /// Initial state of one level of a study, with all that its motion depends on.
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct LevelProblem {
     /// Name of the suite.
     pub suite: String,
@@ -42,6 +43,7 @@ pub struct LevelProblem {
 
 /// Cells of one size along every axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProblemGrid {
     /// Lowest corner (m), D numbers.
     pub origin: Vec<f64>,
@@ -55,6 +57,7 @@ pub struct ProblemGrid {
 
 /// One face of the body's box.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProblemFace {
     /// Its name, as suites write it.
     pub name: &'static str,
@@ -70,6 +73,7 @@ pub struct ProblemFace {
 
 /// The material of one body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProblemMaterial {
     /// Name of the law, as suites write it.
     pub law: &'static str,
@@ -86,6 +90,7 @@ fn as_map<S: Serializer>(all: &[(&'static str, f64)], to: S) -> Result<S::Ok, S:
 
 /// A load or effect of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProblemLoad {
     /// Its name, as suites write it.
     pub load: &'static str,
@@ -95,6 +100,7 @@ pub struct ProblemLoad {
 
 /// Particles at the start: n of them, one after the other.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ProblemParticles {
     /// Reference positions X (m), n D numbers.
     pub reference_position: Vec<f64>,

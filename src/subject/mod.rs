@@ -106,6 +106,7 @@ named! {
 /// subject that has no stress, no F or no temperature leaves that column empty, and cannot be
 /// judged by it.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Samples {
     /// Number of space dimensions, D.
     pub dimension: usize,
@@ -136,6 +137,21 @@ impl Samples {
         self.weight.is_empty()
     }
 
+    /// Begins anew, in so many dimensions.
+    pub fn restart(&mut self, dimension: usize) {
+        self.clear();
+        self.dimension = dimension;
+    }
+
+    /// Adds a point: reference position (m), displacement (m) and velocity (m/s), D numbers each,
+    /// and the reference volume (m^D) that it stands for.
+    pub fn push(&mut self, label: &[f64], displacement: &[f64], velocity: &[f64], weight: f64) {
+        self.label.extend_from_slice(label);
+        self.displacement.extend_from_slice(displacement);
+        self.velocity.extend_from_slice(velocity);
+        self.weight.push(weight);
+    }
+
     /// Empties the columns and keeps their memory.
     pub fn clear(&mut self) {
         self.label.clear();
@@ -151,6 +167,7 @@ impl Samples {
 /// Deterministic figures of a run: what it cost, and what a reader must know beside an error.
 /// `None` where the subject has no such thing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RunCounters {
     /// Particles (MPM).
     pub particles: Option<u64>,
@@ -161,12 +178,21 @@ pub struct RunCounters {
     pub crossings: Option<u64>,
     /// Particles outside the grid now (MPM).
     pub left_domain: Option<u64>,
-    /// Smallest J = det F met so far.
+    /// Smallest J = det F met so far; NaN where it is not known.
     pub min_j: f64,
+}
+
+impl RunCounters {
+    /// Counters of a subject that knows no more than its `transfers`.
+    pub fn new(transfers: u64) -> Self {
+        let (particles, crossings, left_domain) = (None, None, None);
+        Self { particles, transfers, crossings, left_domain, min_j: f64::NAN }
+    }
 }
 
 /// Where a failure happened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum Site {
     /// Index of a particle.
     #[error("particle {0}")]
@@ -181,6 +207,7 @@ pub enum Site {
 
 /// Why a subject could not go on.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Failure {
     /// A quantity became NaN or infinite.
     #[error("{quantity} of {site} is not finite")]

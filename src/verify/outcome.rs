@@ -19,6 +19,7 @@ use std::sync::Arc;
 
 /// One suite, run.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct SuiteOutcome {
     /// Name of the suite.
     pub suite: String,
@@ -36,6 +37,7 @@ pub struct SuiteOutcome {
 
 /// One case, run and judged.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct CaseOutcome {
     /// Name of the case, unique in its suite.
     pub case: String,
@@ -70,6 +72,7 @@ impl StudyResults for StabilityStudy {}
 
 /// Results of a convergence study.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Convergence {
     /// Axis of refinement.
     pub axis: Axis,
@@ -108,6 +111,7 @@ pub struct Convergence {
 
 /// One level of a refinement plan.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct LevelOutcome {
     /// Cells along the first axis.
     pub cells: u64,

@@ -139,12 +139,6 @@ impl Subject for Broken {
     }
 
     fn counters(&self) -> RunCounters {
-        RunCounters {
-            particles: None,
-            transfers: 0,
-            crossings: None,
-            left_domain: None,
-            min_j: f64::NAN,
-        }
+        RunCounters::new(0)
     }
 }

@@ -76,10 +76,7 @@ impl ProgramSubject {
         }
         let counters = RunCounters {
             particles: bodies.is_some().then_some(particles.len() as u64),
-            transfers: 0,
-            crossings: None,
-            left_domain: None,
-            min_j: f64::NAN,
+            ..RunCounters::new(0)
         };
         let mut instants = problem.instants.clone().into_iter();
         Ok(Self {

@@ -229,13 +229,7 @@ mod tests {
     use crate::verify::Norms;
 
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
-        let counters = RunCounters {
-            particles: None,
-            transfers: 0,
-            crossings: None,
-            left_domain: None,
-            min_j: 1.0,
-        };
+        let counters = RunCounters::new(0);
         let run = RunResult {
             errors: Norms::ZERO,
             max_rms: 0.0,

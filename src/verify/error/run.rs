@@ -273,8 +273,7 @@ mod tests {
         }
 
         fn counters(&self) -> RunCounters {
-            let (particles, crossings, left_domain) = (None, None, None);
-            RunCounters { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
+            RunCounters::new(0)
         }
     }
 

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 /// Results of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RunResult {
     /// Errors of the displacement at the end (m); all NaN if the run failed.
     pub errors: Norms,

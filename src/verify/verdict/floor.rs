@@ -15,6 +15,7 @@ const LEAST_FALL: f64 = 0.25;
 
 named! {
     /// Whose error a floor is.
+    #[non_exhaustive]
     pub enum FloorCause {
         /// That of the time step.
         Time = "time",
@@ -39,6 +40,7 @@ pub struct Probe {
 
 /// Errors of the finest level with another spacing halved.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Floor {
     /// The error there.
     pub error: f64,

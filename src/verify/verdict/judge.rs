@@ -43,6 +43,7 @@ const FEWEST_BEFORE_FLOOR: usize = 3;
 
 /// A verdict with the figures that led to it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,

@@ -6,6 +6,7 @@ use std::str::FromStr;
 /// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order; every
 /// other word is a different way of not doing so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Verdict {
     /// The whole confidence interval of the observed order lies in the expected range.
     Converging,
@@ -66,6 +67,7 @@ impl fmt::Display for Verdict {
 /// A word that is no verdict.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{word}` is not a verdict; known: {}", Verdict::ALL.map(Verdict::name).join(", "))]
+#[non_exhaustive]
 pub struct UnknownVerdict {
     /// The word as it was given.
     pub word: String,

@@ -40,8 +40,7 @@ impl Subject for Differences {
     }
 
     fn sample(&self, samples: &mut Samples) {
-        samples.clear();
-        samples.dimension = 1;
+        samples.restart(1);
         samples.label.clone_from(&self.problem.particles.reference_position);
         samples.weight.clone_from(&self.problem.particles.reference_volume);
         samples.displacement.clone_from(&self.u);
@@ -49,8 +48,7 @@ impl Subject for Differences {
     }
 
     fn counters(&self) -> RunCounters {
-        let (particles, crossings, left_domain) = (None, None, None);
-        RunCounters { particles, transfers: 0, crossings, left_domain, min_j: 1.0 }
+        RunCounters::new(0)
     }
 }
 

@@ -56,9 +56,11 @@ fn of_the_finest(
     });
     let judgement = judge(&levels.collect::<Vec<_>>(), &hypothesis);
     let verdict = judgement.verdict;
-    let levels = coarser.to_vec();
-    let cut = Arc::new(Convergence { levels, judgement, ..study.clone() });
-    let rankings = by_transfers(&[CaseOutcome { study: Some(cut), ..case.clone() }]);
+    let mut cut = study.clone();
+    (cut.levels, cut.judgement) = (coarser.to_vec(), judgement);
+    let mut case = case.clone();
+    case.study = Some(Arc::new(cut));
+    let rankings = by_transfers(&[case]);
     let row = rankings.first()?.rows.first()?;
     let error = PredictedError::of(&row.method.samples, &row.part, verdict, formal_order);
     let error = error.at(finest.spacing)?;
