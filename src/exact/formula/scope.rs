@@ -13,12 +13,20 @@ use super::lexer::is_name;
 pub struct Scope {
     constants: BTreeMap<String, f64>,
     functions: BTreeMap<String, Function>,
+    tables: BTreeMap<String, Tabulated>,
 }
 
 /// A user function.
 #[derive(Debug, Clone)]
 pub(super) struct Function {
     pub(super) parameters: Vec<String>,
+    pub(super) body: Expr,
+}
+
+/// An expression that a name stands for, and the one name that it reads.
+#[derive(Debug, Clone)]
+pub(super) struct Tabulated {
+    pub(super) by: String,
     pub(super) body: Expr,
 }
 
@@ -81,6 +89,37 @@ impl Scope {
         Ok(())
     }
 
+    /// Declares a table: `name` stands for a piecewise linear function of `by`, a constant or a
+    /// variable, through `rows` of ascending values of `by` and the value there, constant before
+    /// the first and after the last.
+    ///
+    /// # Errors
+    /// When `name` or `by` is not a name, or when `name` is taken.
+    pub fn table(&mut self, name: &str, by: &str, rows: &[(f64, f64)]) -> Result<(), FormulaError> {
+        self.admit(name)?;
+        Self::named(by)?;
+        let table = Tabulated { by: by.to_owned(), body: interpolation(by, rows)? };
+        self.tables.insert(name.to_owned(), table);
+        Ok(())
+    }
+
+    /// Refuses a `name` that does not have the form of one.
+    ///
+    /// # Errors
+    /// When it is not made of ASCII letters, digits and `_`, or begins with a digit.
+    pub fn named(name: &str) -> Result<(), FormulaError> {
+        if is_name(name) {
+            return Ok(());
+        }
+        Err(FormulaError::new(0..name.len(), format!("`{name}` is not a name"))
+            .help("a name is made of ASCII letters, digits and `_`, no digit first"))
+    }
+
+    /// The tables declared, in alphabetical order.
+    pub fn tables(&self) -> impl Iterator<Item = &str> {
+        self.tables.keys().map(String::as_str)
+    }
+
     /// The constants declared, in alphabetical order.
     pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
         self.constants.iter().map(|(name, value)| (name.as_str(), *value))
@@ -95,6 +134,10 @@ impl Scope {
         self.constants.get(name).copied()
     }
 
+    pub(super) fn tabulated(&self, name: &str) -> Option<(&str, &Tabulated)> {
+        self.tables.get_key_value(name).map(|(name, table)| (name.as_str(), table))
+    }
+
     pub(super) fn called(&self, name: &str) -> Option<(&str, &Function)> {
         self.functions.get_key_value(name).map(|(name, function)| (name.as_str(), function))
     }
@@ -102,10 +145,7 @@ impl Scope {
     /// Refuses a `name`, found at `span`, that is not a name or has a meaning already.
     pub(super) fn fresh(&self, name: &str, span: Range<usize>) -> Result<(), FormulaError> {
         let refuse = |role| Err(FormulaError::new(span, format!("`{name}` is already {role}")));
-        if !is_name(name) {
-            return Err(FormulaError::new(0..name.len(), format!("`{name}` is not a name"))
-                .help("a name is made of ASCII letters, digits and `_`, no digit first"));
-        }
+        Self::named(name)?;
         if is_reserved(name) {
             return refuse("a builtin name");
         }
@@ -114,6 +154,9 @@ impl Scope {
         }
         if self.functions.contains_key(name) {
             return refuse("a function");
+        }
+        if self.tables.contains_key(name) {
+            return refuse("a table");
         }
         Ok(())
     }
@@ -131,4 +174,14 @@ impl Scope {
             }
         }
     }
+}
+
+/// The expression of a table: its first value, and the rise over each of its intervals.
+fn interpolation(by: &str, rows: &[(f64, f64)]) -> Result<Expr, FormulaError> {
+    let rise = |pair: &[(f64, f64)]| {
+        let ((from, low), (to, high)) = (pair[0], pair[1]);
+        format!("+({:e})*(min(max({by},{from:e}),{to:e})-({from:e}))", (high - low) / (to - from))
+    };
+    let first = rows.first().map_or(0.0, |(_, value)| *value);
+    Expr::parse(&format!("({first:e}){}", rows.windows(2).map(rise).collect::<String>()))
 }

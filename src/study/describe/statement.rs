@@ -10,9 +10,9 @@ use crate::suite::model::{Scene, Suite};
 /// Parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
-    let parameter = |(name, text, value): &(String, String, f64)| {
-        let same = text.parse() == Ok(*value);
-        if same { format!("{name} = {text}") } else { format!("{name} = {text} = {value:.6}") }
+    let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
+        Some(value) if text.parse() != Ok(*value) => format!("{name} = {text} = {value:.6}"),
+        _ => format!("{name} = {text}"),
     };
     let parameters: Vec<String> = suite.parameters.iter().map(parameter).collect();
     push(&mut rows, "parameters", &parameters.join(", "));

@@ -1,5 +1,6 @@
 //! Keys of an internal-force study.
 
+use super::ParameterSpec;
 use super::StudyName;
 use crate::mpm::BasisName;
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
@@ -17,7 +18,7 @@ pub(crate) struct InternalForceSpec {
     #[serde(default)]
     pub(crate) about: String,
     #[serde(default)]
-    pub(crate) parameters: Ordered<NumberText>,
+    pub(crate) parameters: Ordered<ParameterSpec>,
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     pub(crate) internal_force: ForceSpec,

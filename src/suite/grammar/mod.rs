@@ -6,6 +6,7 @@
 pub(crate) mod drift;
 pub(crate) mod head;
 pub(crate) mod internal_force;
+pub(crate) mod parameter;
 pub(crate) mod refine;
 pub(crate) mod sample;
 pub(crate) mod scene;
@@ -17,6 +18,7 @@ pub(crate) mod truth;
 pub(crate) use drift::DriftSpec;
 pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
+pub(crate) use parameter::{ParameterSpec, TableSpec};
 pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
 pub(crate) use sample::read;
 pub(crate) use scene::{
@@ -48,7 +50,7 @@ pub(crate) struct ConvergenceSpec {
     #[serde(default)]
     pub(crate) about: String,
     #[serde(default)]
-    pub(crate) parameters: Ordered<NumberText>,
+    pub(crate) parameters: Ordered<ParameterSpec>,
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     pub(crate) scene: SceneSpec,

@@ -1,5 +1,6 @@
 //! Keys of a stability study.
 
+use super::ParameterSpec;
 use super::{MethodSpec, SceneSpec, StepSpec, StudyName};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use crate::verify::Stability;
@@ -17,7 +18,7 @@ pub(crate) struct StabilitySpec {
     #[serde(default)]
     pub(crate) about: String,
     #[serde(default)]
-    pub(crate) parameters: Ordered<NumberText>,
+    pub(crate) parameters: Ordered<ParameterSpec>,
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     pub(crate) scene: SceneSpec,

@@ -1,12 +1,11 @@
 //! A time step: a length, or a rule for it (`auto`, `{courant: 0.5}`).
 
-use crate::suite::yaml::NumberText;
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor};
-use std::fmt;
+use crate::suite::yaml::{InPlaceOfNumber, NumberOr, NumberText};
+use serde::Deserialize;
 
 /// Length of a step.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Deserialize)]
+#[serde(from = "NumberOr<Rule>")]
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
@@ -17,53 +16,22 @@ pub(crate) enum StepSpec {
 }
 
 /// `{courant: 0.5}`.
-#[derive(serde::Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Rule {
     courant: NumberText,
 }
 
-impl<'de> Deserialize<'de> for StepSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(LengthOrRule)
-    }
+impl InPlaceOfNumber for Rule {
+    const EXPECTED: &'static str = "a time step, `auto`, or `{courant: ...}`";
 }
 
-struct LengthOrRule;
-
-fn length<'de, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<StepSpec, E> {
-    NumberText::deserialize(value.into_deserializer()).map(StepSpec::Length)
-}
-
-impl<'de> Visitor<'de> for LengthOrRule {
-    type Value = StepSpec;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a time step, `auto`, or `{courant: ...}`")
-    }
-
-    fn visit_str<E: Error>(self, text: &str) -> Result<StepSpec, E> {
-        if text == "auto" { Ok(StepSpec::Auto) } else { length(text) }
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StepSpec, A::Error> {
-        Rule::deserialize(MapAccessDeserializer::new(map))
-            .map(|rule| StepSpec::Courant(rule.courant))
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<StepSpec, E> {
-        length(value)
-    }
-
-    fn visit_u64<E: Error>(self, value: u64) -> Result<StepSpec, E> {
-        length(value)
-    }
-
-    fn visit_u128<E: Error>(self, value: u128) -> Result<StepSpec, E> {
-        length(value)
-    }
-
-    fn visit_f64<E: Error>(self, value: f64) -> Result<StepSpec, E> {
-        length(value)
+impl From<NumberOr<Rule>> for StepSpec {
+    fn from(step: NumberOr<Rule>) -> Self {
+        match step {
+            NumberOr::Number(NumberText::Formula(text)) if text == "auto" => Self::Auto,
+            NumberOr::Number(length) => Self::Length(length),
+            NumberOr::Map(rule) => Self::Courant(rule.courant),
+        }
     }
 }

@@ -43,8 +43,8 @@ pub struct Suite {
     pub source: String,
     /// Remarks of the author for a reader.
     pub about: String,
-    /// Every parameter: name, what the file says, value.
-    pub parameters: Vec<(String, String, f64)>,
+    /// Every parameter: name, what the file says, and its value unless that is a table's.
+    pub parameters: Vec<(String, String, Option<f64>)>,
     /// User functions: head and body.
     pub functions: Vec<(String, String)>,
     /// Plan of its study.

@@ -28,6 +28,7 @@
 pub(crate) mod diagnostic;
 pub(crate) mod exchange;
 pub(crate) mod locate;
+pub(crate) mod number_or;
 pub(crate) mod number_text;
 pub(crate) mod one_or_many;
 pub(crate) mod ordered;
@@ -49,6 +50,7 @@ mod tests;
 pub use diagnostic::{Diagnostic, Severity};
 pub(crate) use exchange::{read_again, written};
 pub use locate::Step;
+pub(crate) use number_or::{InPlaceOfNumber, NumberOr};
 pub use number_text::NumberText;
 pub use one_or_many::OneOrMany;
 pub use ordered::Ordered;

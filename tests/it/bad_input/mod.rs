@@ -30,6 +30,7 @@ mod scenes;
 mod sizes;
 mod stability;
 mod steps;
+mod tables;
 mod truths;
 mod vortex;
 

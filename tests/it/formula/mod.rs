@@ -11,6 +11,7 @@ mod language;
 mod limits;
 mod random;
 mod several;
+mod tables;
 
 use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Scope};
 

@@ -7,6 +7,7 @@
 mod call;
 mod name;
 mod sum;
+mod table;
 
 use std::collections::BTreeSet;
 
@@ -113,7 +114,7 @@ impl<'a> ProgramBuilder<'a> {
         match &node.kind {
             NodeKind::Number(value) => Ok(Operand::Constant(*value)),
             NodeKind::Index(level) => Ok(frame.indices[*level]),
-            NodeKind::Name(name) => self.name(frame, node, name),
+            NodeKind::Name(name) => self.name(frame, node, name, at),
             NodeKind::Negate(a) => {
                 let a = self.compile(frame, *a, at)?;
                 Ok(self.emit(Action::Negate(a), at))

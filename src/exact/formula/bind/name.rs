@@ -11,13 +11,14 @@ use crate::nearest::by_nearness;
 /// Most constants that a message lists.
 const LISTED: usize = 8;
 
-impl ProgramBuilder<'_> {
+impl<'a> ProgramBuilder<'a> {
     /// The value that a name stands for.
     pub(super) fn name(
         &mut self,
-        frame: &Frame,
-        node: &Node,
+        frame: &Frame<'a>,
+        node: &'a Node,
         name: &str,
+        at: usize,
     ) -> Result<Operand, FormulaError> {
         if let Some((_, operand)) = frame.locals.iter().find(|(local, _)| *local == name) {
             return Ok(*operand);
@@ -25,6 +26,9 @@ impl ProgramBuilder<'_> {
         if let Some(value) = self.scope.value(name) {
             self.uses.insert(name.to_owned());
             return Ok(Operand::Constant(value));
+        }
+        if let Some(table) = self.scope.tabulated(name) {
+            return self.table(frame, node, table, at);
         }
         let span = node.span.clone();
         if self.scope.called(name).is_some() {
@@ -41,6 +45,7 @@ impl ProgramBuilder<'_> {
         let local = frame.locals.iter().any(|(local, _)| *local == name);
         let role = match frame.function {
             _ if self.scope.value(name).is_some() => "a constant",
+            _ if self.scope.tabulated(name).is_some() => "a table",
             Some(_) if local => "a parameter",
             None if local => "a variable",
             _ => {
@@ -82,13 +87,14 @@ impl ProgramBuilder<'_> {
     /// Every name that may be meant in any frame.
     fn declared(&self) -> impl Iterator<Item = &str> {
         let constants = self.scope.constants().map(|(name, _)| name);
-        constants.chain(self.scope.functions()).chain(builtin::names())
+        let declared = constants.chain(self.scope.tables()).chain(self.scope.functions());
+        declared.chain(builtin::names())
     }
 }
 
 impl Frame<'_> {
     /// The names that the formula or function has of its own.
-    fn listing(&self) -> String {
+    pub(super) fn listing(&self) -> String {
         let names: Vec<String> =
             self.locals.iter().map(|(local, _)| format!("`{local}`")).collect();
         match (self.function, names.is_empty()) {

@@ -2,10 +2,12 @@
 
 mod cause;
 mod names;
+mod table;
 
 use super::path::Path;
 use super::wording::shown;
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
+use crate::suite::grammar::ParameterSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -13,8 +15,8 @@ use std::collections::BTreeSet;
 /// Largest count that a suite may ask for (cells, particles per cell, instants).
 const MOST: f64 = 1e7;
 
-/// A parameter: its name, what the file says, its value.
-pub(crate) type DeclaredParameter = (String, String, f64);
+/// A parameter: its name, what the file says, its value unless that is a table's.
+pub(crate) type DeclaredParameter = (String, String, Option<f64>);
 
 /// The names of a suite, and which of them have been used.
 pub(crate) struct Evaluator<'a> {
@@ -31,7 +33,7 @@ impl<'a> Evaluator<'a> {
     /// the evaluator and each parameter's name, text and value.
     pub(crate) fn new(
         source: &'a Source,
-        parameters: &Ordered<NumberText>,
+        parameters: &Ordered<ParameterSpec>,
         functions: &Ordered<String>,
     ) -> Result<(Self, Vec<DeclaredParameter>), Diagnostic> {
         let scope = Scope::new();
@@ -43,12 +45,18 @@ impl<'a> Evaluator<'a> {
             evaluator.declare_function(head, body)?;
         }
         let mut values = Vec::new();
-        for (name, text) in parameters.as_slice() {
+        for (name, spec) in parameters.as_slice() {
             let path = Path::top("parameters").then(name.as_str());
-            let value = evaluator.number(&path, text)?;
-            let declared = evaluator.scope.constant(name, value);
-            declared.map_err(|error| evaluator.at_key(&path, &error))?;
-            values.push((name.clone(), text.to_string(), value));
+            let (text, value) = match spec {
+                ParameterSpec::Number(text) => {
+                    let value = evaluator.number(&path, text)?;
+                    let declared = evaluator.scope.constant(name, value);
+                    declared.map_err(|error| evaluator.at_key(&path, &error))?;
+                    (text.to_string(), Some(value))
+                }
+                ParameterSpec::Map(spec) => evaluator.declare_table(&path, name, spec)?,
+            };
+            values.push((name.clone(), text, value));
         }
         Ok((evaluator, values))
     }

@@ -2,7 +2,8 @@
 
 use super::Evaluator;
 use crate::suite::compile::path::Path;
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
+use crate::suite::grammar::ParameterSpec;
+use crate::suite::yaml::{Diagnostic, Ordered};
 
 impl Evaluator<'_> {
     /// Refuses a declared name that formulas need for one of their `variables`.
@@ -13,7 +14,8 @@ impl Evaluator<'_> {
             Err(self.diagnostic_at_key(path, &message).with_help(&help))
         };
         for name in variables {
-            if self.scope.constants().any(|(constant, _)| constant == *name) {
+            let declared = self.scope.constants().map(|(known, _)| known);
+            if declared.chain(self.scope.tables()).any(|known| known == *name) {
                 return diagnostic(&Path::top("parameters").then(*name), name);
             }
             if let Some(head) = self.head_of(name) {
@@ -26,7 +28,7 @@ impl Evaluator<'_> {
     /// Complains of the first parameter or function that nothing uses.
     pub(crate) fn refuse_unused(
         &self,
-        parameters: &Ordered<NumberText>,
+        parameters: &Ordered<ParameterSpec>,
         functions: &Ordered<String>,
     ) -> Result<(), Diagnostic> {
         let used = self.used.borrow();
@@ -56,6 +58,7 @@ impl Evaluator<'_> {
     pub(super) fn comes_later(&self, name: &str) -> bool {
         self.parameters.iter().any(|known| known == name)
             && !self.scope.constants().any(|(known, _)| known == name)
+            && !self.scope.tables().any(|known| known == name)
     }
 
     /// The head under which the file declares `function`.

@@ -11,12 +11,12 @@ use crate::suite::compile::run::step_rule;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::scene::whole;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::StabilitySpec;
+use crate::suite::grammar::{ParameterSpec, StabilitySpec};
 use crate::suite::model::Scene;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::yaml::{Diagnostic, NumberText, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
 use crate::verify::Scales;
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
@@ -50,9 +50,8 @@ impl SetupTemplate {
         &self,
         values: &ParameterValues<'_>,
     ) -> Result<Evaluator<'_>, Diagnostic> {
-        let replace = |parameters: crate::suite::yaml::Ordered<NumberText>,
-                       (name, value): &(&str, f64)| {
-            parameters.with(name, NumberText::Number(*value))
+        let replace = |parameters: Ordered<ParameterSpec>, (name, value): &(&str, f64)| {
+            parameters.with(name, ParameterSpec::Number(NumberText::Number(*value)))
         };
         let parameters = values.iter().fold(self.spec.parameters.clone(), replace);
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
