@@ -150,6 +150,11 @@ impl Problem {
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
     }
 
+    /// Whether the whole body force takes second derivatives of the motion.
+    pub(super) fn force_is_of_second_order(&self) -> bool {
+        self.manufactured || self.terms.iter().any(|term| term.resists_imbalance())
+    }
+
     /// Component i of the stated forces (m/s2).
     fn stated(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         self.uniform(i, t) + self.placed(i, label, t, u)

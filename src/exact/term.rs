@@ -42,6 +42,11 @@ pub trait Term: Debug + Send + Sync {
         0.0
     }
 
+    /// Whether that force asks for the force out of balance.
+    fn resists_imbalance(&self) -> bool {
+        false
+    }
+
     /// Expansion by temperature.
     fn expansion(&self) -> Option<Expansion> {
         None

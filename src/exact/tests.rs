@@ -55,6 +55,10 @@ impl Term for LocallyDamped {
         let sign = if velocity == 0.0 { 0.0 } else { velocity.signum() };
         -self.0 * unbalanced().abs() * sign
     }
+
+    fn resists_imbalance(&self) -> bool {
+        true
+    }
 }
 
 /// A condition by what it demands of a point.

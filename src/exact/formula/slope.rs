@@ -24,6 +24,17 @@ impl<const N: usize> Slope<N> {
         Self { value, gradient }
     }
 
+    /// The variable with the number `index`, at `value`.
+    ///
+    /// # Panics
+    /// If `index` is not below `N`.
+    #[inline]
+    pub fn variable(value: f64, index: usize) -> Self {
+        let mut slope = Self::from(value);
+        slope.gradient[index] = 1.0;
+        slope
+    }
+
     /// The derivative along the direction `i`.
     ///
     /// # Panics
