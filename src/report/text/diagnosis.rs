@@ -75,7 +75,11 @@ fn paragraph(found: &Diagnosis) -> String {
 
 /// A ratio to what was before.
 fn times(ratio: f64) -> String {
-    if ratio < 0.1 {
+    if !ratio.is_finite() {
+        "a number, which it was not".to_owned()
+    } else if ratio < 1e-4 {
+        format!("{ratio:.0e} of that")
+    } else if ratio < 0.1 {
         format!("1/{:.0} of that", 1.0 / ratio)
     } else {
         format!("{ratio:.2} times that")
@@ -92,7 +96,8 @@ fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
             run.order.map(|order| order.shown())
         }),
         TableColumn::<&ChangedRun>::text("error/before", "finest error over that before", |run| {
-            format!("{:.3}", run.ratio)
+            let is_large = run.ratio >= 1e4;
+            if is_large { format!("{:.1e}", run.ratio) } else { format!("{:.3}", run.ratio) }
         }),
     ]
 }

@@ -7,7 +7,7 @@
 
 pub(crate) mod probes;
 
-use self::probes::{PROBES, ProbeKind};
+use self::probes::{Crossings, PROBES, ProbeKind};
 use crate::study::convergence::formal_order::formal_order;
 use crate::study::convergence::outcome::to_judge;
 use crate::study::kind::{RunContext, Storage, Study};
@@ -126,6 +126,8 @@ impl Context<'_> {
         into: &mut Diagnosis,
     ) {
         let error = |levels: &[LevelOutcome]| levels.last().map_or(f64::NAN, |level| level.error);
+        let crossed = |level: &LevelOutcome| level.run.counters.crossings != Some(0);
+        let crossings = if levels.iter().any(crossed) { Crossings::Some } else { Crossings::None };
         let mut left = budget;
         for (kind, plan, scale) in self.changed(source, finest) {
             let h = |plan: &ConvergencePlan| plan.refine.levels.last().map_or(0.0, |level| level.h);
@@ -141,7 +143,7 @@ impl Context<'_> {
             let judgement = self.judge(&found.levels, found.axis);
             into.runs.push(ChangedRun {
                 change: kind.change.to_owned(),
-                cause: (kind.cause)(self.case),
+                cause: (kind.cause)(self.case, crossings),
                 remedy: kind.remedy,
                 verdict: judgement.verdict,
                 order: judgement.order,

@@ -11,12 +11,21 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify::Axis;
 
+/// Whether particles change their cells in the runs of a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Crossings {
+    /// None does.
+    None,
+    /// Some do, or nobody says.
+    Some,
+}
+
 /// A change of one thing.
 pub(crate) struct ProbeKind {
     /// The thing, and into what it is changed.
     pub(crate) change: &'static str,
     /// The cause, if the change helps.
-    pub(crate) cause: fn(&Case) -> &'static str,
+    pub(crate) cause: fn(&Case, Crossings) -> &'static str,
     /// The remedy for an author.
     pub(crate) remedy: &'static str,
     /// The plan with the change; `None` where it means nothing.
@@ -26,7 +35,7 @@ pub(crate) struct ProbeKind {
 /// A smaller motion. The plan comes from the text of the suite, with its amplitude scaled.
 pub(crate) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
-    cause: |_| {
+    cause: |_, _| {
         "an error of the size of the strain, which no grid removes: of a truth of small strain, or of \
          particles that a large motion carries out of their places"
     },
@@ -38,7 +47,7 @@ pub(crate) const AMPLITUDE: ProbeKind = ProbeKind {
 pub(crate) const PROBES: &[ProbeKind] = &[
     ProbeKind {
         change: "the reference in place of the formula",
-        cause: |_| "the exact formula solves another model than the method does",
+        cause: |_, _| "the exact formula solves another model than the method does",
         remedy: "hold the method against a truth of its own model",
         apply: |plan| {
             let has_both = plan.reference.is_some() && plan.cases[0].against == Against::Exact;
@@ -47,7 +56,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "the formula in place of the reference",
-        cause: |_| "the reference solves another model than the method does",
+        cause: |_, _| "the reference solves another model than the method does",
         remedy: "hold the method against a truth of its own model",
         apply: |plan| {
             let has_both = plan.has_formulas() && plan.cases[0].against == Against::Reference;
@@ -56,7 +65,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "`start: half_step_back`",
-        cause: |_| "the start: v(0) stands in for v(-dt/2), an error of first order in time",
+        cause: |_, _| "the start: v(0) stands in for v(-dt/2), an error of first order in time",
         remedy: "`start: half_step_back`",
         apply: |plan| match plan.cases[0].method {
             Method::Mpm { start: Start::AtZero, .. } | Method::Fem { start: Start::AtZero, .. } => {
@@ -72,7 +81,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "`scheme: musl`",
-        cause: |_| "the scheme: USF updates the stress half a step late, first order in time",
+        cause: |_, _| "the scheme: USF updates the stress half a step late, first order in time",
         remedy: "`scheme: musl` or `usl`, or shorter steps",
         apply: |plan| match plan.cases[0].method {
             Method::Mpm { scheme: SchemeName::Usf, .. } => with_method(plan, |method| {
@@ -85,7 +94,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "`basis: cpgimp`",
-        cause: |_| {
+        cause: |_, _| {
             "domains of fixed width: they part and overlap where the body is stretched and \
              compressed, an error of the order of the strain"
         },
@@ -101,7 +110,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "cells whose lines meet every interface and loaded face",
-        cause: |_| "an interface or a loaded face inside a cell, which smears what happens there",
+        cause: |_, _| "an interface or a loaded face inside a cell, which smears what happens there",
         remedy: "numbers of cells of which whole ones fit up to the interface or the loaded face",
         apply: |plan| {
             let aligned = |h: f64| is_aligned(&plan.scene, h);
@@ -118,7 +127,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "twice as many particles along each axis of a cell",
-        cause: |_| "too few particles per cell: the integrals are those of the particles",
+        cause: |_, _| "too few particles per cell: the integrals are those of the particles",
         remedy: "more particles per cell",
         apply: |plan| {
             let dimension = plan.scene.dimension();
@@ -128,7 +137,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "the consistent mass matrix",
-        cause: |_| "lumping: row sums are not the mass that a smooth acceleration sees",
+        cause: |_, _| "lumping: row sums are not the mass that a smooth acceleration sees",
         remedy: "`mass: consistent`",
         apply: |plan| {
             let walls = plan.scene.faces.iter();
@@ -143,7 +152,11 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "`frame: total_lagrangian`",
-        cause: |case| match case.method {
+        cause: |case, crossings| match case.method {
+            _ if crossings == Crossings::None => {
+                "the motion itself, though no particle changes its cell: the grid does not follow it, and \
+                 a truth of small strain knows nothing of it"
+            }
             Method::Mpm { basis: BasisName::Linear, .. } => {
                 "grid crossing: the nodal forces of linear functions jump whenever a particle changes \
                  its cell"
@@ -164,7 +177,10 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "`basis: quadratic_bspline`",
-        cause: |_| "grid crossing: linear functions have gradients that jump from cell to cell",
+        cause: |_, crossings| match crossings {
+            Crossings::None => "linear functions: their gradients jump from cell to cell",
+            Crossings::Some => "grid crossing: the gradients of linear functions jump",
+        },
         remedy: "a basis with continuous gradients",
         apply: |plan| match plan.cases[0].method {
             Method::Mpm { basis: BasisName::Linear, .. } => with_method(plan, |method| {
@@ -177,7 +193,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "a quarter of the time step",
-        cause: |_| "the error of the time step",
+        cause: |_, _| "the error of the time step",
         remedy: "shorter steps, or steps that follow h",
         apply: |plan| {
             (plan.refine.axis != Axis::Time).then_some(())?;
@@ -191,7 +207,7 @@ pub(crate) const PROBES: &[ProbeKind] = &[
     },
     ProbeKind {
         change: "cells of half the size",
-        cause: |_| "the cells: the levels are still too coarse",
+        cause: |_, _| "the cells: the levels are still too coarse",
         remedy: "finer levels",
         apply: |plan| {
             let is_of_space = plan.refine.axis == Axis::Space;

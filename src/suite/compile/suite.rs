@@ -51,15 +51,16 @@ fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
 /// If the scaled motion is no solution, as where loads stay what they are.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     let mut spec: ConvergenceSpec = read(source, "convergence")?;
-    let ConvergenceSpec { scene, exact, manufactured, expect, .. } = &mut spec;
+    let ConvergenceSpec { scene, exact, manufactured, equilibrium, expect, .. } = &mut spec;
     expect.clear();
     let exact = exact.as_mut().and_then(|exact| exact.displacement.as_mut());
+    let at_rest = equilibrium.as_mut().and_then(|exact| exact.displacement.as_mut());
     let manufactured = manufactured.as_mut().and_then(|given| given.displacement.as_mut());
     let bodies = scene.bodies.iter_mut().flatten();
     let of_bodies =
         bodies.flat_map(|body| [&mut body.initial_displacement, &mut body.initial_velocity]);
     let of_scene = [&mut scene.initial_displacement, &mut scene.initial_velocity];
-    let fields = [exact, manufactured].into_iter().chain(of_scene.map(Option::as_mut));
+    let fields = [exact, at_rest, manufactured].into_iter().chain(of_scene.map(Option::as_mut));
     for text in fields.flatten().chain(of_bodies.filter_map(Option::as_mut)).flatten() {
         *text = NumberText::Formula(format!("{factor}*({text})"));
     }

@@ -82,9 +82,13 @@ impl Diagnosis {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         // An order that is nearly that of theory is restored only by one that is within its range.
+        let off = |order: Option<Interval>| {
+            order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
+        };
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
-            run.verdict == Verdict::Converging && (is_within || !is_near)
+            let is_nearer = off(run.order) < off(self.finest.order);
+            run.verdict == Verdict::Converging && is_nearer && (is_within || !is_near)
         };
         if let Some(run) = self.runs.iter().find(restores) {
             return Some((run, Evidence::Restored));
