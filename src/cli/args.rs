@@ -66,6 +66,8 @@ pub(super) struct CheckArgs {
     /// Exit status 1 if there are warnings
     #[arg(long)]
     pub(super) strict: bool,
+    #[command(flatten)]
+    pub(super) solver: SolverArgs,
     /// Check again whenever one of the files changes, until Ctrl-C
     #[arg(long)]
     pub(super) watch: bool,
@@ -151,7 +153,7 @@ pub(super) struct RunArgs {
     pub(super) html: Option<PathBuf>,
     /// Keep finished levels and the states of running ones in this folder, and take from it those
     /// that are there: an interrupted run goes on where it was
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with = "solver")]
     pub(super) resume: Option<PathBuf>,
     /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
     #[arg(long, value_name = "TIME", value_parser = seconds, requires = "resume")]
@@ -163,18 +165,25 @@ pub(super) struct RunArgs {
     #[arg(long)]
     pub(super) watch: bool,
     #[command(flatten)]
-    pub(super) solver: SolverArgs,
+    pub(super) judged: JudgedSolverArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct JudgedSolverArgs {
+    #[command(flatten)]
+    pub(super) program: SolverArgs,
+    /// Expect the order that the solver of `--solver` claims of each case of which the suite says
+    /// nothing
+    #[arg(long, requires = "solver")]
+    pub(super) gate: bool,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct SolverArgs {
     /// Put this program to the suites instead of their methods: a command with its arguments that
     /// speaks the protocol of docs/protocol.md
-    #[arg(long, value_name = "COMMAND", conflicts_with = "resume")]
+    #[arg(long, value_name = "COMMAND")]
     pub(super) solver: Option<String>,
-    /// Expect of each case of `--solver` the order that the solver claims
-    #[arg(long, requires = "solver")]
-    pub(super) gate: bool,
     /// Longest time without an answer of the solver
     #[arg(long, value_name = "TIME", value_parser = seconds, default_value = "60s")]
     pub(super) solver_timeout: f64,

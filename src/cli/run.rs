@@ -46,7 +46,7 @@ fn all(args: &RunArgs) -> u8 {
         select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
     let (sources, mut suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
-    let solver = match solver::greeted(&args.solver) {
+    let solver = match solver::greeted(&args.judged.program) {
         Ok(solver) => solver,
         Err(message) => {
             output::complain(&message);
@@ -54,7 +54,7 @@ fn all(args: &RunArgs) -> u8 {
         }
     };
     if let Some(solver) = &solver {
-        suites = solver::judged(suites, solver, args.solver.gate);
+        suites = solver::judged(suites, solver, args.judged.gate);
     }
     let twice = twice(&suites);
     for (option, given, clash) in [

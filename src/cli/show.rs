@@ -2,7 +2,7 @@
 
 use super::args::CheckArgs;
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, select, watch};
+use super::{output, select, solver, watch};
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
@@ -29,13 +29,28 @@ fn all(args: &CheckArgs) -> u8 {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
     let mut names: BTreeMap<String, String> = BTreeMap::new();
+    let solver = match solver::greeted(&args.solver) {
+        Ok(solver) => solver,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
     let checked = found.into_par_iter().map(|found| {
-        let (source, suite) = found?;
+        let (source, mut suite) = found?;
+        let mut lacks = Vec::new();
+        if let Some(solver) = &solver {
+            match solver::of(&suite, solver, false) {
+                Some(under_solver) => suite = under_solver,
+                None => lacks.push("what a study of this kind asks for".to_owned()),
+            }
+            lacks.extend(study::lacking(&suite, solver));
+        }
         let diagnostics = study::preflight(&suite, &source);
-        Ok((source, suite, diagnostics))
+        Ok((source, suite, lacks, diagnostics))
     });
     for found in checked.collect::<Vec<Result<_, Diagnostic>>>() {
-        let (source, suite, mut diagnostics) = match found {
+        let (source, suite, lacks, mut diagnostics) = match found {
             Ok(found) => found,
             Err(diagnostic) => {
                 output::complain(&diagnostic.to_string());
@@ -43,6 +58,11 @@ fn all(args: &CheckArgs) -> u8 {
                 continue;
             }
         };
+        if !lacks.is_empty() {
+            let (name, lacks) = (&suite.name, lacks.join(", "));
+            output::print(&format!("{name}: not applicable, the solver lacks {lacks}\n"));
+            continue;
+        }
         output::print(&sound(&suite));
         let earlier = names.insert(suite.name.clone(), source.name().to_owned());
         diagnostics.extend(earlier.map(|earlier| named_twice(&suite, &source, &earlier)));

@@ -2,7 +2,7 @@
 
 use super::capabilities::ProblemNeeds;
 use super::problem::LevelProblem;
-use crate::subject::Subject;
+use crate::subject::{Precision, Subject};
 
 /// A solver that can be put on every level of a suite.
 pub trait SolverFactory: Sync {
@@ -12,6 +12,11 @@ pub trait SolverFactory: Sync {
     /// Order in h that theory gives its displacements on a smooth solution.
     fn formal_order(&self) -> f64 {
         2.0
+    }
+
+    /// Precision of its numbers.
+    fn precision(&self) -> Precision {
+        Precision::Double
     }
 
     /// Settings for reports, as rows of name and value.

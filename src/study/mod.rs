@@ -31,7 +31,7 @@ pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
 pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
-pub use handover::{exact_state, level_problem, needs};
+pub use handover::{exact_state, lacking, level_problem, needs};
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use preflight::{Estimate, estimate, preflight};
 pub use runner::Runner;

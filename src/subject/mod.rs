@@ -4,12 +4,15 @@
 //! crate's own MPM and FEM, or a solver of yours. The trait is object-safe and flat (`f64` slices,
 //! no type of this crate's algebra), so that a solver in another language can stand behind it.
 
+mod account;
 mod checkpoint;
 mod plane;
 mod profile;
 mod reaction;
 mod totals;
 
+pub use account::Precision;
+pub(crate) use account::{HIGHEST_ORDER, LONGEST_NAME, is_solver_name};
 pub use checkpoint::{Checkpoint, Memory};
 pub use plane::PlaneState;
 pub use profile::{Column, Holder, Profile};

@@ -3,6 +3,7 @@
 use super::frame::MessageFrame;
 use super::printable::printable;
 use crate::external::capabilities::Capabilities;
+use crate::subject::Precision;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -39,6 +40,8 @@ pub(super) struct Hello {
     pub(super) version: String,
     #[serde(default = "two")]
     pub(super) formal_order: f64,
+    #[serde(default)]
+    pub(super) precision: Precision,
     #[serde(default)]
     pub(super) capabilities: Capabilities,
 }

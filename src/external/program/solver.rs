@@ -9,14 +9,13 @@ use super::subject::{ProgramSubject, longest_answer};
 use crate::external::capabilities::ProblemNeeds;
 use crate::external::factory::SolverFactory;
 use crate::external::problem::LevelProblem;
-use crate::subject::{Failure, RunCounters, Samples, Subject};
+use crate::subject::{
+    Failure, HIGHEST_ORDER, LONGEST_NAME, Precision, RunCounters, Samples, Subject, is_solver_name,
+};
 use serde_json::json;
 
 /// Version of the protocol.
 const PROTOCOL: u64 = 1;
-
-/// Longest name of a solver, in bytes.
-const LONGEST_NAME: usize = 64;
 
 /// A solver behind a command.
 #[derive(Debug, Clone)]
@@ -80,16 +79,18 @@ fn connected(command: &[String], limits: ProgramLimits) -> Result<(Connection, H
         let theirs = hello.protocol;
         return Err(format!("speaks version {theirs} of the protocol; this is version {PROTOCOL}"));
     }
-    let sound = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     let name = &hello.name;
-    if name.is_empty() || name.len() > LONGEST_NAME || !name.chars().all(sound) {
+    if !is_solver_name(name) {
         return Err(format!(
             "is called `{}`: expected up to {LONGEST_NAME} letters, digits, `-`, `_` or `.`",
             printable(name)
         ));
     }
-    if !(hello.formal_order > 0.0 && hello.formal_order <= 20.0) {
-        return Err(format!("has the formal order {}: expected one up to 20", hello.formal_order));
+    if !(hello.formal_order > 0.0 && hello.formal_order <= HIGHEST_ORDER) {
+        return Err(format!(
+            "has the formal order {}: expected one up to {HIGHEST_ORDER}",
+            hello.formal_order
+        ));
     }
     Ok((connection, hello))
 }
@@ -103,12 +104,17 @@ impl SolverFactory for SolverProgram {
         self.hello.formal_order
     }
 
+    fn precision(&self) -> Precision {
+        self.hello.precision
+    }
+
     fn settings(&self) -> Vec<(String, String)> {
         let version = printable(&self.hello.version);
         let version = if version.is_empty() { "not said".to_owned() } else { version };
         vec![
             ("solver".to_owned(), self.hello.name.clone()),
             ("version".to_owned(), version),
+            ("precision".to_owned(), self.hello.precision.name().to_owned()),
             ("formal order".to_owned(), format!("{}, by its own account", self.hello.formal_order)),
         ]
     }

@@ -38,7 +38,7 @@ pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
         // Forward Euler.
         Method::Heat { .. } => return 1.0,
         // What is told of such a solver is its order in space: none in time is known.
-        Method::External { formal_order } => return formal_order,
+        Method::External { formal_order, .. } => return formal_order,
     };
     let [moves, accelerates] = exact.map_or([true, true], begins);
     let pushed = start == Start::AtZero && accelerates;

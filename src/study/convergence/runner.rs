@@ -69,6 +69,10 @@ impl CaseRunner for ConvergenceRunner<'_> {
             _ => case.expectation.as_ref(),
         };
         let Some(solver) = self.context.solver else {
+            if case.solver.is_some() {
+                let lacks = vec!["`--solver COMMAND`".to_owned()];
+                return not_applicable(plan, case, lacks, "is not there without");
+            }
             return self
                 .run(case, expectation, progress)
                 .unwrap_or_else(|reason| refused(plan, case, expectation, reason));

@@ -12,4 +12,4 @@ mod needs;
 
 pub use exact::exact_state;
 pub use initial::level_problem;
-pub use needs::needs;
+pub use needs::{lacking, needs};

@@ -1,9 +1,9 @@
 //! Abilities that a suite asks of a solver.
 
 use super::initial::starts_deformed;
-use crate::external::ProblemNeeds;
+use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::PlaneState;
-use crate::suite::model::{ConvergencePlan, SceneFace};
+use crate::suite::model::{ConvergencePlan, SceneFace, Suite};
 use crate::verify::{Quantity, SumNeed};
 
 /// The needs of a convergence study.
@@ -46,6 +46,11 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         }
     }
     needs
+}
+
+/// Everything that `suite` needs and `solver` lacks; nothing of a study that refines nothing.
+pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
+    suite.plan().map_or(Vec::new(), |plan| solver.lacks(&needs(plan)))
 }
 
 /// The column that is judged, if it is none that every solver gives.

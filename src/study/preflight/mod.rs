@@ -7,6 +7,8 @@
 //! time_step    steps beyond the stable one, and steps that do not follow the cells
 //! reach        a motion that leaves the grid
 //! strain       a solution of small strain or of a linearised law, and where its error shows
+//! precision    a solver that computes in single precision
+//! floor        an error that no refinement lowers, and where it shows
 //! linearised   a tolerance for a linearised solution that is larger than it needs
 //! alignment    interfaces and loaded faces inside a cell
 //! cost         seconds and memory
@@ -18,8 +20,10 @@
 pub(crate) mod alignment;
 pub(crate) mod cost;
 pub(crate) mod extremes;
+pub(crate) mod floor;
 pub(crate) mod levels;
 pub(crate) mod linearised;
+pub(crate) mod precision;
 pub(crate) mod reach;
 pub(crate) mod strain;
 pub(crate) mod subject;
@@ -35,8 +39,14 @@ use crate::suite::yaml::{Diagnostic, Source};
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
 /// Every rule of suites that claim an order.
-const RULES_OF_ORDER: [PreflightRule; 5] =
-    [levels::check, time_step::check, reach::check, strain::check, alignment::check];
+const RULES_OF_ORDER: [PreflightRule; 6] = [
+    levels::check,
+    time_step::check,
+    reach::check,
+    strain::check,
+    precision::check,
+    alignment::check,
+];
 
 /// Every rule of all suites.
 const RULES: [PreflightRule; 1] = [linearised::check];

@@ -1,17 +1,12 @@
 //! A solution of small strain or of a linearised law beside a solver that has neither.
 
+use super::floor;
 use super::subject::Preflight;
 use crate::study::describe::linearisation::Linearisation;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case};
-use crate::suite::yaml::{Diagnostic, Severity};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::Axis;
-
-/// Share of the error of the cells from which on another one bends its order.
-const SEEN: f64 = 0.3;
-
-/// Share from which on a few refinements more will show it.
-const SOON: f64 = 0.003;
 
 /// The error of a solution that is not one of the solver's problem.
 struct ModelError {
@@ -37,7 +32,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
         return Some(ModelError { size: error, origin: origin + ", and", remedy });
     }
     let strain = motion.gradient;
-    let is_small = !problem.equation.is_finite() && !problem.at_rest && strain > 0.0;
+    let is_small = !problem.equation.is_finite() && strain > 0.0;
     if !is_small || !matches!(case.method, Method::Mpm { .. }) {
         return None;
     }
@@ -47,6 +42,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.equation.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
+    let early = if problem.at_rest { f64::INFINITY } else { early };
     let origin = format!(
         "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e}"
     );
@@ -65,25 +61,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(error) = exact.find_map(|case| model_error(preflight, case)) else {
         return Vec::new();
     };
-    let ModelError { size: left, origin, remedy } = error;
-    let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
-    // Interpolation by linear functions: h^2/8 times the second derivative.
-    let of_cells = |h: f64| 0.125 * h * h * curvature;
-    let shows = preflight.levels().iter().find(|level| left > SEEN * of_cells(level.h));
-    let (severity, level) = match (shows, preflight.levels().last()) {
-        (Some(level), _) => {
-            (Severity::Warning, format!("shows from about {} cells on", level.cells))
-        }
-        (None, Some(finest)) if left > SOON * of_cells(finest.h) => {
-            let times = (SEEN * of_cells(finest.h) / left).sqrt();
-            let cells = format!("{:.0e}", times * finest.cells as f64);
-            let cells: f64 = cells.parse().unwrap_or(f64::NAN);
-            (Severity::Note, format!("will show from about {cells} cells on"))
-        }
-        _ => return Vec::new(),
-    };
-    let message = format!("{origin} this leaves an error of about {left:.1e} m, which {level}");
-    let found = preflight.finding(severity, &preflight.motion(), &message);
+    let ModelError { size, origin, remedy } = error;
     let help = format!("a tenth of the amplitude leaves a hundredth of it; {remedy}");
-    vec![if severity == Severity::Warning { found.with_help(&help) } else { found }]
+    floor::finding(preflight, size, &origin, &help).into_iter().collect()
 }

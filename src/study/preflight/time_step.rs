@@ -8,11 +8,12 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::Axis;
 
-/// Warns of a step in which a wave, or a particle, crosses more than a cell, and notes one that is
-/// the same on every level of a study of space.
+/// Warns of a step in which a wave, or a particle, crosses more than a cell, or in which heat does
+/// not flow stably, and notes one that is the same on every level of a study of space.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     found.extend(too_long(preflight));
+    found.extend(too_long_for_heat(preflight));
     found.extend(fixed(preflight));
     found
 }
@@ -34,6 +35,23 @@ fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     );
     let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
     let help = "`dt: {courant: 0.5}` takes half of the stable time step on every level";
+    Some(found.with_label("expected a stable step").with_help(help))
+}
+
+/// Forward Euler on lumped linear elements is stable up to h^2 rho c/(2 k) (Hughes 2000, section
+/// 8.2).
+fn too_long_for_heat(preflight: &Preflight<'_>) -> Option<Diagnostic> {
+    let scene = &preflight.plan.scene;
+    let heat = scene.heat()?;
+    let diffusivity = heat.conductivity / (scene.density * heat.capacity);
+    let limit = |level: &LevelPlan| 0.5 * level.h * level.h / diffusivity;
+    let level = preflight.levels().iter().find(|level| level.dt > limit(level))?;
+    let (cells, limit, times) = (level.cells, limit(level), level.dt / limit(level));
+    let message = format!(
+        "with {cells} cells the time step is {times:.2} times the stable one of heat, {limit:.2e} s"
+    );
+    let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
+    let help = "steps of heat are stable up to about h^2*density*capacity/(2*conductivity)";
     Some(found.with_label("expected a stable step").with_help(help))
 }
 

@@ -19,7 +19,7 @@ source: here
 scene: {dimension: 2, body: {quadrilateral: {corners: [[0, 0], [1, 0], [1, 1], [0, 1]]}}}
 run: {until: 1, dt: {courant: 0.5}}
 refine: {cells: 4}
-methods: [{mpm: {basis: linear, transfer: flip, scheme: usl}}]
+methods: [{mpm: {basis: linear, transfer: flip, scheme: usl}}, {external: {name: mine}}]
 expect: [{verdict: failed, because: none}]
 ";
 

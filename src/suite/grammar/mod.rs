@@ -34,7 +34,7 @@ use super::yaml::{NumberText, OneOrMany, Ordered};
 use crate::fem::{Element, Mass, Sampling};
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
 use crate::named::named;
-use crate::subject::Start;
+use crate::subject::{Precision, Start};
 use crate::verify::{FloorCause, Quantity};
 use serde::Deserialize;
 
@@ -127,6 +127,8 @@ pub(crate) enum MethodSpec {
     },
     /// MPM of a body at rest, in which heat flows.
     Heat { basis: OneOrMany<BasisName> },
+    /// A solver that is not of this crate, which the command line starts.
+    External { name: String, formal_order: Option<NumberText>, precision: Option<Precision> },
 }
 
 #[derive(Debug, Clone, Default, Deserialize)]

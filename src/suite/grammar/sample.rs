@@ -18,6 +18,8 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("refine", "{cells: [8, 16, 32, 64], ppc: 4}"),
     ("methods", "[{mpm: {basis: linear, transfer: flip, scheme: musl}}]"),
     ("because", "theory says so"),
+    ("by", "t"),
+    ("table", "[[0, 0], [1, 1]]"),
     // A scene.
     ("dimension", "1"),
     ("body", "{box: {from: [0], to: [1]}}"),
@@ -55,6 +57,7 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("scheme", "musl"),
     ("element", "linear"),
     ("mass", "lumped"),
+    ("name", "my-solver"),
     // A convergence study.
     ("until", "1"),
     ("cells", "16"),

@@ -2,41 +2,66 @@
 
 use super::method::Method;
 use super::{Against, Case, ConvergencePlan, Suite};
+use crate::subject::Precision;
 use crate::verify::{Axis, Expectation};
 use std::sync::Arc;
 
+/// A solver that is not of this crate, by its own account.
+#[derive(Debug, Clone, Copy)]
+pub struct ExternalMethod<'a> {
+    /// Its name, which becomes that of its cases.
+    pub name: &'a str,
+    /// Order in h that theory gives its displacements.
+    pub formal_order: f64,
+    /// Precision of its numbers.
+    pub precision: Precision,
+}
+
 impl Suite {
-    /// The same convergence study of one solver that is not of this crate: a case for each truth
-    /// and end that the suite has, of which its formal order in h is expected if this is a `gate`,
-    /// and nothing otherwise. None of another kind of study.
-    pub fn of_external(&self, name: &str, formal_order: f64, gate: bool) -> Option<Self> {
+    /// The same convergence study of one solver that is not of this crate; none of another kind of
+    /// study. Where the suite has cases of this solver, it has these only. Otherwise it has a case
+    /// for each of its truths and ends, of which the solver's formal order in h is expected if this
+    /// is a `gate`, and nothing if not.
+    pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         let mut plan = self.plan::<ConvergencePlan>()?.clone();
-        let in_space = plan.refine.axis == Axis::Space;
-        let expectation = |against: Against| {
-            (gate && in_space && against != Against::Nothing)
-                .then(|| Expectation::of_order(formal_order, "the solver claims this order"))
-        };
-        let mut cases: Vec<Case> = Vec::new();
-        for case in &plan.cases {
-            let known = |other: &Case| (other.until, other.against) == (case.until, case.against);
-            let is_its_own_truth = matches!(case.against, Against::SameMethod(_));
-            if is_its_own_truth || cases.iter().any(known) {
-                continue;
-            }
-            cases.push(Case {
-                name: name.to_owned(),
-                method: Method::External { formal_order },
-                expectation: expectation(case.against),
-                expectation_in_full: None,
-                ..case.clone()
-            });
+        let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
+        if plan.cases.iter().any(is_stated) {
+            plan.cases.retain(is_stated);
+        } else {
+            plan.cases = unstated(&plan, solver, gate);
         }
-        if cases.len() > 1 {
-            for (number, case) in cases.iter_mut().enumerate() {
-                case.name = format!("{name}-{}", number + 1);
-            }
-        }
-        plan.cases = cases;
         Some(Self { study: Arc::new(plan), ..self.clone() })
     }
+}
+
+/// A case of the solver for each truth and end.
+fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>, gate: bool) -> Vec<Case> {
+    let ExternalMethod { name, formal_order, precision } = solver;
+    let in_space = plan.refine.axis == Axis::Space;
+    let expectation = |against: Against| {
+        (gate && in_space && against != Against::Nothing)
+            .then(|| Expectation::of_order(formal_order, "the solver claims this order"))
+    };
+    let mut cases: Vec<Case> = Vec::new();
+    for case in &plan.cases {
+        let known = |other: &Case| (other.until, other.against) == (case.until, case.against);
+        let is_its_own_truth = matches!(case.against, Against::SameMethod(_));
+        if is_its_own_truth || cases.iter().any(known) {
+            continue;
+        }
+        cases.push(Case {
+            name: name.to_owned(),
+            method: Method::External { formal_order, precision },
+            solver: Some(name.to_owned()),
+            expectation: expectation(case.against),
+            expectation_in_full: None,
+            ..case.clone()
+        });
+    }
+    if cases.len() > 1 {
+        for (number, case) in cases.iter_mut().enumerate() {
+            case.name = format!("{name}-{}", number + 1);
+        }
+    }
+    cases
 }

@@ -2,7 +2,7 @@
 
 use crate::fem::{Element, Mass, Sampling};
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
-use crate::subject::Start;
+use crate::subject::{Precision, Start};
 use crate::suite::grammar::EquationName;
 
 /// A subject, by the names of its parts.
@@ -45,6 +45,8 @@ pub enum Method {
     External {
         /// Order in h that theory gives its displacements, by its own account.
         formal_order: f64,
+        /// Precision of its numbers, by its own account.
+        precision: Precision,
     },
 }
 
@@ -58,6 +60,11 @@ impl Method {
         }
     }
 
+    /// Whether it is a solver that computes in single precision.
+    pub fn is_single_precision(&self) -> bool {
+        matches!(self, Self::External { precision: Precision::Single, .. })
+    }
+
     /// The order of the displacement error that theory gives the method on a smooth solution:
     /// p + 1 for a basis of degree p, but no more than 2 with the lumped mass matrix of MPM; 2p for
     /// the nodal values of elements that superconverge (Strang & Fix 1973, section 1.6).
@@ -67,7 +74,7 @@ impl Method {
             Self::Mpm { basis, .. } | Self::Heat { basis } => basis.formal_order().min(2.0),
             Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
             Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
-            Self::External { formal_order } => *formal_order,
+            Self::External { formal_order, .. } => *formal_order,
         }
     }
 

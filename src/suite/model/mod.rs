@@ -95,6 +95,8 @@ pub struct Case {
     pub name: String,
     /// The method.
     pub method: Method,
+    /// Name of the solver that is not of this crate, which the method then is.
+    pub solver: Option<String>,
     /// End of the run (s).
     pub until: f64,
     /// Truth against which errors are taken.

@@ -5,7 +5,7 @@ use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::Runner;
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, Suite};
+use mpm_verify::suite::{Extent, ExternalMethod, Suite};
 use mpm_verify::verify::CaseOutcome;
 
 /// Finite differences of second order, one unknown at each particle: `u_tt = c^2 u_XX`.
@@ -52,7 +52,7 @@ impl Subject for Differences {
     }
 }
 
-struct Maker(&'static str);
+pub(super) struct Maker(pub(super) &'static str);
 
 impl SolverFactory for Maker {
     fn name(&self) -> &str {
@@ -69,11 +69,17 @@ impl SolverFactory for Maker {
     }
 }
 
-fn outcome(text: &str) -> CaseOutcome {
+pub(super) fn loaded(text: &str) -> Suite {
     let source = Source::from_text("bar.yaml", text).expect("a text");
-    let suite = Suite::load(&source).expect("a sound suite");
+    Suite::load(&source).expect("a sound suite")
+}
+
+fn outcome(text: &str) -> CaseOutcome {
+    let suite = loaded(text);
     let maker = Maker("differences");
-    let suite = suite.of_external(maker.name(), 2.0, true).expect("a convergence study");
+    let (name, precision) = (maker.name(), maker.precision());
+    let method = ExternalMethod { name, formal_order: maker.formal_order(), precision };
+    let suite = suite.of_external(method, true).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&maker).case(0, &|| ())
 }
 

@@ -5,6 +5,7 @@ mod library;
 mod misbehaving;
 #[cfg(unix)]
 mod program;
+mod stated;
 
 /// A suite of four levels in one dimension, with steps that follow the cells.
 fn bar() -> String {

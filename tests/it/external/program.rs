@@ -52,7 +52,7 @@ fn a_program_is_judged_like_any_method() {
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     for words in [
         "== odd ==",
-        "solver: odd; version: 1; formal order: 2, by its own account",
+        "solver: odd; version: 1; precision: double; formal order: 2, by its own account",
         "converging: order 2.000 [2.000, 2.000] over 4 levels",
         "explored  short-bar::odd  converging",
     ] {

@@ -31,6 +31,10 @@ expect:
     because: linear functions
 "#;
 
+/// The method of the bar, and a solver in its place that computes in single precision.
+const MPM: &str = "mpm: {basis: linear, transfer: flip, scheme: musl}";
+const SINGLE: &str = "external: {name: a, precision: single}";
+
 /// A bar of two bodies, in which a pulse is watched.
 const TWO: &str = r#"suite: two
 title: Two bars
@@ -96,6 +100,21 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
     &[("a: 1e-8", "a: 1e-4")],
     Severity::Note, ("displacement", "at a strain of 1.1e-4", "will show from about")
 )]
+#[case::single_precision_that_shows(
+    &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
+    Severity::Warning, ("displacement", "positions are rounded: this leaves an error of about 6.0e-8 m, which shows", "a larger amplitude")
+)]
+#[case::single_precision_that_will_show(
+    &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-3")],
+    Severity::Note, ("displacement", "this leaves an error of about 6.0e-8 m, which will show", "")
+)]
+#[case::small_strain_at_rest(
+    &[
+        ("exact:", "equilibrium:"), ("*sin(omega*t)", ""), ("end: 0.05", "end: 3"), ("a: 1e-8", "a: 1e-2"),
+        ("  initial_velocity: [\"a*omega*sin(pi*X/2)\"]", "  loads:\n    - body_force: [\"a*omega^2*sin(pi*X/2)\"]\n    - damping: 10"),
+    ],
+    Severity::Warning, ("displacement", "shows from about", "a tenth of the amplitude")
+)]
 fn trips(
     #[case] edits: &[(&str, &str)],
     #[case] severity: Severity,
@@ -120,9 +139,30 @@ fn trips(
 #[case::a_bound_needs_no_four_levels(
     &[("[6, 12, 18, 24]", "[6, 12]"), ("order: [1.9, 2.1]", "error_below: 1e-3")]
 )]
+#[case::double_precision(&[(MPM, "external: {name: a, precision: double}")])]
+#[case::single_precision_below_the_error_of_the_cells(
+    &[(MPM, SINGLE), ("a: 1e-8", "a: 0.04"), ("dt: \"0.2*h/c\"", "dt: \"0.1*h/c\"")]
+)]
 fn just_does_not_trip(#[case] edits: &[(&str, &str)]) {
     let found = findings(BAR, edits);
     assert!(found.is_empty(), "{found:#?}");
+}
+
+#[rstest]
+#[case::beyond(0.51, 1)]
+#[case::just_not(0.49, 0)]
+fn heat_has_a_stable_step(#[case] share: f64, #[case] warnings: usize) {
+    let source = embedded::source("thermal-fin").expect("a suite").expect("a text");
+    let text = source.text();
+    let dt = text.lines().find(|line| line.starts_with("run:")).expect("a run");
+    let (before, after) = (dt.find("dt: \"").expect("a step"), dt.rfind('"').expect("its end"));
+    let step = format!("dt: \"{share}*h^2*rho*c/k");
+    let text = text.replace(dt, &format!("{}{step}{}", &dt[..before], &dt[after..]));
+    let source = Source::from_text("fin.yaml", text).expect("a text");
+    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let found = preflight(&suite, &source);
+    let of_heat = found.iter().filter(|found| found.message().contains("stable one of heat"));
+    assert_eq!(of_heat.count(), warnings, "{found:#?}");
 }
 
 #[test]

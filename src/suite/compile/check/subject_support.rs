@@ -59,7 +59,7 @@ pub(crate) fn check_drift(
 ) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
-    if !asks || matches!(method, Method::Mpm { .. }) {
+    if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
         return Ok(());
     }
     let message = match method {

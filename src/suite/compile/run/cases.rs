@@ -1,6 +1,6 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
-use super::methods::{count, methods, named};
+use super::methods::{NamedMethod, count, methods, named};
 use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases;
@@ -49,12 +49,12 @@ pub(crate) fn cases(
         let path = Path::top("methods").then(i);
         possible(evaluator, &path, method, plan)?;
         few(evaluator, &path, found.len() * until.len() * truths.len(), method, until.len())?;
-        let more = methods(i, method, own_law(plan));
+        let more = methods(evaluator, i, method, own_law(plan))?;
         more.iter().try_for_each(|draft| combined(evaluator, &path, draft.method, plan))?;
         found.extend(more);
     }
     let found = named(evaluator, found)?;
-    let runs = |(name, method): &(String, Method)| runs(name, *method, &truths, until);
+    let runs = |method: &NamedMethod| runs(method, &truths, until);
     let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
     let names: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
     let expectations = cases::expectations(evaluator, &spec.expect, plan, &names)?;
@@ -63,6 +63,7 @@ pub(crate) fn cases(
         Case {
             name: draft.name,
             method: draft.method,
+            solver: draft.solver,
             until: draft.until,
             against: draft.against,
             expectation,
@@ -76,6 +77,7 @@ pub(crate) fn cases(
 struct Draft {
     name: String,
     method: Method,
+    solver: Option<String>,
     until: f64,
     against: Against,
 }
@@ -93,23 +95,19 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
 
 /// One method, for every end of the run and every truth. A part enters the name only where there
 /// is a choice.
-fn runs(
-    name: &str,
-    method: Method,
-    truths: &[(Against, &str)],
-    until: &[(String, f64)],
-) -> Vec<Draft> {
+fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
         for (against, suffix) in truths {
-            let mut name = name.to_owned();
+            let mut name = method.name.clone();
             if until.len() > 1 {
                 name += &format!("-until-{text}");
             }
             if truths.len() > 1 {
                 name += suffix;
             }
-            drafts.push(Draft { name, method, until: *until_value, against: *against });
+            let (solver, until, against) = (method.solver.clone(), *until_value, *against);
+            drafts.push(Draft { name, method: method.method, solver, until, against });
         }
     }
     drafts
@@ -181,13 +179,20 @@ fn possible(
                            grid is not as long";
             Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message))
         }
+        MethodSpec::External { .. } if plan.same_method.is_some() => {
+            let message = "a solver that is not of this crate is not run finer for its own truth";
+            Err(evaluator.diagnostic(path, message).with_help("state `exact` or a `reference`"))
+        }
         MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {
             Err(evaluator.diagnostic(path, "particles per cell are refined, and an FEM has none"))
         }
-        MethodSpec::Mpm { .. } | MethodSpec::Heat { .. } if !plan.refine.has_particles() => {
-            Err(evaluator
-                .diagnostic(path, "MPM needs particles, and `refine` says no `ppc`")
-                .with_help("add `ppc: 4` to `refine`"))
+        MethodSpec::Mpm { .. } | MethodSpec::Heat { .. } | MethodSpec::External { .. }
+            if !plan.refine.has_particles() =>
+        {
+            let solver =
+                if matches!(spec, MethodSpec::External { .. }) { "a solver" } else { "MPM" };
+            let message = format!("{solver} needs particles, and `refine` says no `ppc`");
+            Err(evaluator.diagnostic(path, &message).with_help("add `ppc: 4` to `refine`"))
         }
         _ => Ok(()),
     }

@@ -1,5 +1,6 @@
 //! The entries of `methods` become methods: the products of their lists, with names.
 
+use super::external;
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName};
 use crate::subject::Start;
@@ -15,14 +16,24 @@ pub(crate) struct MethodDraft {
     /// Number of its entry of `methods`.
     entry: usize,
     pub(crate) method: Method,
+    /// Name of a solver that is not of this crate.
+    solver: Option<String>,
     /// Which of its settings the name says.
     said: Vec<bool>,
+}
+
+/// A method with the name that its cases begin with.
+pub(crate) struct NamedMethod {
+    pub(crate) name: String,
+    pub(crate) method: Method,
+    pub(crate) solver: Option<String>,
 }
 
 impl MethodDraft {
     /// The name of a case of this method.
     fn name(&self) -> String {
         let (subject, settings) = settings(&self.method);
+        let subject = self.solver.as_deref().unwrap_or(subject);
         let said = settings.iter().zip(&self.said).filter(|(_, said)| **said);
         let parts = said.map(|(setting, _)| format!("-{}", setting.replace('_', "-")));
         parts.fold(subject.to_owned(), |name, part| name + &part)
@@ -40,7 +51,7 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
             ("mpm", settings)
         }
         Method::Heat { basis } => ("heat", vec![basis.name().to_owned()]),
-        // No entry of `methods`: it is named after its solver.
+        // It is named after its solver.
         Method::External { .. } => ("external", Vec::new()),
         Method::Fem { element, mass, law, start, sampling } => {
             let settings = [element.name(), mass.name(), law.name(), start.name(), sampling.name()];
@@ -51,8 +62,14 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
 
 /// The product of entry number `entry` of `methods`. A setting enters the name where the entry
 /// lists several, or where one always has to be chosen.
-pub(crate) fn methods(entry: usize, spec: &MethodSpec, own_law: EquationName) -> Vec<MethodDraft> {
+pub(crate) fn methods(
+    evaluator: &Evaluator<'_>,
+    entry: usize,
+    spec: &MethodSpec,
+    own_law: EquationName,
+) -> Result<Vec<MethodDraft>, Diagnostic> {
     let mut drafts = Vec::new();
+    let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
     match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => {
             let said =
@@ -69,13 +86,13 @@ pub(crate) fn methods(entry: usize, spec: &MethodSpec, own_law: EquationName) ->
             );
             for (((basis, transfer), scheme), ((start, mass), frame)) in settings {
                 let method = Method::Mpm { basis, transfer, scheme, start, mass, frame };
-                drafts.push(MethodDraft { entry, method, said: said.to_vec() });
+                push(method, said.to_vec());
             }
         }
         MethodSpec::Heat { basis } => {
             for &basis in basis.as_slice() {
                 let method = Method::Heat { basis };
-                drafts.push(MethodDraft { entry, method, said: vec![true] });
+                push(method, vec![true]);
             }
         }
         MethodSpec::Fem { element, mass, law, start, sampling } => {
@@ -93,11 +110,20 @@ pub(crate) fn methods(entry: usize, spec: &MethodSpec, own_law: EquationName) ->
             );
             for ((element, mass), ((law, start), sampling)) in settings {
                 let method = Method::Fem { element, mass, law, start, sampling };
-                drafts.push(MethodDraft { entry, method, said: said.to_vec() });
+                push(method, said.to_vec());
             }
         }
+        MethodSpec::External { name, formal_order, precision } => {
+            let path = Path::top("methods").then(entry).then("external");
+            let method = Method::External {
+                formal_order: external::formal_order(evaluator, &path, formal_order.as_ref())?,
+                precision: precision.unwrap_or_default(),
+            };
+            let solver = Some(external::solver_name(evaluator, &path, name)?);
+            drafts.push(MethodDraft { entry, method, solver, said: Vec::new() });
+        }
     }
-    drafts
+    Ok(drafts)
 }
 
 /// Number of methods that an entry unfolds into.
@@ -112,6 +138,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
             length(frame.as_ref()),
         ],
         MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
+        MethodSpec::External { .. } => Vec::new(),
         MethodSpec::Fem { element, mass, law, start, sampling } => vec![
             element.as_slice().len(),
             mass.as_slice().len(),
@@ -127,21 +154,21 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
-) -> Result<Vec<(String, Method)>, Diagnostic> {
+) -> Result<Vec<NamedMethod>, Diagnostic> {
     let path = Path::top("methods");
     if drafts.is_empty() {
         return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
     }
     tell_apart(&mut drafts);
-    let mut named: Vec<(String, Method)> = Vec::new();
-    for draft in &drafts {
+    let mut named: Vec<NamedMethod> = Vec::new();
+    for draft in drafts {
         let name = draft.name();
-        if named.iter().any(|(known, _)| *known == name) {
+        if named.iter().any(|known| known.name == name) {
             let message = format!("the case `{name}` appears twice");
             let diagnostic = evaluator.diagnostic(&path.then(draft.entry), &message);
             return Err(diagnostic.with_label("the second time"));
         }
-        named.push((name, draft.method));
+        named.push(NamedMethod { name, method: draft.method, solver: draft.solver });
     }
     Ok(named)
 }

@@ -1,6 +1,7 @@
 //! The run: refinement plan, time steps, methods, and the cases that they make.
 
 pub(crate) mod cases;
+pub(crate) mod external;
 pub(crate) mod methods;
 pub(crate) mod refine;
 pub(crate) mod same_method;

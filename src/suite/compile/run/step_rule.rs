@@ -51,7 +51,10 @@ pub(crate) fn check(
     methods: &[MethodSpec],
     rule: Option<f64>,
 ) -> Result<(), Diagnostic> {
-    let other = methods.iter().position(|method| !matches!(method, MethodSpec::Mpm { .. }));
+    let steps = |method: &MethodSpec| {
+        matches!(method, MethodSpec::Mpm { .. } | MethodSpec::External { .. })
+    };
+    let other = methods.iter().position(|method| !steps(method));
     let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
     let message = "the time step is chosen by a rule, which is one for the steps of MPM in motion";
     let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);

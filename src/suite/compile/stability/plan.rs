@@ -144,10 +144,10 @@ fn drafts(
     let mut drafts = Vec::new();
     for (i, spec) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
-        if matches!(spec, MethodSpec::Fem { .. }) {
+        if matches!(spec, MethodSpec::Fem { .. } | MethodSpec::External { .. }) {
             return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
         }
-        for draft in methods(i, spec, own) {
+        for draft in methods(evaluator, i, spec, own)? {
             if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
                 let across = |()| combine_across(plane, basis, transfer);
                 combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
@@ -158,7 +158,8 @@ fn drafts(
             drafts.push(draft);
         }
     }
-    named(evaluator, drafts)
+    let named = named(evaluator, drafts)?;
+    Ok(named.into_iter().map(|draft| (draft.name, draft.method)).collect())
 }
 
 fn cases(

@@ -77,7 +77,7 @@ pub(crate) fn methods(
     for (i, method) in words.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         match method {
-            MethodSpec::Heat { .. } => {}
+            MethodSpec::Heat { .. } | MethodSpec::External { .. } => {}
             MethodSpec::Fem { .. } => {
                 let message = "the reference FEM knows nothing of heat, which flows in the scene";
                 return Err(evaluator.diagnostic(&path, message));
