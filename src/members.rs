@@ -18,6 +18,8 @@ macro_rules! each_material {
                 truth neo_hookean::NeoHookeanLaw;
             "hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON },
                 truth hencky::HenckyLaw;
+            "corotated" => corotated::Corotated { young: YOUNG, poisson: POISSON },
+                truth corotated::CorotatedLaw;
             "j2" => j2::J2 {
                 young: YOUNG, poisson: POISSON, r#yield: YIELD, #[serde(default)] hardening: HARDENING
             }, truth j2::J2Law;

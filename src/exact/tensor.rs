@@ -1,4 +1,4 @@
-//! Tensors over any [`Number`], and the logarithmic strain.
+//! Tensors over any [`Number`], the logarithmic strain and the rotation of a deformation.
 
 use super::formula::Number;
 
@@ -90,10 +90,8 @@ pub(super) fn product<T: Number, const D: usize>(
 /// not exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears,
 /// and with no derivative either, the strains are logarithms, which is quicker.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
-    let zero = T::from(0.0);
-    let sheared = |i: usize| (0..D).any(|j| j != i && f[i][j] != zero);
-    if !(0..D).any(sheared) {
-        return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { zero });
+    if !is_sheared(f) {
+        return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
     }
     let b: Tensor<T, D> = tensor(|i, j| sum::<T, D>(|k| f[i][k] * f[j][k]));
     let shifted: Tensor<T, D> = tensor(|i, j| b[i][j] + unit(i, j));
@@ -114,6 +112,33 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
         strain = tensor(|i, j| strain[i][j] + power[i][j] * share);
     }
     tensor(|_, _| T::from(f64::NAN))
+}
+
+/// The rotation R of the polar decomposition `F = R U`, by Newton's iteration
+/// `R <- (R + R^-T)/2` from F on (Higham 2008, *Functions of Matrices*, section 8.3). Where nothing
+/// shears, and with no derivative either, nothing turns. NaN where [`MOST_TERMS`] do not suffice.
+pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
+    if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
+        return tensor(unit);
+    }
+    let mut turn = *f;
+    for _ in 0..MOST_TERMS {
+        let (before, half) = (turn, T::from(0.5));
+        let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&before, i, j));
+        let det = det(&before, &cofactors);
+        turn = tensor(|i, j| half * (before[i][j] + cofactors[i][j] / det));
+        // Each step squares what is left of the values, and derivatives follow a step behind.
+        let step: Tensor<T, D> = tensor(|i, j| turn[i][j] - before[i][j]);
+        if size(&step) <= 1e-12 {
+            return turn;
+        }
+    }
+    tensor(|_, _| T::from(f64::NAN))
+}
+
+/// Whether a component off the diagonal, or a derivative of one, is not zero.
+fn is_sheared<T: Number, const D: usize>(f: &Tensor<T, D>) -> bool {
+    (0..D).any(|i| (0..D).any(|j| j != i && f[i][j] != T::from(0.0)))
 }
 
 fn size<T: Number, const D: usize>(t: &Tensor<T, D>) -> f64 {

@@ -1,0 +1,109 @@
+//! Fixed corotated elasticity, `P = 2 mu (F - R) + lambda (J - 1) J F^-T`, with the rotation R of
+//! `F = R U` (Stomakhin, Howes, Schroeder & Teran 2012).
+
+use super::contract::{ConstitutiveLaw, Lame};
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, dilation, rotation, sum, tensor, unit};
+
+/// Fixed corotated elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CorotatedLaw(Lame);
+
+impl CorotatedLaw {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self(Lame::new(young, poisson))
+    }
+}
+
+impl ConstitutiveLaw for CorotatedLaw {
+    const NAME: &'static str = "corotated";
+    const EQUATION: &'static str = "fixed corotated, rho0 u_tt = Div P + rho0 b, \
+        P = 2 mu (F - R) + lambda (J - 1) J F^-T, F = R U";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let (lambda, twice_mu) = (T::from(self.0.lambda), T::from(2.0 * self.0.mu));
+        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+        let pressure = lambda * (det(&f, &cofactor) - T::from(1.0));
+        let turn = rotation(&f);
+        tensor(|i, j| {
+            let stretch = grad[i][j] + (unit::<T>(i, j) - turn[i][j]);
+            twice_mu * stretch + pressure * cofactor[i][j]
+        })
+    }
+
+    /// `W = mu |F - R|^2 + lambda/2 (J - 1)^2`.
+    fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
+        let Lame { lambda, mu } = self.0;
+        let turn = rotation::<f64, 3>(&tensor(|i, j| grad[i][j] + unit::<f64>(i, j)));
+        let stretch: Tensor<f64> = tensor(|i, j| grad[i][j] + (unit::<f64>(i, j) - turn[i][j]));
+        let square = sum::<f64, 3>(|i| sum::<f64, 3>(|j| stretch[i][j] * stretch[i][j]));
+        let dilation = dilation(grad);
+        Some(0.5 * lambda * dilation * dilation + mu * square)
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::Equation;
+    use crate::exact::law::energy::assert_stress_is_derivative;
+    use crate::exact::tensor::product;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Along the axes `P_ii = 2 mu (s_i - 1) + lambda (J - 1) J/s_i`, and turned: `P(Q F) = Q P(F)`.
+    #[rstest]
+    fn stress_has_its_closed_form_along_the_axes(
+        #[values([1.3, 0.6, 1.0], [1.2; 3], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0])]
+        stretches: [f64; 3],
+        #[values(0.0, 0.7, 2.9)] angle: f64,
+    ) {
+        let solid = CorotatedLaw::new(50.0, 0.3);
+        let Lame { lambda, mu } = solid.0;
+        let (c, s) = (libm::cos(angle), libm::sin(angle));
+        let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
+        let j: f64 = stretches.iter().product();
+        let along =
+            |i: usize| 2.0 * mu * (stretches[i] - 1.0) + lambda * (j - 1.0) * j / stretches[i];
+        let grad: Tensor<f64> = tensor(|i, j| turn[i][j] * stretches[j] - unit::<f64>(i, j));
+        let found = solid.piola(&grad);
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
+            let wanted = turn[i][j] * along(j);
+            assert_relative_eq!(found[i][j], wanted, max_relative = 1e-13, epsilon = 1e-13);
+        }
+    }
+
+    /// `R^T F` is symmetric, and R keeps lengths.
+    #[test]
+    fn rotation_is_that_of_the_polar_decomposition() {
+        let f: Tensor<f64> = [[1.2, -0.7, 0.3], [0.4, 0.8, 0.1], [-0.2, 0.5, 1.6]];
+        let turn = rotation(&f);
+        let back: Tensor<f64> = tensor(|i, j| turn[j][i]);
+        let (stretch, one) = (product(&back, &f), product(&back, &turn));
+        for (i, j) in [(0, 1), (0, 2), (1, 2), (0, 0), (1, 1), (2, 2)] {
+            assert_relative_eq!(stretch[i][j], stretch[j][i], epsilon = 1e-14);
+            assert_relative_eq!(one[i][j], unit::<f64>(i, j), epsilon = 1e-14);
+        }
+    }
+
+    /// Nothing shears at this point, but it does beside it: the derivative must not be lost.
+    #[test]
+    fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
+        let mut second = [[[0.0; 3]; 3]; 3];
+        second[0][1][1] = 1.0;
+        let law = CorotatedLaw::new(50.0, 0.3);
+        let found = Equation::from(law).divergence(2, &[[0.0; 3]; 3], &second);
+        assert_relative_eq!(found[0], law.0.mu, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        assert_stress_is_derivative(&CorotatedLaw::new(50.0, 0.3));
+    }
+}

@@ -1,0 +1,97 @@
+//! Fixed corotated elasticity: the law of small strains between the stretches less one.
+//!
+//! `sigma = (2 mu/J) (F - R) F^T + lambda (J - 1) I`, with the rotation R of `F = V R` (Stomakhin,
+//! Howes, Schroeder & Teran 2012, SCA, "Energetically consistent invertible elasticity"; Jiang et
+//! al. 2016, SIGGRAPH Courses, section 6.3). Derived from the energy
+//! `W = mu sum (s_i - 1)^2 + lambda/2 (J - 1)^2` of the stretches s_i. In uniaxial strain P is
+//! linear in the displacement gradient. Fewer than three dimensions mean plane or uniaxial strain.
+
+use super::contract::{Material, MaterialProperties};
+use super::linear_elastic::LinearElastic;
+use super::spectral::{assembled, spectral};
+use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::particles::Particles;
+
+/// Fixed corotated elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corotated {
+    lambda: f64,
+    mu: f64,
+}
+
+impl Corotated {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+        Self { lambda, mu }
+    }
+
+    /// By the stretches: `(F - R) F^T = V^2 - V`.
+    fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
+        let (squares, axes) = spectral(&(f * f.transpose()));
+        let pressure = self.lambda * (j - 1.0);
+        let along = |square: f64| pressure + 2.0 * self.mu * (square - square.sqrt()) / j;
+        assembled(&squares.map(along), &axes)
+    }
+
+    /// W (J/m^D).
+    fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
+        let excess = spectral(&(f * f.transpose())).0.map(|square| square.sqrt() - 1.0);
+        let dilation = det(f) - 1.0;
+        0.5 * self.lambda * dilation * dilation + self.mu * excess.norm_squared()
+    }
+}
+
+impl MaterialProperties for Corotated {
+    fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn is_elastic(&self) -> bool {
+        true
+    }
+}
+
+impl<const D: usize> Material<D> for Corotated {
+    fn reads_deformation(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let all = particles.def_grad.iter().zip(&particles.vol0);
+        Some(all.map(|(f, vol0)| vol0 * self.density(f)).sum())
+    }
+
+    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
+        for p in 0..particles.len().min(particles.def_grad.len()) {
+            let f = &particles.def_grad[p];
+            let j = det(f);
+            particles.vol[p] = j * particles.vol0[p];
+            particles.sigma[p] = self.cauchy(f, j);
+        }
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for Corotated {
+    /// With `V = (b + I)/sqrt(tr b + 2)`, which a plane b of determinant one has (Cayley-Hamilton).
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        let (square, t) = (gamma * gamma, (4.0 + gamma * gamma).sqrt());
+        let along = 1.0 + square - (2.0 + square) / t;
+        [along, gamma * (1.0 - 1.0 / t), 1.0 - 2.0 / t].map(|share| 2.0 * self.mu * share)
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        Some([(self.lambda + 2.0 * self.mu) * (stretch - 1.0), self.lambda * (stretch - 1.0)])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let stretches = (f.transpose() * f).symmetric_eigenvalues().map(f64::sqrt);
+        let (dilation, excess) = (det(f) - 1.0, stretches.map(|stretch| stretch - 1.0));
+        Some(0.5 * self.lambda * dilation * dilation + self.mu * excess.norm_squared())
+    }
+}
