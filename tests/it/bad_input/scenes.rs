@@ -64,7 +64,7 @@ use rstest::rstest;
 )]
 #[case::a_formula_for_another_equation(
     &[("small_strain", "▸log_strain")],
-    &["a formula is checked against `small_strain`, `neo_hookean` or `hencky` only", "give other equations a `reference`"]
+    &["a formula is checked against `small_strain`, `neo_hookean`, `hencky` or `corotated` only", "give other equations a `reference`"]
 )]
 fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);

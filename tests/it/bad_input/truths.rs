@@ -129,15 +129,15 @@ fn a_manufactured_motion_must_fit_the_scene(#[case] edits: Edits<'_>, #[case] wo
 #[rstest]
 #[case::a_law_in_rate_form(
     &[("neo_hookean: {young", "linear_elastic: {young"), ("manufactured:  #", "▸manufactured:  #")],
-    &["a force is manufactured for a `neo_hookean` or `hencky` material", "a law in rate form has no stress"]
+    &["a force is manufactured for a `neo_hookean`, `hencky` or `corotated` material", "a law in rate form has no stress"]
 )]
 #[case::plastic_flow(
     &[("neo_hookean: {young: E, poisson: 0", "j2: {young: E, poisson: 0, yield: 1"), ("manufactured:  #", "▸manufactured:  #")],
-    &["a force is manufactured for a `neo_hookean` or `hencky` material", "plastic flow depends on the whole history"]
+    &["a force is manufactured for a `neo_hookean`, `hencky` or `corotated` material", "plastic flow depends on the whole history"]
 )]
 #[case::a_fluid(
     &[("neo_hookean: {young: E, poisson: 0", "newtonian: {bulk: E, viscosity: 1"), ("manufactured:  #", "▸manufactured:  #")],
-    &["a force is manufactured for a `neo_hookean` or `hencky` material", "viscous stress depends on the rate"]
+    &["a force is manufactured for a `neo_hookean`, `hencky` or `corotated` material", "viscous stress depends on the rate"]
 )]
 #[case::an_initial_velocity(
     &[("\nmanufactured:", "  ▸initial_velocity: [0]\n\nmanufactured:")],

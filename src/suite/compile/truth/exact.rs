@@ -110,7 +110,7 @@ fn equation(
             "a linear elastic material has `small_strain`, others have the equation of their name",
         )
     } else {
-        let message = "a formula is checked against `small_strain`, `neo_hookean` or `hencky` only";
+        let message = "a formula is checked against `small_strain`, `neo_hookean`, `hencky` or `corotated` only";
         (message.to_owned(), "give other equations a `reference`")
     };
     Err(evaluator.diagnostic(path, &message).with_help(help))
@@ -126,7 +126,8 @@ fn manufactured(
     let Some(made) = &spec.manufactured else { return Ok(None) };
     let path = Path::top("manufactured");
     let equation = law::manufactured(&scene.material).map_err(|reason| {
-        let message = "a force is manufactured for a `neo_hookean` or `hencky` material";
+        let message =
+            "a force is manufactured for a `neo_hookean`, `hencky` or `corotated` material";
         evaluator.diagnostic_at_key(&path, message).with_help(reason)
     })?;
     for (key, what, stated) in [
