@@ -6,11 +6,12 @@ mod compare;
 mod cost;
 mod diagnose;
 mod explain;
+mod list;
+mod merge;
 mod new;
 mod output;
 mod page;
 mod problem;
-mod problem_args;
 mod propose;
 mod run;
 mod select;
@@ -31,7 +32,8 @@ pub(crate) fn main() -> ExitCode {
         None => run::run(&cli.run),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::New(args)) => new::new(&args),
-        Some(Command::List(args)) => show::list(&args.targets),
+        Some(Command::Merge(args)) => merge::merge(&args),
+        Some(Command::List(args)) => list::list(&args),
         Some(Command::Check(args)) => show::check(&args),
         Some(Command::Explain(args)) => explain::explain(&args),
         Some(Command::Diagnose(args)) => diagnose::diagnose(&args),

@@ -1,6 +1,6 @@
 //! `mpm-verify problem`: a level of a suite as a file.
 
-use super::problem_args::ProblemArgs;
+use super::args::ProblemArgs;
 use super::status::{BAD_INPUT, PASSED};
 use super::{output, select};
 use mpm_verify::external::ProblemFormat;

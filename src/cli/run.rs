@@ -1,6 +1,6 @@
 //! `mpm-verify run`.
 
-use super::args::{Format, RunArgs};
+use super::args::{Format, ReportArgs, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, page, select, solver, watch};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -17,16 +17,53 @@ use std::{fs, io};
 /// Runs suites, once or whenever their files change.
 pub(super) fn run(args: &RunArgs) -> u8 {
     // The threads can be made only once.
-    if let Err(message) = threads(args.jobs) {
+    if let Err(message) = threads(args.report.jobs) {
         output::complain(&message);
         return BAD_INPUT;
     }
-    if args.watch { watch::repeat(&args.targets.targets, || all(args)) } else { all(args) }
+    let targets = &args.report.targets.targets;
+    let once = || report(&args.report, |suites| chosen(args, suites));
+    if args.watch { watch::repeat(targets, once) } else { once() }
+}
+
+/// The suites that `args` choose, with the cache and the solver of the run.
+fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), String> {
+    let kept = args.resume.as_deref().map(|folder| open(folder, args)).transpose()?;
+    let solver = solver::greeted(&args.judged.program)?;
+    if let Some(solver) = &solver {
+        suites = solver::judged(suites, solver, args.judged.gate);
+    }
+    if let Some(text) = &args.case {
+        suites = cases_with(text, &suites);
+        if suites.is_empty() {
+            return Err(format!("error: --case {text}: no case has this in its name"));
+        }
+    }
+    if let Some(shard) = args.shard {
+        suites = shard.of(&suites, extent(&args.report));
+        if suites.is_empty() {
+            output::complain("note: no case is left for this part");
+        }
+    }
+    Ok((suites, Judging { kept, solver }))
+}
+
+/// The cases whose names contain `text`; suites without one are left out.
+fn cases_with(text: &str, suites: &[Suite]) -> Vec<Suite> {
+    let has = |suite: &&Suite| suite.case_names().iter().any(|name| name.contains(text));
+    let only = |suite: &Suite| {
+        let names = suite.case_names();
+        suite.only(&|case| names[case].contains(text))
+    };
+    suites.iter().filter(has).map(only).collect()
 }
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
 /// if something later cannot be used.
-fn all(args: &RunArgs) -> u8 {
+pub(super) fn report(
+    args: &ReportArgs,
+    choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<Suite>, Judging), String>,
+) -> u8 {
     if let Err(message) = args.out.as_deref().map_or(Ok(()), prepare) {
         output::complain(&message);
         return BAD_INPUT;
@@ -35,27 +72,17 @@ fn all(args: &RunArgs) -> u8 {
         output::complain(&message);
         return BAD_INPUT;
     }
-    let kept = match args.resume.as_deref().map(|folder| open(folder, args)).transpose() {
-        Ok(kept) => kept,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
-    let (sources, mut suites): (Vec<Source>, Vec<Suite>) =
+    let (sources, suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
-    let solver = match solver::greeted(&args.judged.program) {
-        Ok(solver) => solver,
+    let (suites, judging) = match choose(suites) {
+        Ok(chosen) => chosen,
         Err(message) => {
             output::complain(&message);
             return BAD_INPUT;
         }
     };
-    if let Some(solver) = &solver {
-        suites = solver::judged(suites, solver, args.judged.gate);
-    }
     let twice = twice(&suites);
     for (option, given, clash) in [
         ("--out", args.out.is_some(), "would write the same files"),
@@ -68,9 +95,8 @@ fn all(args: &RunArgs) -> u8 {
         }
     }
     let bar = progress_bar(&suites, extent(args));
-    let judging = Judging { kept: kept.as_ref(), solver: solver.as_ref() };
     let outcomes: Vec<SuiteOutcome> =
-        suites.iter().map(|suite| one(suite, args, judging, &bar)).collect();
+        suites.iter().map(|suite| one(suite, args, &judging, &bar)).collect();
     bar.finish_and_clear();
     match args.format {
         Format::Json => output::print(&report::json(&outcomes)),
@@ -87,6 +113,7 @@ fn all(args: &RunArgs) -> u8 {
     if let Err(message) = &written {
         output::complain(message);
     }
+    let Judging { kept, solver } = &judging;
     let unkept = kept.as_ref().and_then(ResultCache::diagnostic);
     if let Some(diagnostic) = &unkept {
         output::complain(&format!("error: --resume {diagnostic}"));
@@ -103,7 +130,7 @@ fn all(args: &RunArgs) -> u8 {
     }
 }
 
-fn threads(jobs: Option<usize>) -> Result<(), String> {
+pub(super) fn threads(jobs: Option<usize>) -> Result<(), String> {
     const MOST: usize = 1024;
     let Some(jobs) = jobs else { return Ok(()) };
     if !(1..=MOST).contains(&jobs) {
@@ -113,7 +140,7 @@ fn threads(jobs: Option<usize>) -> Result<(), String> {
     pool.build_global().map_err(|error| format!("error: --jobs {jobs}: {error}"))
 }
 
-fn extent(args: &RunArgs) -> Extent {
+fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
@@ -128,15 +155,21 @@ fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
 }
 
 /// The cache and the solver of a run.
-#[derive(Clone, Copy)]
-struct Judging<'a> {
-    kept: Option<&'a ResultCache>,
-    solver: Option<&'a SolverProgram>,
+pub(super) struct Judging {
+    kept: Option<ResultCache>,
+    solver: Option<SolverProgram>,
 }
 
-fn one(suite: &Suite, args: &RunArgs, judging: Judging<'_>, bar: &ProgressBar) -> SuiteOutcome {
+impl Judging {
+    /// Results that are there.
+    pub(super) fn of_kept(kept: ResultCache) -> Self {
+        Self { kept: Some(kept), solver: None }
+    }
+}
+
+fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &ProgressBar) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
-    let Judging { kept, solver } = judging;
+    let (kept, solver) = (judging.kept.as_ref(), judging.solver.as_ref());
     let runner = Runner::over(suite, extent(args));
     let runner = match solver {
         Some(solver) => runner.judging(solver),

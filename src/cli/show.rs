@@ -1,4 +1,4 @@
-//! `mpm-verify list` and `check`.
+//! `mpm-verify check`, and pages about suites.
 
 use super::args::CheckArgs;
 use super::status::{BAD_INPUT, FAILED, PASSED};
@@ -9,14 +9,6 @@ use mpm_verify::suite::yaml::{Diagnostic, Severity, Source};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-
-/// Prints every suite with its cases.
-pub(super) fn list(targets: &[PathBuf]) -> u8 {
-    each(targets, |suite| {
-        let cases = suite.case_names().join("\n  ");
-        format!("{}: {}\n  {cases}\n", suite.name, suite.title)
-    })
-}
 
 /// Checks suites, once or whenever their files change.
 pub(super) fn check(args: &CheckArgs) -> u8 {

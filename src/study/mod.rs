@@ -11,6 +11,7 @@
 //! diagnosis        why an order is not that of theory, by runs that change one thing
 //! handover         a level as a problem that any solver can be handed
 //! preflight        warnings about a suite before anything runs
+//! shard            parts of a run of about the same cost
 //! ```
 
 pub(crate) mod build;
@@ -24,6 +25,7 @@ pub(crate) mod internal_force;
 pub(crate) mod kind;
 pub(crate) mod preflight;
 pub(crate) mod runner;
+pub(crate) mod shard;
 pub(crate) mod stability;
 
 pub use build::setup::effects;
@@ -33,5 +35,6 @@ pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
 pub use handover::{exact_state, lacking, level_problem, needs};
 pub use kind::{CheckpointStores, Progress, profile, statement};
-pub use preflight::{Estimate, estimate, preflight};
+pub use preflight::{Estimate, estimate, estimates, preflight};
 pub use runner::Runner;
+pub use shard::Shard;

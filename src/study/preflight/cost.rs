@@ -2,7 +2,7 @@
 
 use crate::suite::compile::check::size;
 use crate::suite::model::refine_plan::Extent;
-use crate::suite::model::{ConvergencePlan, Suite};
+use crate::suite::model::{Case, ConvergencePlan, Suite};
 
 /// Seconds that a particle takes in a step, by dimension, errors and set-up included: fitted to
 /// whole runs of eight suites in the profile of `cargo run`, one thread. Single suites differ from
@@ -28,19 +28,35 @@ pub fn estimate(suite: &Suite) -> Option<Estimate> {
     suite.plan().map(estimate_of)
 }
 
+/// Cost of each case of a suite; none of studies that refine nothing.
+pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
+    match suite.plan::<ConvergencePlan>() {
+        Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
+        None => vec![None; suite.case_names().len()],
+    }
+}
+
 /// Cost of the levels of the gate.
 pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
+    let none = Estimate { particle_steps: 0.0, seconds: 0.0, bytes: 0.0 };
+    let cases = plan.cases.iter().map(|case| of_case(plan, case, Extent::Usual));
+    cases.fold(none, |all, case| Estimate {
+        particle_steps: all.particle_steps + case.particle_steps,
+        seconds: all.seconds + case.seconds,
+        bytes: all.bytes.max(case.bytes),
+    })
+}
+
+fn of_case(plan: &ConvergencePlan, case: &Case, extent: Extent) -> Estimate {
     let scene = &plan.scene;
     let index = scene.dimension().clamp(1, 3) - 1;
     let (mut particle_steps, mut bytes) = (0.0, 0.0_f64);
-    for case in &plan.cases {
-        for level in plan.refine.levels(Extent::Usual) {
-            let particles = size::particles(scene, *level);
-            let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
-            particle_steps += particles * steps as f64;
-            let [particle, node] = BYTES[index];
-            bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
-        }
+    for level in plan.refine.levels(extent) {
+        let particles = size::particles(scene, *level);
+        let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
+        particle_steps += particles * steps as f64;
+        let [particle, node] = BYTES[index];
+        bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
     }
     Estimate { particle_steps, seconds: SECONDS[index] * particle_steps, bytes }
 }

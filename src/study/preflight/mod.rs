@@ -29,7 +29,7 @@ pub(crate) mod strain;
 pub(crate) mod subject;
 pub(crate) mod time_step;
 
-pub use cost::{Estimate, estimate};
+pub use cost::{Estimate, estimate, estimates};
 
 use self::subject::Preflight;
 use crate::suite::model::{ConvergencePlan, Suite};

@@ -1,8 +1,9 @@
 //! An internal-force study whose every word has been checked.
 
-use super::study_plan::StudyPlan;
+use super::study_plan::{StudyPlan, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::BasisName;
+use std::sync::Arc;
 
 /// An internal-force study.
 #[derive(Debug, Clone)]
@@ -53,6 +54,10 @@ impl StudyPlan for ForcePlan {
     fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let ForceCase { expected, because, .. } = &self.cases[case];
         Some((expected.as_ref()?.summary(), because))
+    }
+
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
+        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
     }
 }
 

@@ -22,7 +22,7 @@ pub use scene::{Scene, SceneFace};
 use self::lattice::LatticeOffsets;
 use self::method::Method;
 use self::refine_plan::{LevelPlan, RefinePlan};
-use self::study_plan::StudyPlan;
+use self::study_plan::{StudyPlan, kept};
 use super::grammar::{CrossingLevels, EquationName, NormName};
 use crate::exact::Problem;
 use crate::exact::formula::Formula;
@@ -184,6 +184,12 @@ impl Suite {
         self.study.case_names()
     }
 
+    /// The same suite with those cases only whose index `keep` holds for.
+    #[must_use]
+    pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
+        Self { study: self.study.only(keep), ..self.clone() }
+    }
+
     /// Whether nothing is expected of any case, so that the suite is no gate.
     pub fn explores(&self) -> bool {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
@@ -213,6 +219,10 @@ impl StudyPlan for ConvergencePlan {
     fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let expectation = self.cases[case].expectation.as_ref()?;
         Some((expectation.summary(), &expectation.because))
+    }
+
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
+        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
     }
 }
 

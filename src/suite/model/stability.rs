@@ -2,10 +2,11 @@
 
 use super::lattice::LatticeOffsets;
 use super::method::Method;
-use super::study_plan::StudyPlan;
+use super::study_plan::{StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::yaml::Source;
 use crate::verify::{RunFigure, StabilityExpectation};
+use std::sync::Arc;
 
 /// A stability study.
 #[derive(Debug, Clone)]
@@ -67,5 +68,9 @@ impl StudyPlan for StabilityPlan {
     fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let StabilityCase { summary, because, .. } = &self.cases[case];
         Some((summary.clone()?, because))
+    }
+
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
+        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
     }
 }

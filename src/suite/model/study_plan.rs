@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// Checked values of one kind of study.
 pub trait StudyPlan: Any + Debug + Send + Sync {
@@ -14,4 +15,13 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     /// # Panics
     /// If there is no such case.
     fn expectation(&self, case: usize) -> Option<(String, &str)>;
+
+    /// The same study of those cases only whose index `keep` holds for.
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
+}
+
+/// The members of a list whose index `keep` holds for.
+pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
+    let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
+    kept.map(|(_, member)| member.clone()).collect()
 }

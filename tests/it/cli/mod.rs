@@ -12,6 +12,7 @@ mod page;
 mod plans;
 mod problem;
 mod run;
+mod shards;
 mod steps;
 mod watch;
 

@@ -5,19 +5,19 @@ use mpm_verify::external::ProblemFormat;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
-pub(super) struct ProblemArgs {
+pub(in crate::cli) struct ProblemArgs {
     /// Suite: a file, or a name
     #[arg(value_name = "FILE|NAME")]
-    pub(super) suite: PathBuf,
+    pub(in crate::cli) suite: PathBuf,
     /// Level, the coarsest being 1 [default: the finest that the gate runs]
     #[arg(long, value_name = "N")]
-    pub(super) level: Option<usize>,
+    pub(in crate::cli) level: Option<usize>,
     /// The exact state at this time (s), and not the initial one
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    pub(super) at: Option<f64>,
+    pub(in crate::cli) at: Option<f64>,
     /// Format, which goes to standard output: csv, json, npz, vtu
     #[arg(long, value_name = "FORMAT", value_parser = format, default_value = "csv")]
-    pub(super) out: ProblemFormat,
+    pub(in crate::cli) out: ProblemFormat,
 }
 
 /// The format with this name.

@@ -1,0 +1,135 @@
+//! The words of the command line.
+
+mod cost;
+mod problem;
+mod report;
+mod shared;
+
+pub(super) use cost::{CostArgs, Vary};
+pub(super) use problem::ProblemArgs;
+pub(super) use report::{ListArgs, MergeArgs, ReportArgs, RunArgs};
+pub(super) use shared::{Format, SolverArgs, Targets};
+
+use super::new::args::NewArgs;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use mpm_verify::report::compare;
+use std::path::PathBuf;
+
+/// Verifies Material Point Method solvers: suites of benchmarks, observed orders, verdicts.
+#[derive(Debug, Parser)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) run: RunArgs,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run suites and judge them (the default); exit status 1 if an expectation is not met, 2 on
+    /// bad input
+    Run(RunArgs),
+    /// Write a suite that runs; what no option says is asked for, if a terminal is there to answer
+    New(NewArgs),
+    /// Report what the parts of a run have found (`run --shard K/N --resume DIR`), byte for byte as
+    /// one run of all would; nothing runs
+    Merge(MergeArgs),
+    /// List suites and their cases, as JSON with the predicted cost of each
+    List(ListArgs),
+    /// Validate suites without running them: grammar, formulas, the truth itself, and whether the
+    /// runs can support what is expected; exit status 2 on bad input
+    Check(CheckArgs),
+    /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
+    /// memory), and what is expected
+    Explain(ExplainArgs),
+    /// Run suites and write the `expect` entries that theory gives and the runs support, each with
+    /// where it comes from; nothing is changed
+    Propose(Targets),
+    /// Find out why cases do not have the order of theory: the finest levels again, with one thing
+    /// changed at a time
+    Diagnose(DiagnoseArgs),
+    /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
+    /// 1 if one is off by more than 1 %
+    Steps(StepsArgs),
+    /// Write the initial state of one level, ready to be stepped by any solver, or its exact state
+    /// at a time: particles, grid, faces, material, steps
+    Problem(ProblemArgs),
+    /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
+    /// error, and the most accurate setting within a budget
+    Cost(CostArgs),
+    /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
+    /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
+    Compare(CompareArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Exit status 1 if there are warnings
+    #[arg(long)]
+    pub(super) strict: bool,
+    #[command(flatten)]
+    pub(super) solver: SolverArgs,
+    /// Check again whenever one of the files changes, until Ctrl-C
+    #[arg(long)]
+    pub(super) watch: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct DiagnoseArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Cases whose name contains this
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub(super) case: String,
+    /// Predicted time for the runs of each case: `30s`, `2min`
+    #[arg(long, value_name = "TIME", value_parser = shared::seconds, default_value = "60s")]
+    pub(super) budget: f64,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Say what a step would no longer take without this effect of the scene
+    #[arg(long, value_name = "EFFECT")]
+    pub(super) without: Option<String>,
+    /// Draw the scene of one suite into this file (SVG), and print nothing
+    #[arg(long, value_name = "FILE")]
+    pub(super) sketch: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StepsArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    /// Also the finer levels that suites list under `full`
+    #[arg(long)]
+    pub(super) full: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// JSON of the run before: `mpm-verify run --format json`, or `report.json` of `run --out`
+    #[arg(value_name = "OLD.json")]
+    pub(super) old: PathBuf,
+    /// JSON of the run after
+    #[arg(value_name = "NEW.json")]
+    pub(super) new: PathBuf,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Page::Text)]
+    pub(super) format: Page,
+    /// Largest relative change of a figure that counts as none
+    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE)]
+    pub(super) tolerance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Page {
+    /// Aligned tables
+    Text,
+    /// A comment for a pull request
+    Markdown,
+}

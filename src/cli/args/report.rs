@@ -1,0 +1,86 @@
+//! The words of `run`, `merge` and `list`.
+
+use super::shared::{Format, SolverArgs, Targets, seconds};
+use clap::Args;
+use mpm_verify::study::Shard;
+use std::path::PathBuf;
+
+/// Words of a run that is reported.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReportArgs {
+    #[command(flatten)]
+    pub(in crate::cli) targets: Targets,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(in crate::cli) format: Format,
+    /// Print the table of verdicts only, not the reports
+    #[arg(long)]
+    pub(in crate::cli) brief: bool,
+    /// Run the finer levels too that suites list under `full`: takes hours where the others take
+    /// seconds
+    #[arg(long)]
+    pub(in crate::cli) full: bool,
+    /// Write reports, JSON and figures into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(in crate::cli) out: Option<PathBuf>,
+    /// Write one HTML page with verdicts, figures, reports and suites into this file; it needs no
+    /// network
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) html: Option<PathBuf>,
+    /// Threads to use; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N")]
+    pub(in crate::cli) jobs: Option<usize>,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct RunArgs {
+    #[command(flatten)]
+    pub(in crate::cli) report: ReportArgs,
+    /// Cases whose name contains this
+    #[arg(long, value_name = "TEXT")]
+    pub(in crate::cli) case: Option<String>,
+    /// One of N parts of the cases, of about the same predicted cost; `merge` reports the folders
+    /// that the parts keep with `--resume`
+    #[arg(long, value_name = "K/N")]
+    pub(in crate::cli) shard: Option<Shard>,
+    /// Keep finished levels and the states of running ones in this folder, and take from it those
+    /// that are there: an interrupted run goes on where it was
+    #[arg(long, value_name = "DIR", conflicts_with = "solver")]
+    pub(in crate::cli) resume: Option<PathBuf>,
+    /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
+    #[arg(long, value_name = "TIME", value_parser = seconds, requires = "resume")]
+    pub(in crate::cli) checkpoint_every: Option<f64>,
+    /// Run again whenever one of the files changes, until Ctrl-C
+    #[arg(long)]
+    pub(in crate::cli) watch: bool,
+    #[command(flatten)]
+    pub(in crate::cli) judged: JudgedSolverArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct MergeArgs {
+    /// A folder that a part of the run kept with `--resume`; once for each
+    #[arg(long, value_name = "DIR", required = true)]
+    pub(in crate::cli) from: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(in crate::cli) report: ReportArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct JudgedSolverArgs {
+    #[command(flatten)]
+    pub(in crate::cli) program: SolverArgs,
+    /// Expect the order that the solver of `--solver` claims of each case of which the suite says
+    /// nothing
+    #[arg(long, requires = "solver")]
+    pub(in crate::cli) gate: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ListArgs {
+    #[command(flatten)]
+    pub(in crate::cli) targets: Targets,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(in crate::cli) format: Format,
+}

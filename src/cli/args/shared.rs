@@ -1,0 +1,45 @@
+//! Words that several commands have.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Targets {
+    /// Suites: a file, a folder of files, or a name; default: all of verification/, or the
+    /// built-in suites where there is no such folder
+    #[arg(value_name = "FILE|FOLDER|NAME")]
+    pub(in crate::cli) targets: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SolverArgs {
+    /// Put this program to the suites instead of their methods: a command with its arguments that
+    /// speaks the protocol of docs/protocol.md
+    #[arg(long, value_name = "COMMAND")]
+    pub(in crate::cli) solver: Option<String>,
+    /// Longest time without an answer of the solver
+    #[arg(long, value_name = "TIME", value_parser = seconds, default_value = "60s")]
+    pub(in crate::cli) solver_timeout: f64,
+    /// Most memory (address space) of each process of the solver, in MB [default: no limit]
+    #[arg(long, value_name = "MB", requires = "solver")]
+    pub(in crate::cli) solver_memory: Option<u64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Format {
+    /// Reports and a table of verdicts
+    Text,
+    /// One JSON document
+    Json,
+}
+
+/// A time with its unit, in seconds.
+pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
+    let known = units.iter().find_map(|(unit, size)| {
+        let number: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
+        Some(number * size)
+    });
+    let usable = known.filter(|time| *time > 0.0 && time.is_finite());
+    usable.ok_or_else(|| "expected a time with its unit, such as `10s` or `500ms`".to_owned())
+}

@@ -1,0 +1,106 @@
+//! Parts of a run, and the report of all of them.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
+use rstest::rstest;
+use serde_json::Value;
+
+/// Two suites of two and three cases.
+fn suites() -> Folder {
+    let folder = Folder::new();
+    folder.write("verification/a.yaml", BAR);
+    let other = BAR.replace("short-bar", "other-bar").replace("[4, 6, 8, 12]", "[3, 6, 9, 12]");
+    folder.write("verification/b.yaml", other.replace("scheme: musl", "scheme: [musl, usl]"));
+    folder
+}
+
+/// Runs every part, each with a folder of its own.
+fn in_parts(folder: &Folder, count: usize) -> Vec<String> {
+    let parts = (1..=count).map(|number| {
+        let (shard, kept) = (format!("{number}/{count}"), format!("part-{number}"));
+        let part = folder.call(&["run", "--shard", &shard, "--resume", &kept, "--brief"]);
+        assert_eq!((part.code, part.errors.as_str()), (SOUND, ""));
+        part.out
+    });
+    parts.collect()
+}
+
+fn merged(folder: &Folder, format: &str) -> String {
+    let parts = ["--from", "part-1", "--from", "part-2", "--from", "part-3"];
+    let found = folder.call(&[&["merge", "--format", format][..], &parts].concat());
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    found.out
+}
+
+#[test]
+fn merged_parts_are_one_run_byte_for_byte() {
+    let folder = suites();
+    let parts = in_parts(&folder, 3);
+    let cases = |text: &str| text.lines().filter(|line| line.contains("::")).count();
+    assert_eq!(parts.iter().map(|part| cases(part)).sum::<usize>(), 5, "{parts:#?}");
+    assert!(parts.iter().all(|part| cases(part) > 0), "{parts:#?}");
+    for format in ["text", "json"] {
+        assert_eq!(merged(&folder, format), folder.call(&["run", "--format", format]).out);
+    }
+}
+
+#[test]
+fn what_no_part_has_found_is_no_pass() {
+    let folder = suites();
+    in_parts(&folder, 3);
+    let found = folder.call(&["merge", "--from", "part-1", "--from", "part-2", "--brief"]);
+    assert_eq!(found.code, FAILED);
+    let report = folder.call(&["merge", "--from", "part-1", "--from", "part-2"]);
+    assert!(report.out.contains("no folder has the result of"), "{}", report.out);
+    let nowhere = folder.call(&["merge", "--from", "part-9"]);
+    assert_eq!((nowhere.code, nowhere.out.as_str()), (BAD_INPUT, ""));
+    assert!(nowhere.errors.contains("error: --from part-9: "), "{}", nowhere.errors);
+}
+
+#[test]
+fn a_part_without_a_case_passes() {
+    let folder = Folder::new();
+    folder.write("verification/a.yaml", BAR);
+    let found = folder.call(&["run", "--shard", "7/7"]);
+    assert_eq!((found.code, found.out.as_str()), (SOUND, ""));
+    assert!(found.errors.contains("note: no case is left for this part"), "{}", found.errors);
+}
+
+#[rstest]
+#[case("0/3")]
+#[case("4/3")]
+#[case("3")]
+#[case("a/b")]
+#[case("1/10001")]
+fn a_part_is_one_of_several(#[case] shard: &str) {
+    let found = suites().call(&["run", "--shard", shard]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains("such as `2/5`"), "{}", found.errors);
+}
+
+#[test]
+fn cases_are_chosen_by_their_names() {
+    let folder = suites();
+    let found = folder.call(&["run", "--case", "flip-usl", "--brief"]);
+    let cases: Vec<&str> = found.out.lines().filter(|line| line.contains("::")).collect();
+    assert!(cases.len() == 1 && cases[0].contains("other-bar::mpm-linear-flip-usl"), "{cases:?}");
+    let none = folder.call(&["run", "--case", "apic"]);
+    assert_eq!((none.code, none.out.as_str()), (BAD_INPUT, ""));
+    assert!(none.errors.contains("error: --case apic: no case has this"), "{}", none.errors);
+}
+
+#[test]
+fn a_list_for_programs_has_the_predicted_costs() {
+    let folder = suites();
+    folder.write("verification/c.yaml", ambitious());
+    let found = folder.call(&["list", "--format", "json"]);
+    assert_eq!(found.code, SOUND);
+    let listed: Value = serde_json::from_str(&found.out).expect("JSON");
+    let suites = listed["suites"].as_array().expect("a list");
+    let names: Vec<&str> = suites.iter().filter_map(|suite| suite["suite"].as_str()).collect();
+    assert_eq!(names, ["short-bar", "other-bar", "ambitious-bar"]);
+    let case = &suites[0]["cases"][0];
+    assert_eq!(case["case"], "mpm-linear-flip-musl");
+    // 16 + 24 + 32 + 48 particles, 50 steps each.
+    assert_eq!(case["particle_steps"], 6000.0);
+    assert!(case["seconds"].as_f64().is_some_and(|seconds| seconds > 0.0), "{case}");
+}
