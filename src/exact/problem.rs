@@ -8,15 +8,16 @@ use super::initial_stress::InitialStress;
 use super::law::Equation;
 use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, write};
+use super::outline::Outline;
 use super::plane;
 use super::random::Random;
-use super::round::Round;
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
 use std::sync::Arc;
 
-/// An initial-boundary-value problem on a box or a round body, with its claimed solution.
+/// An initial-boundary-value problem on a box or a body of another outline, with its claimed
+/// solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// Lowest corner of the body, or of the box around it (m).
@@ -24,7 +25,7 @@ pub struct Problem {
     /// Highest corner (m).
     pub to: Vec<f64>,
     /// The body, if it is no box; then there are no faces.
-    pub round: Option<Round>,
+    pub outline: Option<Arc<dyn Outline>>,
     /// The problems of several boxes, of which this is the whole; empty where there is one body.
     pub bodies: Vec<Self>,
     /// State across the plane of a body in two dimensions.
@@ -76,7 +77,7 @@ impl Problem {
 
     /// Whether the body holds a point of the box around it.
     pub fn holds(&self, label: &[f64]) -> bool {
-        self.round.as_ref().is_none_or(|round| round.holds(label))
+        self.outline.as_ref().is_none_or(|outline| outline.holds(label))
     }
 
     /// The problem of the body at `label`.
@@ -90,8 +91,8 @@ impl Problem {
 
     /// A random point of the body.
     pub(super) fn point(&self, random: &mut Random) -> Vec<f64> {
-        match &self.round {
-            Some(round) => round.point(random),
+        match &self.outline {
+            Some(outline) => outline.point(random),
             None => random.point(&self.from, &self.to),
         }
     }

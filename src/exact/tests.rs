@@ -118,7 +118,7 @@ pub(super) fn held(dimension: usize) -> Problem {
         density: 2.0,
         equation: NeoHookeanLaw::new(10.0, 0.3).into(),
         terms: weight(&["-9.81*t"]),
-        round: None,
+        outline: None,
         heat: None,
         at_rest: false,
         follows_motion: true,

@@ -65,6 +65,7 @@ pub use material::{
 pub use multibody::Bodies;
 pub use particles::{Block, Particles};
 pub use scheme::SchemeName;
+pub use seeding::fragments::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
 pub use setup::Setup;
 pub use solver::Solver;

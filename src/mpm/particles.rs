@@ -67,8 +67,14 @@ impl<const D: usize> Block<D> {
         (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
     }
 
+    /// Lengths of a share (m).
+    pub fn spacing(&self, h: f64, per_axis: usize) -> Vector<D> {
+        let (length, count) = (self.to - self.from, self.counts(h, per_axis));
+        Vector::from_fn(|axis, _| length[axis] / count[axis] as f64)
+    }
+
     /// Shares along each axis.
-    fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
+    pub fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
         std::array::from_fn(|axis| {
             let length = self.to[axis] - self.from[axis];
             libm::round(length * per_axis as f64 / h).max(1.0) as usize
@@ -90,10 +96,9 @@ impl<const D: usize> Particles<D> {
         block: &Block<D>,
         h: f64,
         per_axis: usize,
-        inside: impl Fn(&Vector<D>) -> bool,
+        inside: impl FnMut(&Vector<D>) -> bool,
     ) -> Self {
-        let (length, count) = (block.to - block.from, block.counts(h, per_axis));
-        let spacing = Vector::<D>::from_fn(|axis, _| length[axis] / count[axis] as f64);
+        let spacing = block.spacing(h, per_axis);
         let volume = spacing.iter().product::<f64>();
         let mut x0: Vec<Vector<D>> = block.centres(h, per_axis).filter(inside).collect();
         x0.shrink_to_fit();

@@ -43,7 +43,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         density: 1.0,
         equation: NeoHookeanLaw::new(1.0, 0.3).into(),
         terms: Vec::new(),
-        round: None,
+        outline: None,
         heat: None,
         at_rest: false,
         follows_motion: true,

@@ -34,7 +34,7 @@ fn problem(
     Problem {
         from: vec![0.0; d],
         to: vec![1.0; d],
-        round: None,
+        outline: None,
         plane: PlaneState::Strain,
         density,
         equation: NeoHookeanLaw::new(young, poisson).into(),

@@ -106,7 +106,7 @@ mod tests {
         Problem {
             from: vec![0.0; 2],
             to: vec![1.0; 2],
-            round: None,
+            outline: None,
             plane: PlaneState::Strain,
             density: 1.0,
             equation: SmallStrainLaw::new(200.0, 0.0).into(),

@@ -170,7 +170,7 @@ mod tests {
                 heat: None,
                 from: vec![from],
                 to: vec![from + 1.0],
-                round: None,
+                outline: None,
                 plane: PlaneState::Strain,
                 density: 1.0,
                 equation: SmallStrainLaw::new(1.0, 0.0).into(),

@@ -42,10 +42,10 @@ pub(crate) struct SpaceTimePatch {
 impl SpaceTimePatch {
     fn draw(random: &mut Random, problem: &Problem) -> Self {
         let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
-        match &problem.round {
+        match &problem.outline {
             None => Self::in_box(random, ends, problem.until, longest),
-            Some(round) => {
-                let place = round.patch(random);
+            Some(outline) => {
+                let place = outline.patch(random);
                 Self::over(random, place, problem.until, longest)
             }
         }

@@ -182,17 +182,16 @@ fn intervals(problem: &Problem) -> Vec<(f64, f64)> {
 
 /// Labels and weights in the body.
 fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
-    match &problem.round {
-        None => points(&intervals(problem), panels),
-        Some(round) => {
-            let all = points(&round.intervals(), panels).into_iter();
-            let place = |(coordinates, weight): (Vec<f64>, f64)| {
-                let (label, volume) = round.place(&coordinates);
-                (label, weight * volume)
-            };
-            all.map(place).collect()
-        }
-    }
+    let Some(outline) = &problem.outline else { return points(&intervals(problem), panels) };
+    let charts = outline.charts().into_iter().enumerate();
+    let on_chart = |(chart, intervals): (usize, Vec<(f64, f64)>)| {
+        let place = |(coordinates, weight): (Vec<f64>, f64)| {
+            let (label, volume) = outline.place(chart, &coordinates);
+            (label, weight * volume)
+        };
+        points(&intervals, panels).into_iter().map(place).collect::<Vec<_>>()
+    };
+    charts.flat_map(on_chart).collect()
 }
 
 /// Labels and weights on a face of a box.
@@ -215,6 +214,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
     use std::f64::consts::PI;
+    use std::sync::Arc;
 
     fn energy(point: &SumPoint<'_>) -> ([f64; 3], f64) {
         ([point.kinetic_energy(), point.stored_energy(), 0.0], point.kinetic_energy())
@@ -281,7 +281,7 @@ mod tests {
         };
         let turned = ["cos(3*t)*X - sin(3*t)*Y - X", "sin(3*t)*X + cos(3*t)*Y - Y", "0"];
         let problem = Problem {
-            round: Some(Round { centre: vec![0.0; d], inner, outer: 1.0 }),
+            outline: Some(Arc::new(Round { centre: vec![0.0; d], inner, outer: 1.0 })),
             motion: Motion::new(turned[..d].iter().map(|text| bind(text)).collect()),
             ..held(d)
         };

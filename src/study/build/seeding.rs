@@ -1,7 +1,7 @@
 //! Bodies filled with particles, see [`lattice`](crate::suite::model::lattice).
 
-use crate::exact::Random;
-use crate::mpm::{Particles, Vector};
+use crate::exact::{Cut, Piece, Random, join_small};
+use crate::mpm::{Fragment, Matrix, Particles, Vector};
 use crate::suite::model::Scene;
 use crate::suite::model::lattice::{LatticeOffsets, block};
 use crate::suite::model::stability::LatticeEdits;
@@ -13,12 +13,44 @@ pub(crate) fn particles<const D: usize>(
     h: f64,
     per_axis: usize,
 ) -> Particles<D> {
-    if let Some(panel) = &scene.quadrilateral {
+    if let Some(panel) = &scene.mapped {
         return panel.fill(scene.density, h, per_axis);
     }
-    Particles::fill_where(&block(scene, origin, h), h, per_axis, |x0| {
-        scene.round.as_ref().is_none_or(|round| round.holds(x0.as_slice()))
-    })
+    let block = block(scene, origin, h);
+    let Some(outline) = &scene.outline else { return Particles::fill(&block, h, per_axis) };
+    let half = block.spacing(h, per_axis) * 0.5;
+    let centres: Vec<Vector<D>> = block.centres(h, per_axis).collect();
+    let cut = |centre: &Vector<D>| outline.cut(centre.as_slice(), half.as_slice());
+    let mut cuts: Vec<Cut> = centres.iter().map(cut).collect();
+    if let [x, y] = half.as_slice() {
+        let along = block.counts(h, per_axis)[0];
+        let place = |p: usize| [centres[p][0], centres[p][1]];
+        join_small(&mut cuts, along, [*x, *y], &place, &|label| outline.holds(label));
+    }
+    let mut fragments = Vec::new();
+    let mut all = cuts.iter();
+    let mut particles = Particles::fill_where(&block, h, per_axis, |_| match all.next() {
+        Some(Cut::Pieces(pieces)) => {
+            fragments.extend(pieces.iter().map(fragment));
+            false
+        }
+        cut => cut == Some(&Cut::Whole),
+    });
+    particles.add_fragments(&fragments, scene.density);
+    particles
+}
+
+/// The particle of a piece of a body in the plane; a further axis would be its thickness of one.
+fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
+    let domain = piece.domain();
+    Fragment {
+        volume: piece.volume,
+        place: Vector::from_fn(|i, _| piece.place.get(i).copied().unwrap_or(0.0)),
+        domain: Matrix::from_fn(|i, j| match (i, j) {
+            (0 | 1, 0 | 1) => domain[2 * i + j],
+            _ => 0.5 * f64::from(u8::from(i == j)),
+        }),
+    }
 }
 
 impl LatticeEdits {

@@ -13,9 +13,6 @@ const ROWS: usize = 14;
 /// A line of text is about twice as high as a character is wide.
 const ASPECT: f64 = 0.5;
 
-/// Places on the outline of a body, to one side.
-const OUTLINE: usize = 48;
-
 /// The grid of the coarsest level in the plane of the first two axes.
 struct View<'a> {
     scene: &'a Scene,
@@ -49,20 +46,10 @@ impl<'a> View<'a> {
                 .collect();
             let inside = |(axis, x): (usize, &f64)| (body.from[axis]..=body.to[axis]).contains(x);
             place.iter().enumerate().all(inside)
-                && body.round.as_ref().is_none_or(|round| round.holds(&place))
-                && body.quadrilateral.as_ref().is_none_or(|panel| {
-                    let corners: Vec<Pt> = panel.corners().iter().map(|c| (c[0], c[1])).collect();
-                    within(&corners, (x, y))
-                })
+                && body.outline.as_ref().is_none_or(|outline| outline.holds(&place))
         };
         self.scene.each().iter().position(holds)
     }
-}
-
-/// Whether a convex polygon, its corners counter-clockwise, holds a point.
-fn within(corners: &[Pt], (x, y): Pt) -> bool {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).all(|(a, b)| (b.0 - a.0) * (y - a.1) >= (b.1 - a.1) * (x - a.0))
 }
 
 /// Face with its condition or load: `left: fixed`.
@@ -179,23 +166,8 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
 
 /// Outline of a body in the plane of the first two axes; a bar is one cell high.
 fn outline(body: &Scene, h: f64) -> Vec<Pt> {
-    if let Some(panel) = &body.quadrilateral {
-        return panel.corners().iter().map(|c| (c[0], c[1])).collect();
-    }
-    if let Some(round) = body.round.as_ref().filter(|_| body.dimension() > 1) {
-        let circle = |radius: f64, turn: f64| {
-            let angle = |k: usize| turn * std::f64::consts::TAU * k as f64 / OUTLINE as f64;
-            let point = |k: usize| {
-                let (sin, cos) = (libm::sin(angle(k)), libm::cos(angle(k)));
-                (round.centre[0] + radius * cos, round.centre[1] + radius * sin)
-            };
-            (0..=OUTLINE).map(point).collect::<Vec<Pt>>()
-        };
-        let mut all = circle(round.outer, 1.0);
-        if round.inner > 0.0 {
-            all.extend(circle(round.inner, -1.0));
-        }
-        return all;
+    if let Some(outline) = &body.outline {
+        return outline.trace();
     }
     let (low, high) = if body.dimension() == 1 { (0.0, h) } else { (body.from[1], body.to[1]) };
     vec![(body.from[0], low), (body.to[0], low), (body.to[0], high), (body.from[0], high)]

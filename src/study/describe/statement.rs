@@ -38,18 +38,10 @@ fn corner(c: &[f64]) -> String {
 
 fn body(scene: &Scene) -> String {
     let (from, to) = (corner(&scene.from), corner(&scene.to));
-    let body = match (&scene.round, &scene.quadrilateral) {
-        (_, Some(panel)) => {
-            let corners = panel.corners().iter().map(|c| format!("({})", corner(c.as_slice())));
-            format!("quadrilateral {} m", corners.collect::<Vec<_>>().join(", "))
-        }
-        (None, None) => format!("({from}) to ({to}) m"),
-        (Some(round), None) => {
-            let (kind, centre, outer) = (round.name(), corner(&round.centre), round.outer);
-            let inner =
-                if round.inner > 0.0 { format!("{} to ", round.inner) } else { String::new() };
-            format!("{kind} about ({centre}), radius {inner}{outer} m, free rims")
-        }
+    let body = match (&scene.outline, &scene.mapped) {
+        (None, _) => format!("({from}) to ({to}) m"),
+        (Some(outline), Some(_)) => outline.row(),
+        (Some(outline), None) => outline.row() + ", free rims",
     };
     format!("{body}, density {}", scene.density)
 }

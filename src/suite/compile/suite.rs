@@ -203,9 +203,10 @@ fn observed(
             return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
         }
     }
-    if scene.round.as_ref().is_some_and(|round| !round.holds(&place)) {
+    let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
+    if let Some(kind) = outside.map(|outline| outline.kind()) {
         let diagnostic = evaluator.diagnostic(&path, "this place is outside the body");
-        return Err(diagnostic.with_label("expected a place between the rims"));
+        return Err(diagnostic.with_label(&format!("expected a place in the {kind}")));
     }
     Ok(place)
 }

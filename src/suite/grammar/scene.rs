@@ -68,6 +68,8 @@ pub(crate) enum BodySpec {
     Annulus(AnnulusSpec),
     Disk(RoundSpec),
     Ball(RoundSpec),
+    /// Corners, in their order around the body.
+    Polygon(Vec<Vec<NumberText>>),
     Quadrilateral(QuadrilateralSpec),
 }
 

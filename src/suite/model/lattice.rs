@@ -1,14 +1,15 @@
 //! The lattice of particles that fills a body.
 //!
-//! A box is filled with equal shares of itself. A round body takes the lattice that fills the cells
-//! of the grid, `h/n` apart with n particles along a cell, and of it the particles whose reference
-//! position lies inside. Each has its whole share, so that the rim is a stair, and volume and mass
-//! differ from those of the body by a share that falls with h. A quadrilateral is filled by its
-//! bilinear map, independent of the grid.
+//! A box is filled with equal shares of itself. A body of another outline takes the lattice that
+//! fills the cells of the grid, `h/n` apart with n particles along a cell, and of each share what
+//! its outline says ([`Outline::cut`](crate::exact::Outline::cut)): the whole of it or nothing in a
+//! round body, the exact part in a polygon. A quadrilateral is filled by its bilinear map,
+//! independent of the grid.
 
 use super::Scene;
 use super::grid_size::grid_axis;
 use crate::dimension::with_dimension;
+use crate::exact::Cut;
 use crate::mpm::{Block, Vector};
 
 /// Places of particles beside their lattice, in shares of their spacing.
@@ -29,10 +30,10 @@ impl LatticeOffsets {
     }
 }
 
-/// The box that is filled: the body's own or, around a round body, whole cells of the grid that
-/// starts at `origin`.
+/// The box that is filled: the body's own or, around a body of another outline, whole cells of the
+/// grid that starts at `origin`.
 pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
-    let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.round {
+    let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.outline {
         Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
         None => x,
     };
@@ -43,16 +44,44 @@ pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -
     }
 }
 
-/// Whether some round body of the scene holds no particle with cells of size `h`.
+/// Whether some body of the scene with a free rim is smaller than what a particle stands for with
+/// cells of size `h`.
 pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
-    fn vacant<const D: usize>(scene: &Scene, h: f64, per_axis: usize) -> bool {
+    scene.each().iter().filter(|body| body.outline.is_some() && body.mapped.is_none()).any(|body| {
+        let mut shares = 0.0;
+        !any_particle(body, (scene, h), per_axis, |_, share| {
+            shares += share;
+            shares >= 1.0 - 1e-9
+        })
+    })
+}
+
+/// Whether some particle of a `body` with a free rim is such that `holds` of its place (m) and of
+/// its part of a share of the lattice, on the grid of `scene` with cells of size `h`.
+pub(crate) fn any_particle(
+    body: &Scene,
+    (scene, h): (&Scene, f64),
+    per_axis: usize,
+    mut holds: impl FnMut(&[f64], f64) -> bool,
+) -> bool {
+    fn any<const D: usize>(
+        body: &Scene,
+        (scene, h): (&Scene, f64),
+        per_axis: usize,
+        holds: &mut dyn FnMut(&[f64], f64) -> bool,
+    ) -> bool {
+        let Some(outline) = &body.outline else { return false };
         let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
-        scene.each().iter().any(|body| {
-            body.round.as_ref().is_some_and(|round| {
-                let block = block(body, &origin, h);
-                !block.centres(h, per_axis).any(|x0| round.holds(x0.as_slice()))
-            })
+        let block = block(body, &origin, h);
+        let half = block.spacing(h, per_axis) * 0.5;
+        let share = half.iter().map(|half| 2.0 * half).product::<f64>();
+        block.centres(h, per_axis).any(|centre| {
+            match outline.cut(centre.as_slice(), half.as_slice()) {
+                Cut::Nothing => false,
+                Cut::Whole => holds(centre.as_slice(), 1.0),
+                Cut::Pieces(all) => all.iter().any(|one| holds(&one.place, one.volume / share)),
+            }
         })
     }
-    with_dimension!(scene.dimension(), D => vacant::<D>(scene, h, per_axis))
+    with_dimension!(body.dimension(), D => any::<D>(body, (scene, h), per_axis, &mut holds))
 }

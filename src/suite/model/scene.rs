@@ -4,7 +4,7 @@ use super::boundary::BoundaryCondition;
 use super::heat::SceneHeat;
 use super::load::{EffectName, ListedLoad, LoadTarget};
 use crate::exact::formula::Formula;
-use crate::exact::{InitialStress, Region, Round, Term};
+use crate::exact::{InitialStress, Outline, Region, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
 use crate::subject::PlaneState;
 use std::sync::Arc;
@@ -16,10 +16,10 @@ pub struct Scene {
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// The body, if it is round.
-    pub round: Option<Round>,
-    /// The body, if it is a panel with four sides.
-    pub quadrilateral: Option<Quadrilateral>,
+    /// The body, if it is no box.
+    pub outline: Option<Arc<dyn Outline>>,
+    /// The map of a body with an outline that is a mapped box; any other has a free rim.
+    pub mapped: Option<Quadrilateral>,
     /// Grid that the suite asks for, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
     /// State of the bodies across the plane of two dimensions.
@@ -28,7 +28,7 @@ pub struct Scene {
     pub material: MaterialPlan,
     /// Reference density (kg/m^D).
     pub density: f64,
-    /// The 2 D faces of a box: low and high, axis by axis. A round body has none.
+    /// The 2 D faces of a box: low and high, axis by axis. A body with a free rim has none.
     pub faces: Vec<SceneFace>,
     /// Sets of particles, on each of which one load acts.
     pub sets: Vec<Region>,

@@ -91,7 +91,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         EXACT,
         NO_PARAMETERS,
     ],
-    &["between the particles of a box, and this is a round body"]
+    &["between the particles of a box, and this is one of kind `disk`"]
 )]
 #[case::of_a_panel(
     PLATE,
@@ -104,7 +104,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         EXACT,
         NO_PARAMETERS,
     ],
-    &["between the particles of a box, and this is a quadrilateral"]
+    &["between the particles of a box, and this is one of kind `quadrilateral`"]
 )]
 #[case::of_moved_particles(
     BAR,

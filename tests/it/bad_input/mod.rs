@@ -22,6 +22,7 @@ mod numbers;
 mod panels;
 mod periods;
 mod planes;
+mod polygons;
 mod quantities;
 mod random;
 mod refinement;

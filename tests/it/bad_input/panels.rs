@@ -54,7 +54,7 @@ const PANEL: (&str, &str) = (
 #[test]
 fn a_panel_has_no_checked_solution() {
     let edits = [PANEL, ("exact:", "▸exact:")];
-    refused(PLATE, &edits, &["a solution is checked in a box or a round body"]);
+    refused(PLATE, &edits, &["a solution is checked in a box or a body with a free rim"]);
 }
 
 #[test]

@@ -82,6 +82,10 @@ const ROD: &str = include_str!("../../../verification/axisymmetric-wave.yaml");
     &[("body: {box: {from: [0, 0], to: [b, b/4]}}", "▸body: {quadrilateral: {corners: [[0, 0], [b, 0], [b, b/4], [0, b/4]]}}")],
     &["`plane: axisymmetric`, and quadrilaterals"]
 )]
+#[case::a_free_rim_on_the_axis(
+    &[("body: {box: {from: [0, 0], to: [b, b/4]}}", "▸body: {polygon: [[0, 0], [b, 0], [0, b]]}"), (FACES, "")],
+    &["the rim of the body is free, and reaches the axis", "move it to larger radii"]
+)]
 #[case::an_initial_stress(
     &[("  initial_velocity", "  ▸initial_stress: {xx: \"1\"}\n  initial_velocity")],
     &["`plane: axisymmetric`, and an initial stress has no word for its hoops"]

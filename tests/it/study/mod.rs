@@ -4,5 +4,6 @@ mod diagnosis;
 mod fine_grid;
 mod foundation;
 mod interrupted;
+mod polygons;
 mod predicted_error;
 mod preflight;

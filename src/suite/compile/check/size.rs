@@ -6,7 +6,7 @@ use crate::suite::compile::run::refine::LevelPaths;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
-use crate::suite::model::lattice::is_vacant;
+use crate::suite::model::lattice::{any_particle, is_vacant};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::yaml::Diagnostic;
@@ -69,7 +69,7 @@ pub(crate) fn fine_grid(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a round body that is smaller than the spacing of its particles.
+/// Refuses a body with a free rim that is smaller than what one of its particles stands for.
 fn vacant(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -81,7 +81,8 @@ fn vacant(
         return Ok(());
     }
     let cells = level.cells;
-    let message = format!("with {cells} cells along the first axis no particle lies in the body");
+    let message =
+        format!("with {cells} cells along the first axis the body is smaller than a particle");
     let label = "expected cells small enough for the body to hold one";
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
@@ -144,6 +145,7 @@ fn sets(
     level: LevelPlan,
 ) -> Result<(), Diagnostic> {
     let cells = level.cells;
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     for set in &scene.sets {
         // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
         let some = |axis: usize| {
@@ -152,7 +154,14 @@ fn sets(
             let index = libm::ceil((set.from[axis] - from) / length * count - 0.5).max(0.0);
             from + length * (index.min(count - 1.0) + 0.5) / count <= set.to[axis]
         };
-        if !(0..scene.dimension()).all(some) {
+        let inside = |x0: &[f64], _| set.holds(x0);
+        let is_held = match (&scene.outline, per_axis) {
+            (Some(_), Some(n)) if scene.mapped.is_none() => {
+                any_particle(scene, (scene, level.h), n, inside)
+            }
+            _ => (0..scene.dimension()).all(some),
+        };
+        if !is_held {
             let name = &set.name;
             let message = format!(
                 "with {cells} cells along the first axis the set `{name}` holds no particle"

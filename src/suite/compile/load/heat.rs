@@ -2,9 +2,9 @@
 
 use super::contract::{LoadEntry, LoadWords};
 use super::thermal_face;
+use crate::exact::Term;
 use crate::exact::formula::{Expr, Formula};
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
-use crate::exact::{Round, Term};
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
 use crate::subject::PlaneState;
 use crate::suite::compile::boundary::thermal::ThermalSpec;
@@ -39,8 +39,8 @@ impl LoadWords for HeatSpec {
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         let LoadEntry { evaluator, path, scene, .. } = entry;
-        let panel = scene.quadrilateral.as_ref().map(|_| "quadrilateral");
-        if let Some(kind) = scene.round.as_ref().map(Round::name).or(panel) {
+        if let Some(outline) = &scene.outline {
+            let kind = outline.kind();
             let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
             return Err(evaluator.diagnostic_at_key(path, &message));
         }

@@ -129,12 +129,11 @@ fn one_lattice(
     spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    let body = match () {
-        () if !scene.bodies.is_empty() => "several bodies",
-        () if scene.round.is_some() => "a round body",
-        () if scene.quadrilateral.is_some() => "a quadrilateral",
-        () if spec.particles.is_some() => "one whose `particles` are moved",
-        () => return Ok(()),
+    let body = match &scene.outline {
+        _ if !scene.bodies.is_empty() => "several bodies",
+        Some(outline) => &format!("one of kind `{}`", outline.kind()),
+        None if spec.particles.is_some() => "one whose `particles` are moved",
+        None => return Ok(()),
     };
     let message =
         format!("a fine grid is interpolated between the particles of a box, and this is {body}");

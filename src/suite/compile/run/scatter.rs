@@ -24,8 +24,7 @@ pub(crate) fn scatter(
         return Ok(LatticeOffsets::default());
     };
     let path = Path::top("particles");
-    let is_box = |body: &Scene| body.round.is_none() && body.quadrilateral.is_none();
-    if !scene.each().iter().all(is_box) {
+    if scene.each().iter().any(|body| body.outline.is_some()) {
         let message = "particles are moved off the lattice of a box, and this body is none";
         return Err(evaluator.diagnostic_at_key(&path, message));
     }

@@ -3,6 +3,7 @@
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
 //! loads are those of the scene: they act on every body.
 
+use crate::exact::Polygon;
 use crate::mpm::MaterialSpec;
 use crate::suite::compile::boundary::FreeFace;
 use crate::suite::compile::evaluator::Evaluator;
@@ -131,7 +132,7 @@ pub(crate) fn together(
     if !several {
         return Ok(scene);
     }
-    (scene.round, scene.quadrilateral) = (None, None);
+    (scene.outline, scene.mapped) = (None, None);
     for body in &bodies {
         for axis in 0..scene.from.len() {
             scene.from[axis] = scene.from[axis].min(body.from[axis]);
@@ -159,7 +160,7 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
             face.hold = Arc::new(FreeFace);
         }
     }
-    if body.round.is_some() {
+    if body.outline.is_some() && body.mapped.is_none() {
         body.faces.clear();
     }
 }
@@ -176,19 +177,44 @@ fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(),
     Ok(())
 }
 
-/// Whether the boxes around two bodies overlap, and the bodies within; a ring counts as a disk.
+/// Whether two bodies overlap; a ring counts as a disk.
 fn overlap(one: &Scene, other: &Scene) -> bool {
     let boxes = (0..one.from.len())
         .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);
-    let far = |from: &[f64], to: &[f64], centre: &[f64]| {
-        let ends = from.iter().zip(to).zip(centre);
-        ends.fold(0.0, |all, ((from, to), c)| libm::hypot(all, c.clamp(*from, *to) - c))
+    let ball = |body: &'_ Scene| -> Option<(Vec<f64>, f64)> {
+        let (centre, radius) = body.outline.as_ref()?.ball()?;
+        Some((centre.to_vec(), radius))
     };
     boxes
-        && match (&one.round, &other.round) {
-            (None, None) => true,
-            (Some(a), Some(b)) => far(&b.centre, &b.centre, &a.centre) < a.outer + b.outer,
-            (Some(round), None) => far(&other.from, &other.to, &round.centre) < round.outer,
-            (None, Some(round)) => far(&one.from, &one.to, &round.centre) < round.outer,
+        && match (ball(one), ball(other)) {
+            (Some((centre, radius)), Some((other, other_radius))) => {
+                let ends = centre.iter().zip(&other);
+                ends.fold(0.0, |all, (a, b)| libm::hypot(all, b - a)) < radius + other_radius
+            }
+            (Some((centre, radius)), None) => distance(other, &centre) < radius,
+            (None, Some((centre, radius))) => distance(one, &centre) < radius,
+            (None, None) => match (polygon(one), polygon(other)) {
+                (Some(one), Some(other)) => one.overlaps(&other),
+                _ => true,
+            },
         }
+}
+
+/// Distance (m) of a place from a body.
+fn distance(body: &Scene, place: &[f64]) -> f64 {
+    if let Some(outline) = &body.outline {
+        return outline.distance(place);
+    }
+    let ends = body.from.iter().zip(&body.to).zip(place);
+    ends.fold(0.0, |all, ((from, to), x)| libm::hypot(all, x.clamp(*from, *to) - x))
+}
+
+/// A body in the plane with straight sides.
+fn polygon(body: &Scene) -> Option<Polygon> {
+    let ([left, bottom], [right, top]) = (&body.from[..], &body.to[..]) else { return None };
+    let corners = match &body.outline {
+        Some(outline) => outline.trace().into_iter().map(<[f64; 2]>::from).collect(),
+        None => vec![[*left, *bottom], [*right, *bottom], [*right, *top], [*left, *top]],
+    };
+    Polygon::new("polygon", &corners).ok()
 }

@@ -64,7 +64,7 @@ pub(crate) fn revolves(
     }
     let help = "the first coordinate of the meridian plane is the radius";
     let body = path.then("body");
-    if scene.quadrilateral.is_some() {
+    if scene.mapped.is_some() {
         let message = "`plane: axisymmetric`, and quadrilaterals are not known to be of revolution";
         return Err(evaluator.diagnostic_at_key(&body, message));
     }
@@ -75,6 +75,11 @@ pub(crate) fn revolves(
     if scene.from[0] < 0.0 {
         let message = format!("the body begins at a radius of {}", shown(scene.from[0]));
         return Err(evaluator.diagnostic_at_key(&body, &message).with_help(help));
+    }
+    if scene.outline.is_some() && scene.from[0] == 0.0 {
+        let message = "the rim of the body is free, and reaches the axis, which nothing leaves";
+        let diagnostic = evaluator.diagnostic_at_key(&body, message);
+        return Err(diagnostic.with_help("move it to larger radii, or take a `box`"));
     }
     let mut faces = scene.faces.iter().filter(|face| face.axis == 0);
     if let Some(face) = faces.clone().find(|face| face.hold.is_periodic()) {

@@ -1,10 +1,10 @@
 //! The body and what acts on it, from words.
 
 use super::bodies::Listed;
-use super::body::BodyShape;
 use super::material::material;
-use super::quadrilateral::faces_are_sides;
-use super::{bodies, body, boundary, initial, plane, rest, sets};
+use super::outline::BodyShape;
+use super::outline::quadrilateral::faces_are_sides;
+use super::{bodies, body, boundary, initial, outline, plane, rest, sets};
 use crate::exact::Region;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::{LoadEntry, LoadSpec};
@@ -30,8 +30,9 @@ pub(crate) fn scene(
     let scene = bodies::together(evaluator, &path, each, words.bodies.is_some(), contact)?;
     sets::refuse_idle(evaluator, &path, &scene)?;
     body::on_grid(evaluator, &path, &scene)?;
-    for round in scene.each().iter().filter_map(|body| body.round.as_ref()) {
-        body::fits(evaluator, &path, round, scene.grid.as_ref())?;
+    let with_rims = scene.each().iter().filter(|body| body.mapped.is_none());
+    for outline in with_rims.filter_map(|body| body.outline.as_deref()) {
+        outline::fits(evaluator, &path, outline, scene.grid.as_ref())?;
     }
     Ok(scene)
 }
@@ -45,20 +46,22 @@ fn body(
     let path = Path::top("scene");
     let dimension = dimension(evaluator, &path, &words.dimension)?;
     let at = own.at.then("body");
-    let (mut round, mut quadrilateral) = (None, None);
-    let (from, to) = match body::shape(evaluator, &at, own.body, dimension)? {
+    let (mut outline, mut mapped) = (None, None);
+    let (from, to) = match outline::shape(evaluator, &at, own.body, dimension)? {
         BodyShape::Box(words) => body::corners(evaluator, &at.then("box"), words, dimension)?,
-        BodyShape::Round(found) => {
+        BodyShape::Free(found) => {
             if words.bodies.is_none() {
-                body::rims_are_free(evaluator, &path, words, &found)?;
+                outline::rims_are_free(evaluator, &path, words, found.as_ref())?;
             }
-            round.insert(found).corners()
+            outline.insert(found).ends()
         }
-        BodyShape::Quadrilateral(found) => {
-            faces_are_sides(evaluator, &path, words, &found)?;
-            quadrilateral.insert(found).ends()
+        BodyShape::Mapped(found, panel) => {
+            faces_are_sides(evaluator, &path, words, &panel)?;
+            mapped = Some(panel);
+            outline.insert(found).ends()
         }
     };
+    let is_free = outline.is_some() && mapped.is_none();
     let grid = words
         .grid
         .as_ref()
@@ -78,13 +81,13 @@ fn body(
         initial_displacement: initial::displacement(evaluator, own, dimension, &material)?,
         material,
         density,
-        faces: if round.is_some() && words.bodies.is_none() {
+        faces: if is_free && words.bodies.is_none() {
             Vec::new()
         } else {
             faces(evaluator, &path, words, dimension)?
         },
-        round,
-        quadrilateral,
+        outline,
+        mapped,
         sets,
         loads: Vec::new(),
         initial_velocity: initial::velocity(evaluator, own, dimension)?,

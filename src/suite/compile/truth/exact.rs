@@ -7,7 +7,7 @@ use crate::exact::{Equation, Face, Motion, Problem};
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::quadrilateral::refuse_truth;
+use crate::suite::compile::scene::outline::quadrilateral::refuse_truth;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
 use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
@@ -27,7 +27,7 @@ pub(crate) fn exact(
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Problem>, Diagnostic> {
-    if scene.each().iter().any(|body| body.quadrilateral.is_some()) {
+    if scene.each().iter().any(|body| body.mapped.is_some()) {
         refuse_truth(evaluator, spec)?;
     }
     if !scene.bodies.is_empty() {
@@ -168,7 +168,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
     Problem {
         from: scene.from.clone(),
         to: scene.to.clone(),
-        round: scene.round.clone(),
+        outline: scene.outline.clone(),
         bodies: Vec::new(),
         plane: scene.plane,
         density: scene.density,

@@ -41,7 +41,7 @@ pub(crate) fn check(
     diagnostic: impl Fn(Violation) -> Diagnostic,
 ) -> Result<(), Diagnostic> {
     let at = Path::top("scene").then("bodies");
-    if let Some(i) = problems.iter().position(|problem| problem.round.is_some()) {
+    if let Some(i) = problems.iter().position(|problem| problem.outline.is_some()) {
         let message = "a solution is known of boxes that meet face to face";
         return Err(evaluator.diagnostic_at_key(&at.then(i).then("body"), message));
     }

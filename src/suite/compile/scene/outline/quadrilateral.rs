@@ -1,49 +1,41 @@
 //! Panels with four straight sides, from words.
 
-use super::lengths::{LONGEST, SHORTEST};
+use super::polygon::corners;
+use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{ConvergenceSpec, QuadrilateralSpec};
 use crate::suite::model::scene::FACES;
 use crate::suite::yaml::Diagnostic;
+use std::sync::Arc;
 
-/// The panel that `words` at `path` describe.
+/// The panel that `words` at `path` describe, and its outline.
 ///
 /// # Errors
 /// A complaint about corners that are not those of a convex panel in the plane.
-pub(crate) fn quadrilateral(
+pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
     words: &QuadrilateralSpec,
-    dimension: usize,
-) -> Result<Quadrilateral, Diagnostic> {
+) -> Result<(Arc<dyn Outline>, Quadrilateral), Diagnostic> {
     let path = path.then("corners");
-    let [a, b, c, d] = &words.corners[..] else {
+    if words.corners.len() != 4 {
         let message = format!("a quadrilateral of {} corners", words.corners.len());
         return Err(evaluator.diagnostic(&path, &message).with_label("expected four"));
-    };
-    let mut corners = [Vector::<2>::zeros(); 4];
-    for (i, texts) in [a, b, c, d].into_iter().enumerate() {
-        let at = path.then(i);
-        corners[i] = Vector::from_column_slice(&evaluator.point(&at, texts, dimension)?);
-        for k in 0..i {
-            let length = (corners[i] - corners[k]).norm();
-            if !(SHORTEST..=LONGEST).contains(&length) {
-                let (first, second, length) = (k + 1, i + 1, shown(length));
-                let message = format!("corners {first} and {second} are {length} m apart");
-                let label = format!("expected a distance from {SHORTEST:e} to {LONGEST:e}");
-                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
-            }
-        }
     }
-    Quadrilateral::new(corners).map_err(|i| {
+    let corners = corners(evaluator, &path, &words.corners)?;
+    let to_the_right = |i: usize| {
         let message = format!("at corner {} the sides do not turn to the left", i + 1);
         let diagnostic = evaluator.diagnostic(&path.then(i), &message);
         diagnostic.with_label("expected the corners of a convex panel, counter-clockwise")
-    })
+    };
+    let places = std::array::from_fn(|i| Vector::from(corners[i]));
+    let panel = Quadrilateral::new(places).map_err(to_the_right)?;
+    let corners = panel.corners().map(|c| [c[0], c[1]]);
+    let outline = Polygon::new("quadrilateral", &corners);
+    Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
 /// A face can be held or loaded where a whole side lies on it.
@@ -90,7 +82,7 @@ pub(crate) fn faces_are_sides(
     Ok(())
 }
 
-/// Solutions are checked in boxes and round bodies.
+/// Solutions are checked in boxes and bodies with a free rim.
 ///
 /// # Errors
 /// A complaint about a truth that is stated.
@@ -105,7 +97,8 @@ pub(crate) fn refuse_truth(
     ];
     match stated.iter().find(|(_, stated)| *stated) {
         Some((key, _)) => {
-            let message = "a solution is checked in a box or a round body, not in a quadrilateral";
+            let message = "a solution is checked in a box or a body with a free rim, not in a \
+                           quadrilateral";
             Err(evaluator.diagnostic_at_key(&Path::top(key), message))
         }
         None => Ok(()),

@@ -1,0 +1,71 @@
+//! Bodies that are no box: round ones and polygons.
+//!
+//! Their rims carry no traction, which is all that a suite can say of them, but for the sides of a
+//! quadrilateral that lie on a face.
+
+mod moments;
+mod piece;
+mod polygon;
+mod round;
+mod side;
+#[cfg(test)]
+mod tests;
+mod triangle;
+
+pub use piece::{Cut, Piece, join_small};
+pub use polygon::Polygon;
+pub use round::Round;
+
+use super::random::Random;
+use std::fmt::Debug;
+
+/// Share of a length or an area that is no more than rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Shape of a body that is no box, in the reference configuration.
+pub trait Outline: Debug + Send + Sync {
+    /// Its kind, as suites write it.
+    fn kind(&self) -> &'static str;
+
+    /// The body in one line of a report.
+    fn row(&self) -> String;
+
+    /// Lowest and highest corner of the box around the body (m).
+    fn ends(&self) -> (Vec<f64>, Vec<f64>);
+
+    /// Whether the point with reference position `label` belongs to the body.
+    fn holds(&self, label: &[f64]) -> bool;
+
+    /// Distance (m) of a point from the body, whose holes count as filled.
+    fn distance(&self, label: &[f64]) -> f64;
+
+    /// Centre and radius (m) of a body that is round but for holes.
+    fn ball(&self) -> Option<(&[f64], f64)> {
+        None
+    }
+
+    /// The part of a share of a lattice, a box of half-lengths `half` (m) about `centre`, that is a
+    /// particle of the body, or several.
+    fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
+
+    /// A closed line along the rim, in the plane of the first two axes (m).
+    fn trace(&self) -> Vec<(f64, f64)>;
+
+    /// The parts of the rim, as messages name them.
+    fn rims(&self) -> Vec<String>;
+
+    /// A random point of a part of the rim, and the outward normal there.
+    fn on_rim(&self, rim: usize, random: &mut Random) -> (Vec<f64>, [f64; 3]);
+
+    /// A point inside, uniform in the body.
+    fn point(&self, random: &mut Random) -> Vec<f64>;
+
+    /// Centre and half-lengths of a box inside the body.
+    fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>);
+
+    /// Maps of boxes that cover the body: ends of the coordinates of each.
+    fn charts(&self) -> Vec<Vec<(f64, f64)>>;
+
+    /// The point of a chart with such coordinates, and the volume of the body per unit of them.
+    fn place(&self, chart: usize, coordinates: &[f64]) -> (Vec<f64>, f64);
+}

@@ -1,0 +1,221 @@
+//! Bodies with straight sides in the plane.
+
+use super::moments::AreaMoments;
+use super::side::{Point, cross, distance, meet, side, turn};
+use super::triangle::{TriangleCorners, clip, triangles};
+use super::{Cut, Outline, Piece, ROUNDING};
+use crate::exact::random::Random;
+
+/// Random points of which a patch takes the one that is furthest from all sides.
+const CANDIDATES: usize = 8;
+
+/// A simple polygon: sides that neither cross nor touch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polygon {
+    kind: &'static str,
+    /// Counter-clockwise.
+    corners: Vec<Point>,
+    triangles: Vec<TriangleCorners>,
+}
+
+impl Polygon {
+    /// The polygon of these corners (m), in either order around it; `kind` is the name that suites
+    /// have for it.
+    ///
+    /// # Errors
+    /// The numbers of two sides that cross or touch other than at the end of one and the start of
+    /// the next; side i begins at corner i.
+    pub fn new(kind: &'static str, corners: &[[f64; 2]]) -> Result<Self, (usize, usize)> {
+        let n = corners.len();
+        for second in 0..n {
+            for first in 0..second {
+                if meet(corners, first, second) {
+                    return Err((first, second));
+                }
+            }
+        }
+        let mut corners = corners.to_vec();
+        let doubled: f64 = (1..n).map(|i| turn(&corners[0], &corners[i - 1], &corners[i])).sum();
+        if doubled < 0.0 {
+            corners.reverse();
+        }
+        let triangles = triangles(&corners);
+        Ok(Self { kind, corners, triangles })
+    }
+
+    /// Whether the two have an area in common.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let area: f64 = [self, other].map(Self::area).into_iter().fold(f64::INFINITY, f64::min);
+        let common = |one: &TriangleCorners, other: &TriangleCorners| {
+            let sides = [0, 1, 2].map(|i| (other[i], other[(i + 1) % 3]));
+            let piece = sides
+                .iter()
+                .fold(one.to_vec(), |left, (from, to)| clip(&left, |p| turn(from, to, p)));
+            AreaMoments::of(&[piece], &one[0]).area
+        };
+        let pairs =
+            self.triangles.iter().flat_map(|one| other.triangles.iter().map(move |two| (one, two)));
+        pairs.map(|(one, two)| common(one, two)).sum::<f64>() > ROUNDING * area
+    }
+
+    /// Its area (m2).
+    fn area(&self) -> f64 {
+        self.triangles.iter().map(|[a, b, c]| 0.5 * turn(a, b, c)).sum()
+    }
+
+    /// The ends of every side.
+    fn sides(&self) -> impl Iterator<Item = (&Point, &Point)> {
+        self.corners.iter().zip(self.corners.iter().cycle().skip(1))
+    }
+
+    /// Distance of a point from the nearest side (m).
+    fn depth(&self, p: &Point) -> f64 {
+        self.sides().map(|(a, b)| distance(a, b, p)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The piece that convex `parts` make of a share; none where there is next to nothing.
+    fn piece(parts: &[Vec<Point>], centre: &Point, half: &Point) -> Option<Piece> {
+        let AreaMoments { area, first, .. } = AreaMoments::of(parts, centre);
+        if !(area > ROUNDING * 4.0 * half[0] * half[1]) {
+            return None;
+        }
+        let place: Point = [0, 1].map(|axis| centre[axis] + first[axis] / area);
+        let spread = AreaMoments::of(parts, &place).second.map(|moment| moment / area);
+        let joint = |(axis, sign): (usize, f64)| {
+            let is_at = |p: &Point| {
+                (sign * (p[axis] - centre[axis]) - half[axis]).abs() <= 1e-9 * half[axis]
+            };
+            let sides = parts.iter().flat_map(|part| part.iter().zip(part.iter().cycle().skip(1)));
+            let along = sides.filter(|(a, b)| is_at(a) && is_at(b));
+            along.map(|(a, b)| (b[1 - axis] - a[1 - axis]).abs()).sum()
+        };
+        let joints = [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0)].map(joint);
+        Some(Piece { volume: area, place, spread, joints })
+    }
+}
+
+impl Outline for Polygon {
+    fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    fn row(&self) -> String {
+        let corners = self.corners.iter().map(|[x, y]| format!("({x}, {y})"));
+        format!("{} {} m", self.kind, corners.collect::<Vec<_>>().join(", "))
+    }
+
+    fn ends(&self) -> (Vec<f64>, Vec<f64>) {
+        let end = |start: f64, of: fn(f64, f64) -> f64| {
+            [0, 1].map(|axis| self.corners.iter().map(|c| c[axis]).fold(start, of)).to_vec()
+        };
+        (end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// By the sides that a line to the right crosses; the rim belongs to the body.
+    fn holds(&self, label: &[f64]) -> bool {
+        let p = [label[0], label[1]];
+        let (from, to) = self.ends();
+        let size = libm::hypot(to[0] - from[0], to[1] - from[1]);
+        let crossed = |(a, b): &(&Point, &Point)| {
+            let up = a[1] <= p[1];
+            up != (b[1] <= p[1]) && (turn(a, b, &p) > 0.0) == up
+        };
+        self.sides().filter(crossed).count() % 2 == 1 || self.depth(&p) <= ROUNDING * size
+    }
+
+    fn distance(&self, label: &[f64]) -> f64 {
+        if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
+    }
+
+    /// The exact part of the share, at its centroid: volume and first moment of the body are those
+    /// of its particles, but for rounding. The sum of V f(X) over the particles is the integral of
+    /// f with an error of second order in their spacing, at the rim as inside. Where the centroid
+    /// of a part lies outside, in a notch, there is a particle for each convex piece.
+    fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
+        let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
+        let inside = |corners: &TriangleCorners| {
+            let within = |left: Vec<Point>, axis: usize| {
+                let left = clip(&left, |p| p[axis] - (centre[axis] - half[axis]));
+                clip(&left, |p| centre[axis] + half[axis] - p[axis])
+            };
+            [0, 1].into_iter().fold(corners.to_vec(), within)
+        };
+        let is_near = |corners: &&TriangleCorners| {
+            [0, 1].into_iter().all(|axis| {
+                corners.iter().any(|p| p[axis] > centre[axis] - half[axis])
+                    && corners.iter().any(|p| p[axis] < centre[axis] + half[axis])
+            })
+        };
+        let parts: Vec<Vec<Point>> = self.triangles.iter().filter(is_near).map(inside).collect();
+        let whole = (1.0 - ROUNDING) * 4.0 * half[0] * half[1];
+        match Self::piece(&parts, &centre, &half) {
+            None => Cut::Nothing,
+            Some(piece) if piece.volume >= whole => Cut::Whole,
+            Some(piece) if self.holds(&piece.place) => Cut::Pieces(vec![piece]),
+            Some(_) => {
+                let each = parts.iter().map(std::slice::from_ref);
+                Cut::Pieces(each.filter_map(|part| Self::piece(part, &centre, &half)).collect())
+            }
+        }
+    }
+
+    fn trace(&self) -> Vec<(f64, f64)> {
+        self.corners.iter().map(|c| (c[0], c[1])).collect()
+    }
+
+    fn rims(&self) -> Vec<String> {
+        let side = |(a, b): (&Point, &Point)| {
+            format!("the side from ({}, {}) to ({}, {})", a[0], a[1], b[0], b[1])
+        };
+        self.sides().map(side).collect()
+    }
+
+    fn on_rim(&self, rim: usize, random: &mut Random) -> (Vec<f64>, [f64; 3]) {
+        let (a, b) = (self.corners[rim], self.corners[(rim + 1) % self.corners.len()]);
+        let ([x, y], share) = (side(&a, &b), random.unit());
+        let length = libm::hypot(x, y);
+        (vec![a[0] + share * x, a[1] + share * y], [y / length, -x / length, 0.0])
+    }
+
+    fn point(&self, random: &mut Random) -> Vec<f64> {
+        let mut left = random.between(0.0, self.area());
+        let area = |[a, b, c]: &TriangleCorners| 0.5 * turn(a, b, c);
+        let chosen = self.triangles.iter().position(|triangle| {
+            left -= area(triangle);
+            left < 0.0
+        });
+        let chart = chosen.unwrap_or(self.triangles.len() - 1);
+        // The root, for the area on this side of a line grows with the square of its distance.
+        self.place(chart, &[random.unit().sqrt(), random.unit()]).0
+    }
+
+    fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
+        let mut candidate = || {
+            let point = self.point(random);
+            let depth = self.depth(&[point[0], point[1]]);
+            (point, depth)
+        };
+        let mut best = candidate();
+        for other in (1..CANDIDATES).map(|_| candidate()) {
+            if other.1 > best.1 {
+                best = other;
+            }
+        }
+        let (centre, depth) = best;
+        let corner = depth * std::f64::consts::FRAC_1_SQRT_2;
+        let half = centre.iter().map(|_| corner * random.between(0.2, 1.0)).collect();
+        (centre, half)
+    }
+
+    /// Each triangle is a square of which one side has become the first corner.
+    fn charts(&self) -> Vec<Vec<(f64, f64)>> {
+        self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
+    }
+
+    fn place(&self, chart: usize, coordinates: &[f64]) -> (Vec<f64>, f64) {
+        let ([a, b, c], [s, t]) = (&self.triangles[chart], [coordinates[0], coordinates[1]]);
+        let (along, across) = (side(a, b), side(b, c));
+        let place = [0, 1].map(|axis| a[axis] + s * (along[axis] + t * across[axis]));
+        (place.to_vec(), s * cross(&along, &across))
+    }
+}

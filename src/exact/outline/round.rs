@@ -1,0 +1,203 @@
+//! Round bodies: an annulus or a disk in the plane, a ball in space.
+
+use super::{Cut, Outline};
+use crate::exact::random::Random;
+use std::f64::consts::{PI, TAU};
+
+/// Places on a circle of a trace.
+const TRACE: usize = 48;
+
+/// The points at a distance from `inner` to `outer` (m) of a centre; `inner` is zero for a disk
+/// and a ball.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Round {
+    /// Centre (m), two or three coordinates.
+    pub centre: Vec<f64>,
+    /// Inner radius (m).
+    pub inner: f64,
+    /// Outer radius (m).
+    pub outer: f64,
+}
+
+/// A rim of a round body.
+struct Rim {
+    name: &'static str,
+    radius: f64,
+    /// Sign of the outward normal along the radius.
+    outwards: f64,
+}
+
+impl Round {
+    /// The rims with a radius, the inner first.
+    fn each_rim(&self) -> impl Iterator<Item = Rim> {
+        let inner = Rim { name: "the inner rim", radius: self.inner, outwards: -1.0 };
+        let outer = Rim { name: "the outer rim", radius: self.outer, outwards: 1.0 };
+        [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
+    }
+
+    /// A random direction, all equally likely (Archimedes: so is every height on a sphere).
+    fn direction(&self, random: &mut Random) -> [f64; 3] {
+        let angle = random.between(-PI, PI);
+        let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
+        direction(angle, height)
+    }
+
+    fn along(&self, direction: &[f64; 3], radius: f64) -> Vec<f64> {
+        self.centre.iter().zip(direction).map(|(c, n)| c + radius * n).collect()
+    }
+
+    fn radius_of(&self, label: &[f64]) -> f64 {
+        let square: f64 = label.iter().zip(&self.centre).map(|(x, c)| (x - c) * (x - c)).sum();
+        square.sqrt()
+    }
+}
+
+impl Outline for Round {
+    fn kind(&self) -> &'static str {
+        match self.centre.len() {
+            2 if self.inner > 0.0 => "annulus",
+            2 => "disk",
+            _ => "ball",
+        }
+    }
+
+    fn row(&self) -> String {
+        let centre: Vec<String> = self.centre.iter().map(ToString::to_string).collect();
+        let inner = if self.inner > 0.0 { format!("{} to ", self.inner) } else { String::new() };
+        let (kind, centre) = (self.kind(), centre.join(", "));
+        format!("{kind} about ({centre}), radius {inner}{} m", self.outer)
+    }
+
+    fn ends(&self) -> (Vec<f64>, Vec<f64>) {
+        let shifted = |by: f64| self.centre.iter().map(|c| c + by).collect();
+        (shifted(-self.outer), shifted(self.outer))
+    }
+
+    fn holds(&self, label: &[f64]) -> bool {
+        (self.inner..=self.outer).contains(&self.radius_of(label))
+    }
+
+    fn distance(&self, label: &[f64]) -> f64 {
+        (self.radius_of(label) - self.outer).max(0.0)
+    }
+
+    fn ball(&self) -> Option<(&[f64], f64)> {
+        Some((&self.centre, self.outer))
+    }
+
+    /// The whole share, if its centre lies inside: the rim is a stair, and volume and mass differ
+    /// from those of the body by a part that falls with the spacing.
+    fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
+        if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
+    }
+
+    fn trace(&self) -> Vec<(f64, f64)> {
+        let circle = |radius: f64, turn: f64| {
+            let angle = move |k: usize| turn * TAU * k as f64 / TRACE as f64;
+            let point = move |k: usize| {
+                let (sin, cos) = (libm::sin(angle(k)), libm::cos(angle(k)));
+                (self.centre[0] + radius * cos, self.centre[1] + radius * sin)
+            };
+            (0..=TRACE).map(point)
+        };
+        let hole = (self.inner > 0.0).then(|| circle(self.inner, -1.0));
+        circle(self.outer, 1.0).chain(hole.into_iter().flatten()).collect()
+    }
+
+    fn rims(&self) -> Vec<String> {
+        self.each_rim().map(|rim| rim.name.to_owned()).collect()
+    }
+
+    fn on_rim(&self, rim: usize, random: &mut Random) -> (Vec<f64>, [f64; 3]) {
+        let direction = self.direction(random);
+        let normal = |rim: &Rim| direction.map(|n| rim.outwards * n);
+        let rim = self.each_rim().nth(rim);
+        let radius = rim.as_ref().map_or(self.outer, |rim| rim.radius);
+        (self.along(&direction, radius), rim.as_ref().map_or(direction, normal))
+    }
+
+    fn point(&self, random: &mut Random) -> Vec<f64> {
+        let d = self.centre.len() as f64;
+        let power = |radius: f64| libm::pow(radius / self.outer, d);
+        let radius = self.outer * libm::pow(random.between(power(self.inner), 1.0), 1.0 / d);
+        let direction = self.direction(random);
+        self.along(&direction, radius.clamp(self.inner, self.outer))
+    }
+
+    /// Between the rims.
+    fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
+        let radius = self.inner + (self.outer - self.inner) * random.between(0.25, 0.75);
+        let away = |rim: Rim| (rim.radius - radius).abs();
+        let reach = self.each_rim().map(away).fold(f64::INFINITY, f64::min);
+        let direction = self.direction(random);
+        let corner = reach / (self.centre.len() as f64).sqrt();
+        let half = self.centre.iter().map(|_| corner * random.between(0.2, 1.0)).collect();
+        (self.along(&direction, radius), half)
+    }
+
+    /// Of the radius, the angle and, in space, the height over the radius.
+    fn charts(&self) -> Vec<Vec<(f64, f64)>> {
+        let all = [(self.inner, self.outer), (-PI, PI), (-1.0, 1.0)];
+        vec![all[..self.centre.len()].to_vec()]
+    }
+
+    /// The volume per unit of the coordinates is r in the plane, r^2 in space.
+    fn place(&self, _: usize, coordinates: &[f64]) -> (Vec<f64>, f64) {
+        let (radius, height) = (coordinates[0], coordinates.get(2).copied().unwrap_or(0.0));
+        let direction = direction(coordinates[1], height);
+        (self.along(&direction, radius), (1..self.centre.len()).map(|_| radius).product())
+    }
+}
+
+/// Unit vector at an angle around the third axis, with a component `height` along it.
+fn direction(angle: f64, height: f64) -> [f64; 3] {
+    let flat = (1.0 - height * height).sqrt();
+    [flat * libm::cos(angle), flat * libm::sin(angle), height]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use rstest::rstest;
+
+    proptest! {
+        #[test]
+        fn what_is_drawn_lies_in_the_body(
+            seed: u64,
+            d in 2..=3_usize,
+            inner in prop_oneof![Just(0.0), 0.1..0.99],
+        ) {
+            let body = Round { centre: vec![3.0, -2.0, 0.5][..d].to_vec(), inner, outer: 1.0 };
+            let mut random = Random::new(seed);
+            // The roots of a distance are known but for rounding.
+            let wide = Round { inner: inner - 1e-12, outer: 1.0 + 1e-12, ..body.clone() };
+            prop_assert!(wide.holds(&body.point(&mut random)));
+            let (centre, half) = body.patch(&mut random);
+            for corner in 0..1 << d {
+                let sign = |a: usize| if corner >> a & 1 == 1 { 1.0 } else { -1.0 };
+                let label: Vec<f64> = (0..d).map(|a| centre[a] + sign(a) * half[a]).collect();
+                prop_assert!(wide.holds(&label), "{label:?}");
+            }
+            for rim in 0..body.rims().len() {
+                let (label, _) = body.on_rim(rim, &mut random);
+                prop_assert!(wide.holds(&label), "{label:?}");
+            }
+        }
+    }
+
+    /// Half of the points of a body lie nearer to its centre than the radius that halves it.
+    #[rstest]
+    #[case(2, 0.75, 1.25)]
+    #[case(2, 0.0, 1.0)]
+    #[case(3, 0.0, 2.0)]
+    fn points_are_spread_evenly(#[case] d: usize, #[case] inner: f64, #[case] outer: f64) {
+        let body = Round { centre: vec![1.0; d], inner, outer };
+        let mut random = Random::new(1);
+        let n = d as f64;
+        let middle = libm::pow(f64::midpoint(libm::pow(inner, n), libm::pow(outer, n)), 1.0 / n);
+        let half = Round { outer: middle, ..body.clone() };
+        let near = (0..4000).filter(|_| half.holds(&body.point(&mut random))).count();
+        assert!((1880..2120).contains(&near), "{near} of 4000");
+    }
+}

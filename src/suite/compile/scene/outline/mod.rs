@@ -1,0 +1,127 @@
+//! Bodies that are no box, from words.
+
+mod polygon;
+pub(crate) mod quadrilateral;
+mod round;
+
+use crate::exact::Outline;
+use crate::mpm::Quadrilateral;
+use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::path::Path;
+use crate::suite::compile::scene::scene_words::SceneWords;
+use crate::suite::compile::wording::shown;
+use crate::suite::grammar::{BodySpec, BoxSpec};
+use crate::suite::yaml::Diagnostic;
+use std::sync::Arc;
+
+/// Shape of a body.
+pub(crate) enum BodyShape<'a> {
+    /// A box, from its words.
+    Box(&'a BoxSpec),
+    /// A body with a free rim.
+    Free(Arc<dyn Outline>),
+    /// A panel, which is a mapped box.
+    Mapped(Arc<dyn Outline>, Quadrilateral),
+}
+
+/// The shape that `words` describe.
+///
+/// # Errors
+/// A complaint about a body that makes no sense in `dimension` dimensions.
+pub(crate) fn shape<'a>(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    words: &'a BodySpec,
+    dimension: usize,
+) -> Result<BodyShape<'a>, Diagnostic> {
+    let of_kind = |kind: &str, flat: usize| {
+        let at = path.then(kind);
+        if dimension == flat {
+            return Ok(at);
+        }
+        let message = format!("the scene is {dimension}-D, and `{kind}` a body in {flat}-D");
+        let flat = "`box`, `annulus`, `disk`, `polygon` or `quadrilateral`";
+        let help = format!(
+            "in {dimension}-D a body is a {}",
+            ["`box`", flat, "`box` or `ball`"][dimension - 1]
+        );
+        Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help))
+    };
+    match words {
+        BodySpec::Box(words) => Ok(BodyShape::Box(words)),
+        BodySpec::Annulus(words) => {
+            round::annulus(evaluator, &of_kind("annulus", 2)?, words).map(BodyShape::Free)
+        }
+        BodySpec::Disk(words) => {
+            round::filled(evaluator, &of_kind("disk", 2)?, words, 2).map(BodyShape::Free)
+        }
+        BodySpec::Ball(words) => {
+            round::filled(evaluator, &of_kind("ball", 3)?, words, 3).map(BodyShape::Free)
+        }
+        BodySpec::Polygon(corners) => {
+            polygon::polygon(evaluator, &of_kind("polygon", 2)?, corners).map(BodyShape::Free)
+        }
+        BodySpec::Quadrilateral(words) => {
+            let at = of_kind("quadrilateral", 2)?;
+            let (outline, panel) = quadrilateral::quadrilateral(evaluator, &at, words)?;
+            Ok(BodyShape::Mapped(outline, panel))
+        }
+    }
+}
+
+/// Rims are free: a scene can neither hold nor load them.
+///
+/// # Errors
+/// A complaint about the first word that says something else.
+pub(crate) fn rims_are_free(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    words: &SceneWords<'_>,
+    outline: &dyn Outline,
+) -> Result<(), Diagnostic> {
+    let kind = outline.kind();
+    let held = words.boundary.as_slice().first().map(|(face, _)| {
+        let message = format!("the rims of a body of kind `{kind}` are free, not `{face}`");
+        evaluator.diagnostic_at_key(&path.then("boundary").then(face.as_str()), &message)
+    });
+    let loaded = words.loads.iter().enumerate().find_map(|(i, load)| {
+        let on = load.words().face()?;
+        let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
+        Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
+    });
+    match held.or(loaded) {
+        Some(diagnostic) => {
+            Err(diagnostic.with_help("only the faces of a `box` can be held or loaded"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// A grid that the suite asks for must reach over the whole body.
+///
+/// # Errors
+/// A complaint about the end of the grid that lies inside.
+pub(crate) fn fits(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    outline: &dyn Outline,
+    grid: Option<&(Vec<f64>, Vec<f64>)>,
+) -> Result<(), Diagnostic> {
+    let Some(grid) = grid else { return Ok(()) };
+    let body = outline.ends();
+    for axis in 0..body.0.len() {
+        for (key, word, inside, body, end) in [
+            ("from", "most", grid.0[axis] > body.0[axis], body.0[axis], grid.0[axis]),
+            ("to", "least", grid.1[axis] < body.1[axis], body.1[axis], grid.1[axis]),
+        ] {
+            if inside {
+                let (kind, reach, end) = (outline.kind(), shown(body), shown(end));
+                let message = format!("the {kind} reaches to {reach}, and the grid ends at {end}");
+                let diagnostic =
+                    evaluator.diagnostic(&path.then("grid").then(key).then(axis), &message);
+                return Err(diagnostic.with_label(&format!("expected at {word} {reach}")));
+            }
+        }
+    }
+    Ok(())
+}

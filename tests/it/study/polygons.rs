@@ -1,0 +1,40 @@
+//! Particles of polygons, on every level of the suites that have one.
+
+use mpm_verify::study::level_problem;
+use mpm_verify::subject::PlaneState;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::{ConvergencePlan, Suite};
+use rstest::rstest;
+
+/// Mass and centre of mass are those of the body, by the theorem of Green; of a body of revolution
+/// the mass is that of one radian, density times the first moment of its section.
+#[rstest]
+#[case::convex(include_str!("../../../verification/mms-polygon.yaml"))]
+#[case::not_convex(include_str!("../../../verification/mms-polygon-angle.yaml"))]
+#[case::of_revolution(include_str!("../../../verification/mms-polygon-axisymmetric.yaml"))]
+fn mass_and_centre_of_mass_are_exact(#[case] text: &str) {
+    let suite = Suite::load(&Source::from_text("suite.yaml", text).unwrap());
+    let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let plan = suite.plan::<ConvergencePlan>().unwrap();
+    let corners = plan.scene.outline.as_ref().unwrap().trace();
+    let next = corners.iter().cycle().skip(1);
+    let exact = corners.iter().zip(next).fold([0.0; 3], |sums, (a, b)| {
+        let doubled = a.0 * b.1 - b.0 * a.1;
+        let terms = [0.5, (a.0 + b.0) / 6.0, (a.1 + b.1) / 6.0];
+        [0, 1, 2].map(|i| sums[i] + plan.scene.density * doubled * terms[i])
+    });
+    for level in &plan.refine.levels {
+        let particles = level_problem(&suite.name, plan, &plan.cases[0], *level).unwrap().particles;
+        let places = particles.reference_position.chunks_exact(2);
+        let found = particles.mass.iter().zip(places).fold([0.0; 3], |sums, (mass, x)| {
+            [sums[0] + mass, sums[1] + mass * x[0], sums[2] + mass * x[1]]
+        });
+        let known = match plan.scene.plane {
+            PlaneState::Axisymmetric => vec![(found[0], exact[1])],
+            _ => found.into_iter().zip(exact).collect(),
+        };
+        for (found, exact) in known {
+            assert!((found - exact).abs() < 1e-13, "{found} is not {exact} on {level:?}");
+        }
+    }
+}
