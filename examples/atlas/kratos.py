@@ -1,0 +1,155 @@
+"""Kratos' MPM application: linear functions on a mesh of squares or cubes, explicit in time.
+
+Each particle is made from a small element of its own, in whose middle it sits. Walls are nodes that
+are held: any, along any axis.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+
+import numpy as np
+from box import Array, Cannot, Message, Problem, aside, laws, uniform
+from mpm_verify import serve
+
+with aside():
+    import KratosMultiphysics as Km
+    import KratosMultiphysics.MPMApplication as Mpm
+    from KratosMultiphysics.MPMApplication import python_solvers_wrapper_mpm as wrapper
+
+ELEMENTS = {2: "Element2D4N", 3: "Element3D8N"}
+LAWS = {
+    (2, "linear_elastic"): "LinearElasticIsotropicPlaneStrain2DLaw",
+    (3, "linear_elastic"): "LinearElasticIsotropic3DLaw",
+    (2, "neo_hookean"): "HyperElasticNeoHookeanPlaneStrain2DLaw",
+    (3, "neo_hookean"): "HyperElasticNeoHookean3DLaw",
+}
+AXES = "XYZ"
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+CORNERS = {2: SQUARE, 3: [(*xy, z) for z in (0, 1) for xy in SQUARE]}
+
+
+class Kratos:
+    name = "kratos-mpm"
+    version = Km.KratosGlobals.Kernel.Version().split("-")[0]
+
+    def __init__(self, scheme: str, any_law: bool) -> None:
+        self.scheme = scheme
+        self.capabilities = {
+            "dimensions": [2, 3], "laws": laws(["linear_elastic", "neo_hookean"], any_law),
+            "conditions": ["free", "fixed", "roller"], "loads": ["gravity", "body_force"],
+            "manufactured": True}
+
+    def setup(self, problem: Problem) -> None:
+        self.problem, self.d = problem, problem.dimension
+        Km.Logger.GetDefaultOutput().SetSeverity(Km.Logger.Severity.WARNING)
+        model = Km.Model()
+        self.solver = wrapper.CreateSolverByParameters(model, self.settings(), "OpenMP")
+        self.solver.AddVariables()
+        self.add_grid(model["Background_Grid"])
+        self.add_body(model["Initial_MPM_Material"].CreateSubModelPart("body"))
+        self.solver.ImportModelPart()
+        self.solver.PrepareModelPart()
+        self.solver.AddDofs()
+        self.hold(model["Background_Grid"])
+        self.solver.Initialize()
+        self.model, self.time = model, 0.0
+        self.points = list(model["MPM_Material"].Elements)
+        if len(self.points) != len(problem.position):
+            raise Cannot(f"{len(self.points)} particles of {len(problem.position)} were made")
+        self.give(Mpm.MP_VELOCITY, problem.velocity)
+
+    def settings(self) -> Km.Parameters:
+        """Those of the solver."""
+        central = self.scheme == "central_difference"
+        settings = Km.Parameters("""{"solver_type": "dynamic", "time_integration_method": "explicit",
+            "analysis_type": "linear", "model_part_name": "MPM_Material",
+            "grid_model_import_settings": {"input_type": "use_input_model_part"},
+            "model_import_settings": {"input_type": "use_input_model_part"},
+            "time_stepping": {"time_step": 0.0}}""")
+        settings.AddInt("domain_size", self.d)
+        settings["time_stepping"]["time_step"].SetDouble(self.problem.dt)
+        settings.AddString("scheme_type", "central_difference" if central else "forward_euler")
+        settings.AddString("stress_update", "usf" if central else self.scheme)
+        return settings
+
+    def add_grid(self, part: Km.ModelPart) -> None:
+        problem, spare = self.problem, 1
+        counts = [cells + 2 * spare for cells in problem.cells]
+        number = {}
+        for index in itertools.product(*(range(n + 1) for n in counts)):
+            at = problem.origin + (np.array(index) - spare) * problem.h
+            number[index] = len(number) + 1
+            part.CreateNewNode(number[index], *self.in_space(at))
+        properties = part.CreateNewProperties(0)
+        for k, cell in enumerate(itertools.product(*map(range, counts))):
+            nodes = [number[tuple(np.add(cell, corner))] for corner in CORNERS[self.d]]
+            part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
+
+    def add_body(self, part: Km.ModelPart) -> None:
+        problem, material = self.problem, self.problem.materials[0]
+        properties = part.CreateNewProperties(1)
+        law = LAWS.get((self.d, material["law"]), LAWS[self.d, "neo_hookean"])
+        properties.SetValue(Km.CONSTITUTIVE_LAW, Km.KratosGlobals.GetConstitutiveLaw(law).Clone())
+        properties.SetValue(Km.YOUNG_MODULUS, material["parameters"]["young"])
+        properties.SetValue(Km.POISSON_RATIO, material["parameters"]["poisson"])
+        properties.SetValue(Km.DENSITY, uniform("densities", problem.mass / problem.volume))
+        properties.SetValue(Km.THICKNESS, 1.0)
+        properties.SetValue(Mpm.MATERIAL_POINTS_PER_ELEMENT, 1)
+        side, corners = uniform("volumes", problem.volume) ** (1 / self.d), CORNERS[self.d]
+        for k, middle in enumerate(problem.position):
+            first = len(corners) * k + 1
+            for c, corner in enumerate(corners):
+                place = middle + (np.array(corner) - 0.5) * side
+                part.CreateNewNode(first + c, *self.in_space(place))
+            nodes = list(range(first, first + len(corners)))
+            part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
+
+    def hold(self, part: Km.ModelPart) -> None:
+        """Holds the nodes on faces, and beyond them."""
+        for face in self.problem.faces:
+            condition, axis = face["condition"], face["axis"]
+            held = {"free": [], "fixed": range(self.d), "roller": [axis]}[condition]
+            outwards = 1 if face["high"] else -1
+            for node in part.Nodes:
+                beyond = outwards * ([node.X, node.Y, node.Z][axis] - face["at"])
+                if beyond > -1e-6 * self.problem.h:
+                    for a in held:
+                        node.Fix(getattr(Km, f"DISPLACEMENT_{AXES[a]}"))
+
+    def in_space(self, vector: Array) -> list[float]:
+        return [*map(float, vector), 0.0][:3]
+
+    def give(self, variable: object, values: Array) -> None:
+        info = self.model["MPM_Material"].ProcessInfo
+        for point, value in zip(self.points, values):
+            point.SetValuesOnIntegrationPoints(variable, [self.in_space(value)], info)
+
+    def take(self, variable: object) -> Array:
+        info = self.model["MPM_Material"].ProcessInfo
+        values = [point.CalculateOnIntegrationPoints(variable, info)[0] for point in self.points]
+        return np.array(values, float)[:, :self.d]
+
+    def advance(self, steps: int, dt: float, time: float) -> None:
+        has_force = self.problem.message["body_force"] != "none"
+        for step in range(steps):
+            if has_force:
+                self.give(Mpm.MP_VOLUME_ACCELERATION, self.problem.body_force(time + step * dt))
+            self.time = self.solver.AdvanceInTime(self.time)
+            self.solver.InitializeSolutionStep()
+            self.solver.Predict()
+            self.solver.SolveSolutionStep()
+            self.solver.FinalizeSolutionStep()
+
+    def state(self) -> Message:
+        return {"displacement": self.take(Mpm.MP_COORD) - self.problem.reference_position,
+                "velocity": self.take(Mpm.MP_VELOCITY)}
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    schemes = ["usf", "usl", "musl", "central_difference"]
+    parser.add_argument("--scheme", choices=schemes, default="usl")
+    parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
+    serve(Kratos(**vars(parser.parse_args())))

@@ -1,0 +1,87 @@
+"""Which codes are put under which suites, and with which settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+PLANE = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-pulse-small",
+         "moving-bar-pulse", "square-between-rollers", "mms-axis-aligned-2d"]
+SPACE = ["translating-block-3d", "falling-block-3d", "free-bar-pulse-3d", "free-bar-pulse-small-3d",
+         "free-bar-pulse-hencky-3d", "moving-bar-pulse-3d", "moving-bar-pulse-small-3d",
+         "moving-bar-pulse-hencky-3d"]
+SUITES = PLANE + SPACE
+
+# Own methods that stand beside the codes, by the names of their cases.
+OWN = {
+    "mpm-linear-flip-usl": "linear, FLIP",
+    "mpm-linear-flip-usl-at-zero": "linear, FLIP",
+    "mpm-linear-flip-usl-half-step-back": "linear, FLIP",
+    "mpm-linear-flip-musl-half-step-back": "linear, FLIP",
+    "mpm-linear-flip-musl": "linear, FLIP",
+    "mpm-quadratic-bspline-flip-musl": "quadratic, FLIP",
+    "mpm-quadratic-bspline-flip-usl": "quadratic, FLIP",
+    "mpm-quadratic-bspline-flip-usl-at-zero": "quadratic, FLIP",
+    "mpm-quadratic-bspline-apic-usl": "quadratic, APIC",
+    "mpm-quadratic-bspline-apic-usl-at-zero": "quadratic, APIC",
+}
+
+
+def is_rigid(suite: str) -> bool:
+    """Whether nothing deforms, so that codes are not asked for the law."""
+    return suite.startswith(("translating-block", "falling-block"))
+
+
+@dataclass
+class Run:
+    """One code with some settings under one suite."""
+
+    suite: str
+    variant: str
+    arguments: list[str]
+
+
+@dataclass
+class Code:
+    """A public code: variants to be put under all suites of its dimensions, and further runs that
+    isolate a cause, each with the suites that it is for."""
+
+    name: str  # of the adapter, of the requirements and of a Cargo project
+    title: str
+    suites: list[str]
+    variants: dict[str, list[str]]
+    further: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
+    crate: str | None = None
+
+    def runs(self) -> list[Run]:
+        asked = [(suite, variant, arguments) for variant, arguments in self.variants.items()
+                 for suite in self.suites]
+        asked += [(suite, variant, arguments)
+                  for variant, (arguments, suites) in self.further.items() for suite in suites]
+        rigid = {True: ["--any-law"], False: []}
+        return [Run(suite, variant, arguments + rigid[is_rigid(suite)])
+                for suite, variant, arguments in asked]
+
+
+CODES = [
+    Code("kratos", "Kratos MPM 10.4.4", PLANE + SPACE, {"USL": ["--scheme", "usl"]}, {
+        "central difference": (["--scheme", "central_difference"],
+                               ["falling-block", "free-bar-pulse-small", "square-between-rollers"]),
+        "MUSL": (["--scheme", "musl"], ["free-bar-pulse-small", "mms-axis-aligned-2d",
+                                        "free-bar-pulse-small-3d"]),
+    }),
+    Code("mpm99", "taichi mpm99 1.7.4", PLANE,
+         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}),
+    Code("torch_mpm", "mpm-pytorch 0.1.1", SPACE, {"f32": []}, {
+        "f64": (["--precision", "f64"], ["translating-block-3d", "free-bar-pulse-hencky-3d",
+                                         "moving-bar-pulse-3d", "moving-bar-pulse-hencky-3d"]),
+    }),
+    Code("newton_mpm", "newton 1.8.0", SPACE, {"f32": []}, {
+        "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
+        "drag as it comes": (["--drag", "1"], ["translating-block-3d"]),
+    }),
+    Code("phyz", "phyz-particle 0.1.0", SPACE, {"FLIP 0.95": []}, {
+        "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d"]),
+        "FLIP 1, no stiffness": (["--flip", "1", "--stiffness", "0"],
+                                 ["translating-block-3d", "falling-block-3d"]),
+    }, crate="atlas-phyz"),
+]

@@ -1,0 +1,81 @@
+"""The tables of docs/atlas.md, from the reports."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from plan import CODES, OWN, PLANE, SPACE
+
+PAGE = Path(__file__).resolve().parent.parent.parent / "docs" / "atlas.md"
+
+
+def cell(run: dict) -> str:
+    """Order with its interval and the verdict; of a translation, the largest error."""
+    if run["lacks"]:
+        return "not applicable (" + "; ".join(run["lacks"]) + ")"
+    errors = [float(level["error"]) for level in run["levels"]]
+    if run["verdict"] == "failed":
+        broken = [str(level["cells"]) for level in run["levels"] if level["failure"]]
+        return f"failed with {' and '.join(broken)} cells"
+    if run["suite"].startswith("translating-block"):
+        return f"error {max(errors):.1e}"
+    if max(errors) < 1e-12:
+        return f"error {max(errors):.0e}"
+    order = run["observed_order"]
+    interval = order and f"{order['value']:.2f} [{order['low']:.2f}, {order['high']:.2f}] "
+    return f"{interval or ''}{run['verdict']}; {errors[-1]:.1e}"
+
+
+def table(head: list[str], rows: list[list[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
+    """Suites against the variants of codes and own methods."""
+    columns = [(f"{code.title}, {variant}", code.name, variant) for code in CODES
+               for variant in code.variants if set(code.suites) & set(suites)]
+    own = [run for run in reports["own"] if run["suite"] in suites]
+    methods = [label for label in dict.fromkeys(OWN.values())
+               if any(OWN[run["case"]] == label for run in own)]
+    rows = []
+    for suite in suites:
+        row = [f"`{suite}`"]
+        for _, name, variant in columns:
+            found = [run for run in reports.get(name, [])
+                     if (run["suite"], run["variant"]) == (suite, variant)]
+            row.append(cell(found[0]) if found else "not run yet")
+        for label in methods:
+            found = [run for run in own if run["suite"] == suite and OWN[run["case"]] == label]
+            row.append("; ".join(start(run["case"]) + cell(run) for run in found))
+        rows.append(row)
+    return table(["suite", *(title for title, _, _ in columns), *methods], rows)
+
+
+def start(case: str) -> str:
+    return "half a step back: " if case.endswith("half-step-back") and "usl" in case else ""
+
+
+def further(reports: dict[str, list[dict]]) -> str:
+    """The runs that isolate a cause, each beside the variant that it differs from."""
+    rows = []
+    for code in CODES:
+        for run in reports.get(code.name, []):
+            if run["variant"] in code.further:
+                [first, *_] = [old for old in reports[code.name] if old["suite"] == run["suite"]]
+                rows.append([code.title, f"`{run['suite']}`", run["variant"],
+                             cell(run), cell(first)])
+    return table(["code", "suite", "further run", "it shows", "and without"], rows)
+
+
+def write(folder: Path) -> None:
+    """Puts the tables between their markers."""
+    reports = {file.stem: json.loads(file.read_text())["runs"] for file in folder.glob("*.json")}
+    page = PAGE.read_text()
+    for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
+                       ("further", further(reports))]:
+        begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
+        head, rest = page.split(begin)
+        page = head + begin + text + "\n" + end + rest.split(end)[1]
+    PAGE.write_text(page)
