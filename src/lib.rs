@@ -86,6 +86,7 @@ pub mod report;
 pub mod suite;
 
 pub mod prelude;
+pub mod testing;
 
 mod dimension;
 mod members;

@@ -1,11 +1,14 @@
 //! Names that the author of a solver in Rust needs: `use mpm_verify::prelude::*`.
 
 pub use crate::external::{
-    BodyForceField, Capabilities, LevelProblem, ProblemFace, ProblemGrid, ProblemMaterial,
-    ProblemNeeds, ProblemParticles, SolverFactory,
+    BodyForceField, Capabilities, LevelProblem, ProblemMaterial, ProblemNeeds, ProblemParticles,
+    SolverFactory,
 };
-pub use crate::study::Runner;
+pub use crate::study::{Runner, under};
 pub use crate::subject::{Checkpoint, Failure, Memory, RunCounters, Samples, Subject, Totals};
 pub use crate::suite::yaml::{Diagnostic, Source};
 pub use crate::suite::{Extent, Suite};
+#[cfg(feature = "testing")]
+pub use crate::testing::SuiteFolder;
+pub use crate::testing::{Breach, conformance};
 pub use crate::verify::{CaseOutcome, SuiteOutcome, Verdict};

@@ -7,7 +7,6 @@ use mpm_verify::suite::yaml::{Diagnostic, Source};
 use mpm_verify::suite::{Suite, embedded};
 use rayon::prelude::*;
 use std::ffi::OsStr;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Where suites are looked for by default.
@@ -95,8 +94,11 @@ fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));
     let here = if folder == Path::new("") { Path::new(".") } else { folder };
-    let beside: Vec<String> =
-        suite_files(here).unwrap_or_default().iter().map(|path| text(path.file_name())).collect();
+    let beside: Vec<String> = Source::files_in(here)
+        .unwrap_or_default()
+        .iter()
+        .map(|path| text(path.file_name()))
+        .collect();
     if let Some(file) = nearest(&text(target.file_name()), beside.iter().map(String::as_str)) {
         return format!("did you mean `{}`?", folder.join(file).display());
     }
@@ -125,7 +127,7 @@ fn unknown(name: &str) -> Diagnostic {
 
 /// Names by which suites can be asked for: those of the default folder, and the embedded ones.
 fn suite_names() -> Vec<String> {
-    let local = suite_files(Path::new(FOLDER)).unwrap_or_default();
+    let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let name = |path: &PathBuf| {
         let file = path.file_name()?.to_string_lossy();
         file.strip_suffix(".yaml").map(ToOwned::to_owned)
@@ -136,7 +138,7 @@ fn suite_names() -> Vec<String> {
 /// The suites of a folder.
 fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
-    match suite_files(folder) {
+    match Source::files_in(folder) {
         Ok(files) if files.is_empty() => {
             vec![Err(Diagnostic::about(&name, "this folder holds no suite (no .yaml file)"))]
         }
@@ -146,13 +148,4 @@ fn files_in(folder: &Path) -> Sources {
             vec![Err(Diagnostic::about(&name, &message))]
         }
     }
-}
-
-/// Every `.yaml` file of a folder, sorted by name.
-pub(super) fn suite_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let paths = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
-    let mut files: Vec<PathBuf> =
-        paths.filter(|path| path.extension().is_some_and(|e| e == "yaml" || e == "yml")).collect();
-    files.sort();
-    Ok(files)
 }

@@ -32,7 +32,7 @@ fn all(args: &CheckArgs) -> u8 {
         let (source, mut suite) = found?;
         let mut lacks = Vec::new();
         if let Some(solver) = &solver {
-            match solver::of(&suite, solver, false) {
+            match study::under(&suite, solver, false) {
                 Some(under_solver) => suite = under_solver,
                 None => lacks.push("what a study of this kind asks for".to_owned()),
             }

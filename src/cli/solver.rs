@@ -2,8 +2,9 @@
 
 use super::args::SolverArgs;
 use super::output;
-use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
-use mpm_verify::suite::{ExternalMethod, Suite};
+use mpm_verify::external::{ProgramLimits, SolverProgram};
+use mpm_verify::study::under;
+use mpm_verify::suite::Suite;
 use mpm_verify::verify::SuiteOutcome;
 use std::time::Duration;
 
@@ -21,18 +22,11 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String
     solver.map(Some).map_err(|reason| format!("error: --solver {command}: the solver {reason}"))
 }
 
-/// The suite with the solver in place of its methods.
-pub(super) fn of(suite: &Suite, solver: &SolverProgram, gate: bool) -> Option<Suite> {
-    let (name, formal_order) = (solver.name(), solver.formal_order());
-    let method = ExternalMethod { name, formal_order, precision: solver.precision() };
-    suite.of_external(method, gate)
-}
-
 /// The suites with the solver in place of their methods. Those that refine nothing are left out.
 pub(super) fn judged(suites: Vec<Suite>, solver: &SolverProgram, gate: bool) -> Vec<Suite> {
     let mut judged = Vec::new();
     for suite in suites {
-        match of(&suite, solver, gate) {
+        match under(&suite, solver, gate) {
             Some(suite) => judged.push(suite),
             None => output::complain(&format!(
                 "note: {}: left out, since it is no convergence study",

@@ -2,6 +2,7 @@
 
 use super::status::BAD_INPUT;
 use super::{output, select};
+use mpm_verify::suite::yaml::Source;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,7 @@ fn wait_for_change(
 
 /// States of files, and of the suites in folders.
 fn look(places: &[PathBuf]) -> FileStates {
-    let files = |place: &PathBuf| match select::suite_files(place) {
+    let files = |place: &PathBuf| match Source::files_in(place) {
         Ok(files) if place.is_dir() => files,
         _ => vec![place.clone()],
     };

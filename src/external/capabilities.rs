@@ -52,6 +52,18 @@ pub struct ProblemNeeds {
 }
 
 impl Capabilities {
+    /// Abilities by their names in suites: numbers of dimensions, laws, conditions on faces, loads.
+    pub fn of(dimensions: &[usize], laws: &[&str], conditions: &[&str], loads: &[&str]) -> Self {
+        let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        Self {
+            dimensions: dimensions.to_vec(),
+            laws: owned(laws),
+            conditions: owned(conditions),
+            loads: owned(loads),
+            ..Self::default()
+        }
+    }
+
     /// Everything that is needed and not there, each as the entry that would be missing.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
@@ -113,17 +125,13 @@ mod tests {
             "heat, which the protocol does not hand over",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
-        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        let conditions = ["free", "fixed", "roller"];
         let able = Capabilities {
-            dimensions: vec![1, 2],
-            laws: names(&["neo_hookean"]),
-            conditions: names(&["free", "fixed", "roller"]),
-            loads: names(&["gravity"]),
-            columns: names(&["stress"]),
+            columns: vec!["stress".to_owned()],
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
-            binary: false,
+            ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
         assert_eq!(able.lacking(&needs), all[9..]);
     }

@@ -84,6 +84,14 @@ pub struct ProblemMaterial {
     pub density: f64,
 }
 
+impl ProblemMaterial {
+    /// The parameter with this key (SI units); NaN if the law has none.
+    pub fn parameter(&self, key: &str) -> f64 {
+        let found = self.parameters.iter().find(|(name, _)| *name == key);
+        found.map_or(f64::NAN, |(_, value)| *value)
+    }
+}
+
 fn as_map<S: Serializer>(all: &[(&'static str, f64)], to: S) -> Result<S::Ok, S::Error> {
     to.collect_map(all.iter().copied())
 }

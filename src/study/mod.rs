@@ -28,12 +28,13 @@ pub(crate) mod runner;
 pub(crate) mod shard;
 pub(crate) mod stability;
 
+pub use build::dispatch::subject;
 pub use build::setup::effects;
 pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
 pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
-pub use handover::{exact_state, lacking, level_problem, needs};
+pub use handover::{exact_state, lacking, level_problem, needs, under};
 pub use kind::{CheckpointStores, Progress, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight};
 pub use runner::Runner;

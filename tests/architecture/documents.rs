@@ -8,7 +8,10 @@ use crate::rules::Breach;
 use std::collections::BTreeSet;
 
 /// Paths that are not in the repository and that documents may name, each with its reason.
-const MADE_LATER: &[(&str, &str)] = &[("tests/fuzz/artifacts", "cargo-fuzz writes it")];
+const MADE_LATER: &[(&str, &str)] = &[
+    ("tests/fuzz/artifacts", "cargo-fuzz writes it"),
+    ("tests/verification.rs", "a reader writes it, in a crate of their own"),
+];
 
 /// The repository as documents may speak of it.
 pub(crate) struct Repository {
@@ -284,11 +287,11 @@ fn script(path: &str, has: &Repository) -> Option<String> {
 }
 
 /// Subcommands of cargo and of its plug-ins that documents may name.
-const CARGO: &str = "run test bench build check doc fmt clippy install insta fuzz publish";
+const CARGO: &str = "run test bench build check doc fmt clippy install insta fuzz publish add";
 
 /// Flags of `cargo run`, `test`, `bench` and `check` that documents may name.
 const CARGO_FLAGS: &str = "--release --lib --bench --test --locked --all-targets --all --no-deps \
-    --document-private-items --fuzz-dir --no-run --features --quiet";
+    --document-private-items --fuzz-dir --no-run --features --no-default-features --quiet --dev";
 
 fn cargo(words: &[&str], has: &Repository) -> Option<String> {
     let words: Vec<&str> = words.iter().copied().filter(|word| !word.starts_with('+')).collect();

@@ -18,3 +18,4 @@ mod motions;
 mod mpm;
 mod pitfalls;
 mod study;
+mod testing;

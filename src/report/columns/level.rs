@@ -145,7 +145,8 @@ fn counters<'a>() -> Vec<LevelColumn<'a>> {
             |row| Cell::plain(row.level.run.counters.left_domain),
         ),
         LevelColumn::new("min J", "min_j", "smallest det F met", |row| {
-            Cell::number(row.level.run.counters.min_j, decimals(4))
+            let known = Some(row.level.run.counters.min_j).filter(|j| !j.is_nan());
+            Cell::number(known, decimals(4))
         }),
         LevelColumn::new(
             "speed/c",

@@ -13,7 +13,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 ///
 /// # Errors
 /// One line that says why there is no such subject.
-pub(crate) fn subject(
+pub fn subject(
     plan: &ConvergencePlan,
     method: Method,
     level: LevelPlan,

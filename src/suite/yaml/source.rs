@@ -6,7 +6,7 @@ use super::{Diagnostic, Place};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The largest file that is read; a long suite is a tenth of it.
 pub const MAX_BYTES: usize = 64 * 1024;
@@ -52,6 +52,18 @@ impl Source {
         characters(&name, &text)?;
         let scalars = scan(&name, &text)?;
         Ok(Self { name, text, scalars })
+    }
+
+    /// Paths of the suites of a folder (`.yaml` and `.yml`), sorted.
+    ///
+    /// # Errors
+    /// If the folder cannot be read.
+    pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
+        let paths = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
+        let is_suite = |path: &PathBuf| path.extension().is_some_and(|e| e == "yaml" || e == "yml");
+        let mut files: Vec<PathBuf> = paths.filter(is_suite).collect();
+        files.sort();
+        Ok(files)
     }
 
     /// The file as the user named it.

@@ -11,12 +11,12 @@ static CASES: Mutex<Vec<(Duration, String)>> = Mutex::new(Vec::new());
 const SHOWN: usize = 10;
 
 /// Remembers how long a case took.
-pub(crate) fn record(time: Duration, case: &str) {
+pub(super) fn record(time: Duration, case: &str) {
     CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
 }
 
 /// The slowest cases and suites, and the time of all, if there are enough of them to ask.
-pub(crate) fn summary() -> String {
+pub(super) fn summary() -> String {
     let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
     if cases.len() <= SHOWN {
         return String::new();

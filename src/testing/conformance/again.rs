@@ -1,0 +1,115 @@
+//! The same once more: looked at twice, with half of the step, made anew, interrupted.
+
+use super::breach::Breach;
+use super::record::{RunState, difference, largest, record};
+use super::start::ROUNDING;
+use crate::subject::{Checkpoint, Samples, Subject};
+
+/// Makes the subject in its initial state.
+pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, String>;
+
+/// A second look that sees something else, or adds to what it finds in the samples.
+pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
+    let mut second = first.clone();
+    subject.sample(&mut second);
+    let seen = difference(first, &second, 0.0)?;
+    let wanted = "`sample` to replace all that is in the samples, and nothing to change by a look";
+    Some(Breach::new("sample", wanted, seen))
+}
+
+/// A step that does not take the length that it is given: half of it must move points by half.
+/// Nothing is said of a body that starts at rest.
+pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
+    let [first, second, ..] = states else { return None };
+    let fastest = largest(&first.samples.velocity);
+    let mut halved = Vec::new();
+    let stepped = record(make().ok()?.as_mut(), (1, 0.5 * dt), &mut halved);
+    if !(fastest > 0.0) || stepped.is_err() {
+        return None;
+    }
+    let moved = |to: &Samples| -> Vec<f64> {
+        let pairs = to.displacement.iter().zip(&first.samples.displacement);
+        pairs.map(|(now, before)| now - before).collect()
+    };
+    let (whole, half) = (moved(&second.samples), moved(&halved[0].samples));
+    let far = largest(&whole);
+    // A quarter of the way is more than any force does in a step that is stable.
+    if !(far >= 0.25 * dt * fastest) {
+        let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
+        return Some(Breach::new("step", wanted, format!("{far:e} m at most")));
+    }
+    let pairs = whole.iter().zip(&half);
+    let off = pairs.map(|(whole, half)| (2.0 * half - whole).abs()).fold(0.0, f64::max);
+    (!(off <= 0.5 * far)).then(|| {
+        let wanted = format!("half of the motion in a step of half the length, {:e} s", 0.5 * dt);
+        Breach::new("step", wanted, format!("{:e} m, and {far:e} m in a whole one", largest(&half)))
+    })
+}
+
+/// Another subject of the same problem that goes another way. Sums may be made in another order.
+pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
+    let mut subject = make().ok()?;
+    let mut again = vec![RunState::of(subject.as_ref())];
+    let wanted = "the same course of two subjects of one problem";
+    if let Err(failure) = record(subject.as_mut(), (states.len() - 1, dt), &mut again) {
+        return Some(Breach::new("repeat", wanted, format!("the second one fails: {failure}")));
+    }
+    let pairs = states.iter().zip(&again).enumerate();
+    let mut off = pairs.filter_map(|(step, (a, b))| {
+        Some(format!("{} after {step} steps", difference(&a.samples, &b.samples, ROUNDING)?))
+    });
+    Some(Breach::new("repeat", wanted, off.next()?))
+}
+
+/// A checkpoint that disturbs the run, does not fit, or leads another way than the run that was
+/// not interrupted. Nothing is said of a subject without checkpoints.
+pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
+    let (first, rest) = states.split_at(states.len().div_ceil(2));
+    let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];
+    let (Ok(mut subject), Ok(mut fresh)) = (make(), make()) else { return Vec::new() };
+    let mut course = Vec::new();
+    if record(subject.as_mut(), (first.len() - 1, dt), &mut course).is_err() {
+        return Vec::new();
+    }
+    let mut written = Checkpoint::empty();
+    if !subject.checkpoint(&mut written) {
+        return Vec::new();
+    }
+    let bytes = written.into_bytes();
+    let mut read = Checkpoint::of(&bytes);
+    if !(fresh.checkpoint(&mut read) && read.is_used_up()) {
+        let seen = format!("its {} bytes do not fit a subject of the same problem", bytes.len());
+        return found("a checkpoint to be taken back by the visits that wrote it", seen);
+    }
+    let mut breaches = Vec::new();
+    for (subject, wanted) in [
+        (&mut subject, "a checkpoint to leave the run as it is"),
+        (&mut fresh, "the bits of a run that was not interrupted"),
+    ] {
+        let mut course = Vec::new();
+        let stepped = record(subject.as_mut(), (rest.len(), dt), &mut course);
+        let pairs = rest.iter().zip(&course).enumerate();
+        let mut off = pairs.filter_map(|(step, (a, b))| {
+            let off = difference(&a.samples, &b.samples, 0.0).or_else(|| counted(a, b));
+            Some(format!("{} {} steps after it", off?, step + 1))
+        });
+        let failed = stepped.err().map(|failure| failure.to_string());
+        if let Some(seen) = failed.or_else(|| off.next()) {
+            breaches.extend(found(wanted, seen));
+            break;
+        }
+    }
+    breaches
+}
+
+/// Counters and sums by which two states differ that have the same samples.
+fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
+    // As text, for a NaN is one where it is expected.
+    let text = |state: &RunState| (format!("{:?}", state.counters), format!("{:?}", state.totals));
+    let ((a, b), (c, d)) = (text(wanted), text(seen));
+    match (a == c, b == d) {
+        (true, true) => None,
+        (false, _) => Some(format!("{c} and not {a}")),
+        (true, false) => Some(format!("{d} and not {b}")),
+    }
+}

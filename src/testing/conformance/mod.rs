@@ -1,0 +1,121 @@
+//! Whether a solver keeps the contract of [`Subject`](crate::subject::Subject): the first question,
+//! before any verdict.
+//!
+//! ```text
+//! start    sizes of columns, labels, weights and motion before the first step
+//! course   order of labels, finite numbers, counters and sums over a few steps
+//! again    looked at twice, with half of the step, made anew, interrupted
+//! ```
+
+mod again;
+mod breach;
+mod course;
+mod record;
+mod start;
+
+pub use breach::Breach;
+
+use crate::external::{LevelProblem, SolverFactory};
+use crate::study::{lacking, level_problem};
+use crate::suite::{ConvergencePlan, Suite, embedded};
+use record::{RunState, record};
+
+/// Steps of each run.
+const STEPS: usize = 6;
+
+/// Built-in suites that solvers may be put to, the simplest first: bodies that move from the start.
+const SUITES: [&str; 4] =
+    ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
+
+/// Every breach of the contract on the coarsest level of the first built-in suite that the solver
+/// can be put to; empty if there is none.
+///
+/// ```no_run
+/// # use mpm_verify::prelude::*;
+/// # use mpm_verify::testing::conformance;
+/// # fn test(solver: &dyn SolverFactory) {
+/// let breaches = conformance(solver);
+/// assert!(breaches.is_empty(), "{breaches:#?}");
+/// # }
+/// ```
+pub fn conformance(solver: &dyn SolverFactory) -> Vec<Breach> {
+    let mut refused = Vec::new();
+    for name in SUITES {
+        let source = embedded::source(name).and_then(Result::ok);
+        let Some(suite) = source.and_then(|source| Suite::load(&source).ok()) else { continue };
+        match examined(solver, &suite) {
+            Ok(breaches) => return breaches,
+            Err(why) => refused.push(format!("{name}: {why}")),
+        }
+    }
+    let wanted = "a solver that can be put to one of our suites, or `conformance_on` one of yours";
+    vec![Breach::new("problem", wanted, refused.join("; "))]
+}
+
+/// Every breach of the contract on the coarsest level of `suite`; empty if there is none.
+pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> {
+    examined(solver, suite).unwrap_or_else(|why| {
+        let wanted = format!("a solver that can be put to `{}`", suite.name);
+        vec![Breach::new("problem", wanted, why)]
+    })
+}
+
+/// The breaches on the coarsest level of `suite`.
+///
+/// # Errors
+/// One line that says why the solver cannot be put to it.
+pub(crate) fn examined(solver: &dyn SolverFactory, suite: &Suite) -> Result<Vec<Breach>, String> {
+    Ok(breaches(solver, &problem(solver, suite)?))
+}
+
+/// The coarsest level of a suite, which the solver takes.
+///
+/// # Errors
+/// One line that says why there is none.
+fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, String> {
+    let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
+    let lacks = lacking(suite, solver);
+    if !lacks.is_empty() {
+        return Err(format!("the solver lacks {}", lacks.join(", ")));
+    }
+    let level = plan.refine.levels.first().ok_or("it has no level")?;
+    let case = plan.cases.first().ok_or("it has no case")?;
+    let problem = level_problem(&suite.name, plan, case, *level)?;
+    solver.subject(problem.clone())?;
+    Ok(problem)
+}
+
+fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
+    let make = || solver.subject(problem.clone());
+    let mut subject = match make() {
+        Ok(subject) => subject,
+        Err(why) => return vec![Breach::new("problem", "the problem to be taken again", why)],
+    };
+    let mut states = vec![RunState::of(subject.as_ref())];
+    let mut breaches = start::counts(problem, &states[0].samples);
+    if !breaches.is_empty() {
+        // Nothing else can be compared.
+        return breaches;
+    }
+    breaches.extend(start::start(problem, &states[0].samples));
+    breaches.extend(again::sample(subject.as_ref(), &states[0].samples));
+    let steps = STEPS.min(problem.steps as usize);
+    if let Err(failure) = record(subject.as_mut(), (steps, problem.dt), &mut states) {
+        let wanted = format!("{steps} steps of {:e} s on the coarsest level", problem.dt);
+        let seen = format!("step {} fails: {failure}", states.len());
+        breaches.push(Breach::new("step", wanted, seen));
+    }
+    breaches.extend(course::samples(&states));
+    breaches.extend(course::counters(problem, &states));
+    breaches.extend(course::totals(problem, &states));
+    if breaches.is_empty() {
+        breaches.extend(again::repeat(&make, &states, problem.dt));
+    }
+    // Two subjects can be compared only if they go one way.
+    if breaches.is_empty() {
+        breaches.extend(again::step_length(&make, &states, problem.dt));
+        breaches.extend(again::restart(&make, &states, problem.dt));
+    }
+    breaches.extend(course::work(&states));
+    breaches
+}

@@ -1,0 +1,68 @@
+//! Runs of a few steps, recorded.
+
+use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
+
+/// A subject as it shows itself between two steps.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RunState {
+    pub(super) samples: Samples,
+    pub(super) counters: RunCounters,
+    pub(super) totals: Option<Totals>,
+}
+
+impl RunState {
+    pub(super) fn of(subject: &dyn Subject) -> Self {
+        let mut samples = Samples::default();
+        subject.sample(&mut samples);
+        Self { samples, counters: subject.counters(), totals: subject.totals() }
+    }
+}
+
+/// Adds the states after each of so many steps of length `dt` (s), up to one that fails.
+pub(super) fn record(
+    subject: &mut dyn Subject,
+    (steps, dt): (usize, f64),
+    states: &mut Vec<RunState>,
+) -> Result<(), Failure> {
+    for _ in 0..steps {
+        subject.step(dt)?;
+        states.push(RunState::of(subject));
+    }
+    Ok(())
+}
+
+/// Every column of samples by its name, with the numbers that each point has in it for dimension D.
+pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 7] {
+    let d = samples.dimension;
+    [
+        ("label", &samples.label, d),
+        ("displacement", &samples.displacement, d),
+        ("velocity", &samples.velocity, d),
+        ("weight", &samples.weight, 1),
+        ("stress", &samples.stress, d * d),
+        ("deformation_gradient", &samples.deformation_gradient, d * d),
+        ("temperature", &samples.temperature, 1),
+    ]
+}
+
+/// The first number by which `seen` is off `wanted` by more than `tolerance` times the largest of
+/// its column.
+pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Option<String> {
+    if wanted.dimension != seen.dimension {
+        return Some(format!("dimension {} and not {}", seen.dimension, wanted.dimension));
+    }
+    columns(wanted).into_iter().zip(columns(seen)).find_map(|((name, wanted, _), (_, seen, _))| {
+        if wanted.len() != seen.len() {
+            let (seen, wanted) = (seen.len(), wanted.len());
+            return Some(format!("{seen} numbers in `{name}` and not {wanted}"));
+        }
+        let most = tolerance * largest(wanted);
+        let at = wanted.iter().zip(seen).position(|(a, b)| !((a - b).abs() <= most))?;
+        Some(format!("{name}[{at}] = {:e} and not {:e}", seen[at], wanted[at]))
+    })
+}
+
+/// The largest magnitude of a column.
+pub(super) fn largest(column: &[f64]) -> f64 {
+    column.iter().fold(0.0, |most: f64, number| most.max(number.abs()))
+}

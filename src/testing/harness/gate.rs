@@ -1,0 +1,175 @@
+//! Suites as tests.
+
+use super::{drift, slowest};
+use crate::external::SolverFactory;
+use crate::report;
+use crate::study::{Runner, lacking, under};
+use crate::suite::Suite;
+use crate::suite::yaml::Source;
+use crate::testing::conformance::examined;
+use crate::verify::CaseOutcome;
+use libtest_mimic::{Completion, Failed, Trial};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
+
+/// A folder of suites, and who is put under them.
+pub(super) struct Gate {
+    pub(super) folder: PathBuf,
+    pub(super) snapshots: PathBuf,
+    /// The solver in place of the methods of the suites.
+    pub(super) solver: Option<&'static dyn SolverFactory>,
+}
+
+impl Gate {
+    /// The tests of all files. No suite at all is a failure, not a success.
+    pub(super) fn trials(&self) -> Vec<Trial> {
+        let shown = self.folder.display();
+        let nothing = |why: String| vec![broken("suites::exist", why)];
+        let files = match Source::files_in(&self.folder) {
+            Ok(files) if files.is_empty() => return nothing(format!("no suite under {shown}")),
+            Ok(files) => files,
+            Err(error) => return nothing(format!("{shown}: {error}")),
+        };
+        // The check of a truth takes a tenth of a second; there may be many.
+        files.par_iter().flat_map_iter(|file| self.of_file(file)).collect()
+    }
+
+    fn of_file(&self, file: &Path) -> Vec<Trial> {
+        let stem = stem(file);
+        let unusable = |why: String| vec![broken(&format!("{stem}::parse"), why)];
+        match Source::read(file).and_then(|source| Suite::load(&source)) {
+            Ok(suite) if suite.name != stem => unusable(format!(
+                "{} calls itself `{}`: rename one of them",
+                file.display(),
+                suite.name
+            )),
+            Ok(suite) => self.of_suite(suite),
+            Err(diagnostic) => unusable(diagnostic.to_string()),
+        }
+    }
+
+    fn of_suite(&self, suite: Suite) -> Vec<Trial> {
+        let Some(solver) = self.solver else {
+            return trials(suite, &self.snapshots, None);
+        };
+        let name = format!("{}::{}", suite.name, solver.name());
+        match judged(&suite, solver) {
+            Ok(suite) => trials(suite, &self.snapshots, Some(solver)),
+            Err(why) => {
+                vec![Trial::ignorable_test(name, move || Ok(Completion::ignored_with(&why)))]
+            }
+        }
+    }
+}
+
+/// The suite of a solver.
+///
+/// # Errors
+/// One line that says why the solver cannot be put to it.
+fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
+    let suite = under(suite, solver, true).ok_or("it is no convergence study")?;
+    match lacking(&suite, solver) {
+        lacks if lacks.is_empty() => Ok(suite),
+        lacks => Err(format!("the solver lacks {}", lacks.join(", "))),
+    }
+}
+
+fn broken(name: &str, message: String) -> Trial {
+    Trial::test(name, || Err(message.into()))
+}
+
+fn stem(file: &Path) -> String {
+    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The contract of a subject.
+fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Failed> {
+    match examined(solver, suite) {
+        Err(why) => Ok(Completion::ignored_with(why)),
+        Ok(breaches) if breaches.is_empty() => Ok(Completion::Completed),
+        Ok(breaches) => {
+            Err(breaches.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n").into())
+        }
+    }
+}
+
+/// A suite with its outcomes: each case runs once, whichever tests ask for it.
+struct SharedSuite {
+    suite: &'static Suite,
+    runner: Runner<'static>,
+    snapshots: PathBuf,
+    outcomes: Vec<OnceLock<CaseOutcome>>,
+}
+
+impl SharedSuite {
+    fn case(&self, index: usize) -> &CaseOutcome {
+        self.outcomes[index].get_or_init(|| {
+            let start = Instant::now();
+            let outcome = self.runner.case(index, &|| ());
+            slowest::record(start.elapsed(), &format!("{}::{}", self.suite.name, outcome.case));
+            outcome
+        })
+    }
+
+    /// Theory.
+    fn hold(&self, index: usize) -> Result<Completion, Failed> {
+        let outcome = self.case(index);
+        if !outcome.lacks.is_empty() {
+            return Ok(Completion::ignored_with(&outcome.reason));
+        }
+        if outcome.passed() {
+            return Ok(Completion::Completed);
+        }
+        Err(format!("{}\n\n{}", outcome.unmet.join("\n"), report::case(outcome)).into())
+    }
+
+    /// Drift; of a suite that was not run there is no report.
+    fn compare(&self) -> Result<Completion, Failed> {
+        let cases = (0..self.outcomes.len()).map(|index| self.case(index).clone()).collect();
+        let outcome = self.runner.outcome(cases);
+        if let [first, ..] = &outcome.cases[..]
+            && outcome.cases.iter().all(|case| !case.lacks.is_empty())
+        {
+            return Ok(Completion::ignored_with(&first.reason));
+        }
+        drift::compare(&self.suite.name, &report::text(&outcome), &self.snapshots)?;
+        Ok(Completion::Completed)
+    }
+}
+
+/// The tests of a suite, under a solver or the methods that it lists.
+fn trials(
+    suite: Suite,
+    snapshots: &Path,
+    solver: Option<&'static dyn SolverFactory>,
+) -> Vec<Trial> {
+    // The tests live as long as the process; so does the suite.
+    let suite: &'static Suite = Box::leak(Box::new(suite));
+    let names = suite.case_names();
+    let runner = Runner::new(suite);
+    let shared = Arc::new(SharedSuite {
+        suite,
+        runner: match solver {
+            Some(solver) => runner.judging(solver),
+            None => runner,
+        },
+        snapshots: snapshots.to_owned(),
+        outcomes: names.iter().map(|_| OnceLock::new()).collect(),
+    });
+    let case = |(index, case): (usize, &&str)| {
+        let shared = Arc::clone(&shared);
+        // Of a suite that explores nothing is expected: it must not look like a gate that passed.
+        Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
+            .with_ignored_flag(suite.explores())
+    };
+    let mut trials: Vec<Trial> = names.iter().enumerate().map(case).collect();
+    trials.extend(solver.map(|solver| {
+        let name = format!("{}::conformance", suite.name);
+        Trial::ignorable_test(name, || conforms(solver, suite))
+    }));
+    let name = format!("{}::report", suite.name);
+    trials.push(Trial::ignorable_test(name, move || shared.compare()));
+    trials
+}

@@ -1,0 +1,288 @@
+//! The contract of a subject: our own solver keeps it, and for each part of it there is a subject
+//! that breaks just this part.
+
+use super::own_solver::{OwnSolver, SWINGING_BAR, suite};
+use mpm_verify::prelude::*;
+use mpm_verify::study;
+use mpm_verify::suite::{ConvergencePlan, embedded};
+use mpm_verify::testing::conformance_on;
+use rstest::rstest;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A way to break the contract.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Fault {
+    Nothing,
+    NoDimension,
+    NoPoint,
+    ShortVelocity,
+    StressOfOnePoint,
+    NanAtStart,
+    NanLater,
+    LosesAPoint,
+    FarLabel,
+    CurrentLabels,
+    TurnedLabels,
+    NoWeight,
+    PresentVolume,
+    OwnPlacesOfTwiceTheBody,
+    GrowingWeight,
+    Displaced,
+    AtRest,
+    Appends,
+    Fails,
+    OwnStep,
+    StandsStill,
+    NoWork,
+    WorkOfLastStep,
+    OneParticleMore,
+    CrossingsOfLastStep,
+    AllAndOneLeft,
+    InitialJ,
+    NegativeJ,
+    TwiceTheMass,
+    AnotherWayEachTime,
+    EmptyCheckpoint,
+    LongerCheckpoint,
+    DisturbingCheckpoint,
+    ForgetfulCheckpoint,
+}
+
+/// Our own solver on a level, with a fault.
+struct FaultySubject {
+    sound: Box<dyn Subject>,
+    fault: Fault,
+    /// Steps so far.
+    steps: u64,
+    /// Number of the subject among those of its factory.
+    number: usize,
+}
+
+impl Subject for FaultySubject {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.steps += 1;
+        match self.fault {
+            Fault::Fails if self.steps > 1 => Err(Failure::External("gives up".to_owned())),
+            Fault::OwnStep => self.sound.step(1e-3),
+            Fault::StandsStill => Ok(()),
+            _ => self.sound.step(dt),
+        }
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        let mut own = Samples::default();
+        self.sound.sample(&mut own);
+        let later = self.steps > 0;
+        match self.fault {
+            Fault::NoDimension => own.dimension = 0,
+            Fault::NoPoint => own.restart(1),
+            Fault::ShortVelocity => drop(own.velocity.pop()),
+            Fault::StressOfOnePoint => own.stress.truncate(1),
+            Fault::NanAtStart => own.displacement[3] = f64::NAN,
+            Fault::NanLater if later => own.velocity[3] = f64::NAN,
+            Fault::LosesAPoint if later => {
+                let short = own.clone();
+                own.restart(1);
+                for p in 1..short.len() {
+                    let (u, v) = (short.displacement[p], short.velocity[p]);
+                    own.push(&[short.label[p]], &[u], &[v], short.weight[p]);
+                }
+            }
+            Fault::FarLabel => own.label[3] = 1e3,
+            Fault::CurrentLabels => {
+                own.label.iter_mut().zip(&own.displacement).for_each(|(label, u)| *label += u);
+            }
+            Fault::TurnedLabels if later => own.label.reverse(),
+            Fault::NoWeight => own.weight[3] = 0.0,
+            Fault::PresentVolume => own.weight.iter_mut().for_each(|weight| *weight *= 1.01),
+            Fault::OwnPlacesOfTwiceTheBody => {
+                own.label[3] += 0.01;
+                own.weight.iter_mut().for_each(|weight| *weight *= 2.0);
+            }
+            Fault::GrowingWeight if later => own.weight[3] *= 1.01,
+            Fault::Displaced => own.displacement.iter_mut().for_each(|u| *u += 0.1),
+            Fault::AtRest if !later => own.velocity.fill(0.0),
+            Fault::AnotherWayEachTime if later => own.displacement[3] += self.number as f64,
+            _ => {}
+        }
+        if self.fault == Fault::Appends {
+            samples.dimension = own.dimension;
+            for (into, from) in [
+                (&mut samples.label, own.label),
+                (&mut samples.displacement, own.displacement),
+                (&mut samples.velocity, own.velocity),
+                (&mut samples.weight, own.weight),
+            ] {
+                into.extend(from);
+            }
+        } else {
+            *samples = own;
+        }
+    }
+
+    fn counters(&self) -> RunCounters {
+        let mut counters = self.sound.counters();
+        match self.fault {
+            Fault::NoWork => counters.transfers = 0,
+            Fault::WorkOfLastStep => counters.transfers = 80,
+            Fault::OneParticleMore => counters.particles = counters.particles.map(|n| n + 1),
+            Fault::CrossingsOfLastStep => counters.crossings = Some(9 - self.steps),
+            Fault::AllAndOneLeft => counters.left_domain = counters.particles.map(|n| n + 1),
+            Fault::InitialJ => counters.min_j = 1.5,
+            Fault::NegativeJ => counters.min_j = -1.0,
+            _ => {}
+        }
+        counters
+    }
+
+    fn totals(&self) -> Option<Totals> {
+        let totals = self.sound.totals()?;
+        Some(if self.fault == Fault::TwiceTheMass { totals.plus(totals) } else { totals })
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        match self.fault {
+            Fault::EmptyCheckpoint => true,
+            Fault::LongerCheckpoint => {
+                // As long as the steps made, and so not the same in a fresh subject.
+                checkpoint.same(self.steps as usize);
+                self.sound.checkpoint(checkpoint)
+            }
+            Fault::DisturbingCheckpoint => {
+                self.sound.checkpoint(checkpoint) && self.sound.step(1e-3).is_ok()
+            }
+            Fault::ForgetfulCheckpoint => {
+                // The fresh subject goes on, one step ahead of what it has read.
+                let is_read = self.steps == 0;
+                self.sound.checkpoint(checkpoint) && (!is_read || self.sound.step(1e-3).is_ok())
+            }
+            _ => self.sound.checkpoint(checkpoint),
+        }
+    }
+}
+
+/// Our own solver as one of a user.
+struct OurSolver {
+    suite: Suite,
+    fault: Fault,
+    made: AtomicUsize,
+}
+
+impl OurSolver {
+    fn new(suite: Suite, fault: Fault) -> Self {
+        Self { suite, fault, made: AtomicUsize::new(0) }
+    }
+
+    fn breaches(&self) -> Vec<Breach> {
+        conformance_on(self, &self.suite)
+    }
+}
+
+impl SolverFactory for OurSolver {
+    fn name(&self) -> &'static str {
+        "ours"
+    }
+
+    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, String> {
+        let plan = self.suite.plan::<ConvergencePlan>().expect("a convergence study");
+        let sound = study::subject(plan, plan.cases[0].method, plan.refine.levels[0])?;
+        let number = self.made.fetch_add(1, Ordering::Relaxed);
+        Ok(Box::new(FaultySubject { sound, fault: self.fault, steps: 0, number }))
+    }
+}
+
+#[rstest]
+#[case::no_dimension(Fault::NoDimension, "dimension", "`dimension` = 1", "0")]
+#[case::no_point(Fault::NoPoint, "counts", "at least one point", "no number in `weight`")]
+#[case::a_number_short(Fault::ShortVelocity, "counts", "20 numbers in `velocity`", "19")]
+#[case::stress_of_one(Fault::StressOfOnePoint, "counts", "20 numbers in `stress`", "1")]
+#[case::nan_at_start(Fault::NanAtStart, "finite numbers", "at the start", "displacement[3] = NaN")]
+#[case::nan_later(Fault::NanLater, "finite numbers", "a step that fails", "velocity[3] = NaN")]
+#[case::a_point_is_lost(Fault::LosesAPoint, "counts", "20 numbers in `label`", "19 after 1 steps")]
+#[case::far_label(Fault::FarLabel, "labels", "on the grid", "label[3] = 1e3")]
+#[case::current(Fault::CurrentLabels, "order of labels", "at all times", "after 1 steps")]
+#[case::turned(Fault::TurnedLabels, "order of labels", "label[0] = 6.25e-1", "2.4375e1 after")]
+#[case::no_weight(Fault::NoWeight, "weights", "weights above zero", "weight[3] = 0")]
+#[case::present(Fault::PresentVolume, "weights", "weight[0] = 1.25e0", "1.2625e0")]
+#[case::two_bodies(Fault::OwnPlacesOfTwiceTheBody, "weights", "sum to the volume", "5e1 m^D")]
+#[case::growing(Fault::GrowingWeight, "weights", "weight[3] = 1.25e0 at all times", "1.2625e0")]
+#[case::displaced(Fault::Displaced, "initial state", "displacement[0] = 0e0", "1e-1")]
+#[case::at_rest(Fault::AtRest, "initial state", "velocity[", "0e0")]
+#[case::appends(Fault::Appends, "sample", "to replace all", "40 numbers in `label` and not 20")]
+#[case::fails(Fault::Fails, "step", "6 steps of", "step 2 fails: the solver gives up")]
+#[case::own_step(Fault::OwnStep, "step", "half of the motion", "in a whole one")]
+#[case::stands_still(Fault::StandsStill, "step", "points to move by about", "0e0 m at most")]
+#[case::no_work(Fault::NoWork, "work counters", "`transfers` that grows", "0 after step 1")]
+#[case::last_work(Fault::WorkOfLastStep, "work counters", "`transfers` that grows", "80 after")]
+#[case::one_more(Fault::OneParticleMore, "run counters", "`particles` = 20, or none", "21 after")]
+#[case::crossings(Fault::CrossingsOfLastStep, "run counters", "never falls", "Some(8)")]
+#[case::all_left(Fault::AllAndOneLeft, "run counters", "`left_domain` of at most 20", "21 after")]
+#[case::initial_j(Fault::InitialJ, "run counters", "smallest det F so far", "1.5e0")]
+#[case::negative_j(Fault::NegativeJ, "run counters", "0 < `min_j`", "-1e0")]
+#[case::mass(Fault::TwiceTheMass, "totals", "`mass` = 2.5e1 kg", "5e1 kg")]
+#[case::another(Fault::AnotherWayEachTime, "repeat", "the same course", "displacement[3]")]
+#[case::empty(Fault::EmptyCheckpoint, "restart", "not interrupted", "1 steps after it")]
+#[case::longer(Fault::LongerCheckpoint, "restart", "taken back", "bytes do not fit")]
+#[case::disturbing(Fault::DisturbingCheckpoint, "restart", "leave the run as it is", "steps after")]
+#[case::forgetful(Fault::ForgetfulCheckpoint, "restart", "not interrupted", "1 steps after it")]
+fn each_breach_is_found_and_said(
+    #[case] fault: Fault,
+    #[case] about: &str,
+    #[case] expected: &str,
+    #[case] seen: &str,
+) {
+    let breaches = OurSolver::new(suite(SWINGING_BAR), fault).breaches();
+    let of_part = breaches.iter().find(|breach| breach.about == about);
+    let breach = of_part.unwrap_or_else(|| panic!("nothing about {about}: {breaches:#?}"));
+    assert!(breach.expected.contains(expected) && breach.seen.contains(seen), "{breach}");
+    let others: Vec<&Breach> = breaches.iter().filter(|other| other.about != about).collect();
+    // Who stands still does no work either.
+    let both = fault == Fault::StandsStill && others.iter().all(|o| o.about == "work counters");
+    assert!(others.is_empty() || both, "{others:#?}");
+}
+
+#[test]
+fn our_own_solver_keeps_the_contract() {
+    let bar = OurSolver::new(suite(SWINGING_BAR), Fault::Nothing).breaches();
+    assert!(bar.is_empty(), "{bar:#?}");
+    for name in ["mms-periodic-bar-sin", "mms-axis-aligned-2d", "rotating-disk", "two-disks"] {
+        let source = embedded::source(name).expect("a suite").expect("a text");
+        let suite = Suite::load(&source).expect("a sound suite");
+        let breaches = OurSolver::new(suite, Fault::Nothing).breaches();
+        assert!(breaches.is_empty(), "{name}: {breaches:#?}");
+    }
+}
+
+#[test]
+fn the_solver_of_the_example_keeps_the_contract() {
+    let breaches = conformance(&OwnSolver);
+    assert!(breaches.is_empty(), "{breaches:#?}");
+}
+
+/// A solver that takes no problem.
+struct Refuses;
+
+impl SolverFactory for Refuses {
+    fn name(&self) -> &'static str {
+        "refuses"
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        if needs.dimension == 2 { vec!["dimensions: 2".to_owned()] } else { Vec::new() }
+    }
+
+    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, String> {
+        Err("a bad day".to_owned())
+    }
+}
+
+#[test]
+fn a_solver_that_takes_no_problem_is_told_why() {
+    let breaches = conformance(&Refuses);
+    assert_eq!(breaches.len(), 1, "{breaches:#?}");
+    for words in ["problem: ", "vibrating-bar: a bad day", "the solver lacks dimensions: 2"] {
+        assert!(breaches[0].to_string().contains(words), "{}", breaches[0]);
+    }
+    let breaches = conformance_on(&Refuses, &suite(SWINGING_BAR));
+    assert!(breaches[0].seen.contains("a bad day"), "{breaches:#?}");
+}

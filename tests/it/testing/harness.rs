@@ -1,0 +1,144 @@
+//! Suites of a folder as tests: what passes, what fails, and what is neither.
+
+use super::own_solver::{OwnSolver, SWINGING_BAR};
+use crate::common::folder::Folder;
+use mpm_verify::prelude::*;
+
+const SNAPSHOT: &str = include_str!("../../../examples/own_solver/suites/swinging-bar.snap");
+
+/// A folder with the suite of the example, and its snapshot elsewhere.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("suites/swinging-bar.yaml", SWINGING_BAR);
+    folder.write("kept/swinging-bar.snap", SNAPSHOT);
+    folder
+}
+
+fn tests(folder: &Folder) -> SuiteFolder {
+    let path = |name| folder.path().join(name);
+    SuiteFolder::new(path("suites")).snapshots(path("kept")).judging(OwnSolver)
+}
+
+/// The suite with an expectation of the solver.
+fn stated(expected: &str) -> String {
+    let methods = "  - external: {name: own-solver}\n";
+    format!("{SWINGING_BAR}{methods}expect:\n  - {expected}\n    because: linear functions\n")
+}
+
+/// Whether the tests that the arguments select pass, and what is printed of them.
+fn run(tests: &SuiteFolder, arguments: &[&str]) -> (bool, String) {
+    let folder = Folder::new();
+    let log = folder.path().join("log").display().to_string();
+    let words = ["tests", "--logfile", &log].into_iter().chain(arguments.iter().copied());
+    (tests.run(words), folder.read("log"))
+}
+
+/// Whether the test of this name passes, or all of them.
+fn passes(tests: &SuiteFolder, name: Option<&str>) -> bool {
+    run(tests, &name.map_or(vec![], |name| vec!["--exact", name])).0
+}
+
+#[test]
+fn a_solver_passes_by_theory_contract_and_snapshot() {
+    let (passed, said) = run(&tests(&folder()), &[]);
+    assert!(passed && said.contains("3 passed; 0 failed; 0 ignored"), "{said}");
+}
+
+/// As nextest asks for them.
+#[test]
+fn tests_have_names() {
+    let (_, said) = run(&tests(&folder()), &["--list", "--format", "terse"]);
+    let names = ["swinging-bar::own-solver", "swinging-bar::conformance", "swinging-bar::report"];
+    assert_eq!(said.lines().collect::<Vec<_>>(), names.map(|name| format!("{name}: test")));
+}
+
+#[test]
+fn neither_gate_knows_of_the_other() {
+    let folder = folder();
+    folder.write("suites/swinging-bar.yaml", stated("order: [0.9, 1.1]"));
+    assert!(!passes(&tests(&folder), Some("swinging-bar::own-solver")));
+    folder.write("suites/swinging-bar.yaml", stated("order: [1.9, 2.1]"));
+    folder.write("kept/swinging-bar.snap", SNAPSHOT.replace("9.161e-07", "9.361e-07"));
+    let drifted = tests(&folder);
+    assert!(passes(&drifted, Some("swinging-bar::own-solver")));
+    assert!(!passes(&drifted, Some("swinging-bar::report")));
+    // The new report waits for a review.
+    assert_eq!(folder.files("kept"), ["swinging-bar.snap", "swinging-bar.snap.new"]);
+}
+
+#[test]
+fn a_report_without_a_snapshot_fails() {
+    let folder = folder();
+    let beside = SuiteFolder::new(folder.path().join("suites")).judging(OwnSolver);
+    assert!(!passes(&beside, Some("swinging-bar::report")));
+    assert_eq!(folder.files("suites"), ["swinging-bar.snap.new", "swinging-bar.yaml"]);
+}
+
+/// The solver of the example, which says that it visits nothing.
+struct Idle;
+
+/// Its subject.
+struct IdleSubject(Box<dyn Subject>);
+
+impl Subject for IdleSubject {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.0.step(dt)
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        self.0.sample(samples);
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters::new(0)
+    }
+}
+
+impl SolverFactory for Idle {
+    fn name(&self) -> &'static str {
+        "idle"
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+        Ok(Box::new(IdleSubject(OwnSolver.subject(problem)?)))
+    }
+}
+
+#[test]
+fn a_breach_of_the_contract_fails_by_itself() {
+    let folder = folder();
+    let idle = SuiteFolder::new(folder.path().join("suites")).judging(Idle);
+    assert!(passes(&idle, Some("swinging-bar::idle")));
+    assert!(!passes(&idle, Some("swinging-bar::conformance")));
+}
+
+/// What a solver lacks is ignored; a solver that can do nothing of it all does not pass.
+#[test]
+fn nothing_applicable_is_no_pass() {
+    let folder = folder();
+    let other = SWINGING_BAR.replace("left: fixed", "left: roller").replace("swinging", "rolling");
+    folder.write("suites/rolling-bar.yaml", &other);
+    let (passed, said) = run(&tests(&folder), &[]);
+    assert!(passed && said.contains("ignored (the solver lacks conditions: roller)"), "{said}");
+    let alone = Folder::new();
+    alone.write("suites/rolling-bar.yaml", &other);
+    assert!(!passes(&tests(&alone), None), "nothing at all");
+    alone.write(
+        "suites/courant-limit.yaml",
+        include_str!("../../../verification/courant-limit.yaml"),
+    );
+    assert!(!passes(&tests(&alone), None), "a study of another kind");
+}
+
+#[test]
+fn files_that_cannot_be_used_fail() {
+    let empty = Folder::new();
+    assert!(!passes(&tests(&empty), None), "no folder");
+    empty.write("suites/README.md", "no suite");
+    assert!(!passes(&tests(&empty), None), "no suite");
+    let folder = folder();
+    folder.write("suites/other-name.yaml", SWINGING_BAR);
+    assert!(!passes(&tests(&folder), Some("other-name::parse")));
+    folder.write("suites/other-name.yaml", "suite: [");
+    assert!(!passes(&tests(&folder), Some("other-name::parse")));
+}

@@ -1,0 +1,5 @@
+//! Tests of solvers of a user of the library.
+
+mod conformance;
+mod harness;
+mod own_solver;

@@ -1,0 +1,49 @@
+//! The solver of `examples/own_solver`, held to ours: its algorithm is the same.
+
+#[path = "../../../examples/own_solver/solver.rs"]
+mod solver;
+#[path = "../../../examples/own_solver/subject.rs"]
+mod subject;
+
+use mpm_verify::prelude::*;
+use rstest::rstest;
+pub(crate) use subject::OwnSolver;
+
+/// Largest difference of an error, over the largest error of the levels.
+const TOLERANCE: f64 = 1e-8;
+
+/// The suite of the example.
+pub(crate) const SWINGING_BAR: &str =
+    include_str!("../../../examples/own_solver/suites/swinging-bar.yaml");
+
+pub(crate) fn suite(text: &str) -> Suite {
+    Suite::load(&Source::from_text("bar.yaml", text).expect("a text")).expect("a sound suite")
+}
+
+/// The errors that are judged, level by level.
+fn errors(outcome: &CaseOutcome) -> Vec<f64> {
+    let study = outcome.convergence().expect("a convergence study");
+    study.levels.iter().map(|level| level.error).collect()
+}
+
+#[rstest]
+#[case::as_it_is(SWINGING_BAR.to_owned())]
+#[case::between_walls(
+    SWINGING_BAR.replace("left: fixed", "left: fixed, right: fixed").replace("2*L", "L")
+)]
+#[case::through_cells(SWINGING_BAR.replace("v0: 0.01", "v0: 1").replace("until: 0.5", "until: 2"))]
+#[case::with_a_poisson_ratio(
+    SWINGING_BAR.replace("poisson: 0", "poisson: 0.3").replace("sqrt(E)", "sqrt(E*0.7/(1.3*0.4))")
+)]
+fn the_solver_of_the_example_has_the_errors_of_ours(#[case] text: String) {
+    let ours = suite(&text);
+    let theirs = under(&ours, &OwnSolver, false).expect("a convergence study");
+    let ours = errors(&Runner::new(&ours).case(0, &|| ()));
+    let outcome = Runner::new(&theirs).judging(&OwnSolver).case(0, &|| ());
+    let theirs = errors(&outcome);
+    let largest = ours.iter().copied().fold(0.0, f64::max);
+    assert_eq!((ours.len(), theirs.len()), (4, 4), "{}", outcome.reason);
+    for (a, b) in ours.iter().zip(&theirs) {
+        assert!((a - b).abs() <= TOLERANCE * largest, "{b:e} and not {a:e}");
+    }
+}
