@@ -18,6 +18,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "solvers"))
 
 from mpm_verify import Array, Cannot, Message, Problem  # noqa: E402
 
+# Precisions, by the words of the protocol.
+PRECISION = {"f32": "single", "f64": "double"}
+
 
 class Box:
     """Units of a code: lengths of n h, with `pad` cells around the longest side of the grid, times

@@ -10,7 +10,7 @@ import argparse
 from typing import Any
 
 import numpy as np
-from box import Box, Cannot, Message, Problem, aside, gravity, laws
+from box import PRECISION, Box, Cannot, Message, Problem, aside, gravity, laws
 from mpm_verify import serve
 
 with aside():
@@ -25,7 +25,7 @@ class Mpm99:
     version = ".".join(map(str, ti.__version__))
 
     def __init__(self, precision: str, any_law: bool) -> None:
-        self.precision = precision
+        self.bits, self.precision = precision, PRECISION[precision]
         self.capabilities = {"dimensions": [2], "laws": laws(["corotated"], any_law),
                              "conditions": ["free"], "loads": ["gravity"]}
 
@@ -61,7 +61,7 @@ class Mpm99:
 
     def load(self) -> Any:
         start = ti.init
-        precision = {"f32": ti.f32, "f64": ti.f64}[self.precision]
+        precision = {"f32": ti.f32, "f64": ti.f64}[self.bits]
         # One thread: sums in a fixed order.
         ti.init = lambda **_: start(arch=ti.cpu, default_fp=precision, cpu_max_num_threads=1)
         from taichi.examples.simulation import mpm99

@@ -20,6 +20,7 @@ with aside():
 class Newton:
     name = "newton-mpm"
     version = newton.__version__
+    precision = "single"
 
     def __init__(self, any_law: bool, substeps: int, drag: float, tolerance: float,
                  **options: str) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 from importlib.metadata import version
 
-from box import Array, Box, Message, Problem, aside, laws
+from box import PRECISION, Array, Box, Message, Problem, aside, laws
 from mpm_verify import serve
 
 with aside():
@@ -25,6 +25,7 @@ class MpmPytorch:
     version = version("mpm-pytorch")
 
     def __init__(self, precision: str, any_law: bool) -> None:
+        self.precision = PRECISION[precision]
         torch.set_default_dtype({"f32": torch.float32, "f64": torch.float64}[precision])
         self.capabilities = {"dimensions": [3], "laws": laws(list(LAWS), any_law),
                              "conditions": ["free"], "loads": ["gravity"]}

@@ -35,7 +35,8 @@ class Solver(Protocol):
     name: str  # letters, digits, `-`, `_` and `.`
     version: str
     capabilities: Message  # what is not named is lacking
-    # `formal_order`, if the order in h that theory gives the displacements is not 2.
+    # `formal_order`, if the order in h that theory gives the displacements is not 2;
+    # `precision`, `"single"` if that is what it computes in.
 
     def setup(self, problem: Problem) -> Message | None:
         """Takes the initial state. Returns the `points` at which states will be given, with their
@@ -144,9 +145,11 @@ def answer(solver: Solver, request: Message, channel: Channel) -> Message:
     """The answer of `solver` to a request."""
     if request["type"] == "hello":
         order = getattr(solver, "formal_order", 2)
+        precision = getattr(solver, "precision", "double")
         capabilities = {**solver.capabilities, "binary": True}
         return {"type": "hello", "protocol": PROTOCOL, "name": solver.name,
-                "version": solver.version, "formal_order": order, "capabilities": capabilities}
+                "version": solver.version, "formal_order": order, "precision": precision,
+                "capabilities": capabilities}
     if request["type"] == "problem":
         points = solver.setup(Problem(request, channel))
         return {"type": "ready"} if points is None else {"type": "ready", "points": points}
