@@ -45,6 +45,11 @@ impl Motion {
         self.components.iter().all(Formula::is_smooth)
     }
 
+    /// Whether it is not the same all along the axis.
+    pub fn varies_along(&self, axis: usize) -> bool {
+        self.components.iter().any(|component| component.reads(axis))
+    }
+
     /// Number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.components.len()
@@ -228,5 +233,20 @@ mod tests {
                 assert_eq!(first.second, [[[0.0; 3]; 3]; 3]);
             }
         }
+    }
+
+    #[test]
+    fn a_motion_varies_along_the_axes_that_it_reads() {
+        let bind = |text: &str| {
+            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
+        };
+        let varies = |texts: [&str; 2]| {
+            let motion = Motion::new(texts.map(bind).to_vec());
+            [motion.varies_along(0), motion.varies_along(1)]
+        };
+        assert_eq!(varies(["sum(n, 1, 3, sin(n*X))*t", "0"]), [true, false]);
+        assert_eq!(varies(["t", "Y"]), [false, true]);
+        assert_eq!(varies(["0", "X + Y"]), [true, true]);
+        assert_eq!(varies(["t", "0*2"]), [false, false]);
     }
 }

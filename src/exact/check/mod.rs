@@ -2,6 +2,7 @@
 
 pub(crate) mod boundary;
 pub(crate) mod differences;
+mod distinct;
 pub(crate) mod friction;
 pub(crate) mod interface;
 pub(crate) mod loading;

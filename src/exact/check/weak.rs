@@ -6,6 +6,7 @@
 //! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`; of a body of revolution with
 //! `R dX` in the place of dX, and less `P_tT phi` in the radial component.
 
+use super::distinct::DistinctPlaces;
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -205,15 +206,20 @@ fn sums(problem: &Problem, patch: &SpaceTimePatch, only_first: bool) -> [Sums; 3
     let d = problem.dimension();
     let (points, times) = patch.raster();
     let labels = labels(&points);
-    let at = labels.iter().map(Vec::as_slice);
     let motion = &problem.motion;
+    let distinct = DistinctPlaces::of(motion, points.len(), times.len());
+    let at = distinct.first.iter().map(|point| labels[*point].as_slice());
     let mut places = if only_first { motion.slopes_at_places(at) } else { motion.at_places(at) };
-    let (mut all, mut now) = ([Sums::default(); 3], Derivatives::default());
+    let mut fields = vec![Derivatives::default(); distinct.first.len()];
+    let mut all = [Sums::default(); 3];
     for time in &times {
         places.set_time(time.at);
+        for (place, field) in fields.iter_mut().enumerate() {
+            places.derivatives(place, field);
+        }
         let loaded = problem.loaded(time.at);
         for (place, point) in points.iter().enumerate() {
-            places.derivatives(place, &mut now);
+            let mut now = fields[distinct.of_point[place]];
             problem.complete(&labels[place], &mut now);
             let mut event = [*time; 4];
             event[..d].copy_from_slice(point);

@@ -97,6 +97,13 @@ impl Formula {
         self.variables
     }
 
+    /// Whether the variable with this number has a part in the value.
+    pub fn reads(&self, variable: usize) -> bool {
+        let variable = Operand::Variable(variable);
+        let mut arguments = self.code.iter().flat_map(|step| step.action.arguments());
+        self.result == variable || arguments.any(|argument| argument == variable)
+    }
+
     pub(super) fn code(&self) -> &[Instruction] {
         &self.code
     }
