@@ -2,6 +2,8 @@
 //!
 //! `nalgebra` needs bounds for determinants of a generic size; these free functions need none.
 
+use crate::dimension::with_dimension;
+
 /// A vector in D dimensions.
 pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
 
@@ -20,6 +22,11 @@ pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
         3 => m[(0, 0)] * minor(1, 2) - m[(0, 1)] * minor(0, 2) + m[(0, 2)] * minor(0, 1),
         _ => unreachable!("1, 2 or 3 dimensions"),
     }
+}
+
+/// Determinant of a tensor in `d` dimensions, row after row; d = 1, 2 or 3.
+pub fn det_of_rows(d: usize, rows: &[f64]) -> f64 {
+    with_dimension!(d, D => det(&Matrix::<D>::from_row_slice(rows)))
 }
 
 /// The matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.

@@ -42,7 +42,7 @@ mod stress;
 mod threads;
 mod transfer;
 
-pub use algebra::{Matrix, Vector, cofactor, det, dyad};
+pub use algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_across, combine_bodies};

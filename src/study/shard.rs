@@ -8,9 +8,10 @@ use std::str::FromStr;
 /// Most parts of a run.
 const MOST: usize = 10_000;
 
-/// Predicted time (s) of a case of which nothing is predicted, and what any case takes besides its
-/// steps.
+/// Time (s) of a case of which none is predicted.
 const UNKNOWN: f64 = 0.5;
+
+/// Time (s) that any case takes besides its steps.
 const SET_UP: f64 = 1e-3;
 
 /// One of several parts of a run: `2/5`.

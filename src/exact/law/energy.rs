@@ -1,7 +1,7 @@
-//! Stress as the derivative of an energy, for the tests of hyperelastic laws.
+//! Stress along the axes, and as the derivative of an energy, for the tests of hyperelastic laws.
 
 use super::contract::ConstitutiveLaw;
-use crate::exact::tensor::Tensor;
+use crate::exact::tensor::{Tensor, tensor, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
 /// Asserts `P = dW/dF` and `W = 0` at rest.
@@ -23,5 +23,23 @@ pub(super) fn assert_stress_is_derivative(law: &impl ConstitutiveLaw) {
         };
         let slope = (at(1e-6) - at(-1e-6)) / 2e-6;
         assert_relative_eq!(stress[i][j], slope, max_relative = 1e-7, epsilon = 1e-7);
+    }
+}
+
+/// Asserts that P of `stretches` along the axes is `along` them, and turned by `angle` about the
+/// third: `P(Q F) = Q P(F)`.
+pub(super) fn assert_stress_along_axes(
+    law: &impl ConstitutiveLaw,
+    (stretches, angle): ([f64; 3], f64),
+    along: impl Fn(usize) -> f64,
+    max_relative: f64,
+) {
+    let (c, s) = (libm::cos(angle), libm::sin(angle));
+    let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
+    let grad: Tensor<f64> = tensor(|i, j| turn[i][j] * stretches[j] - unit::<f64>(i, j));
+    let found = law.piola(&grad);
+    for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
+        let wanted = turn[i][j] * along(j);
+        assert_relative_eq!(found[i][j], wanted, max_relative = max_relative, epsilon = 1e-13);
     }
 }

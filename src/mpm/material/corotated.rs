@@ -7,6 +7,7 @@
 //! linear in the displacement gradient. Fewer than three dimensions mean plane or uniaxial strain.
 
 use super::contract::{Material, MaterialProperties};
+use super::hyperelastic::{set_stress, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::spectral::{assembled, spectral};
 use crate::mpm::algebra::{Matrix, det};
@@ -62,17 +63,11 @@ impl<const D: usize> Material<D> for Corotated {
     }
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
-        let all = particles.def_grad.iter().zip(&particles.vol0);
-        Some(all.map(|(f, vol0)| vol0 * self.density(f)).sum())
+        Some(stored_energy(particles, |f| self.density(f)))
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        for p in 0..particles.len().min(particles.def_grad.len()) {
-            let f = &particles.def_grad[p];
-            let j = det(f);
-            particles.vol[p] = j * particles.vol0[p];
-            particles.sigma[p] = self.cauchy(f, j);
-        }
+        set_stress(particles, |f, j| self.cauchy(f, j));
     }
 }
 

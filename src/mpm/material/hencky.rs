@@ -6,10 +6,11 @@
 //! strain.
 
 use super::contract::{Material, MaterialProperties};
+use super::hyperelastic::{set_stress, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
 use super::spectral::{assembled, half_log, spectral};
-use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
 
 /// Hencky elasticity.
@@ -86,17 +87,11 @@ impl<const D: usize> Material<D> for Hencky {
     }
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
-        let all = particles.def_grad.iter().zip(&particles.vol0);
-        Some(all.map(|(f, vol0)| vol0 * self.density(f)).sum())
+        Some(stored_energy(particles, |f| self.density(f)))
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        for p in 0..particles.len().min(particles.def_grad.len()) {
-            let f = &particles.def_grad[p];
-            let j = det(f);
-            particles.vol[p] = j * particles.vol0[p];
-            particles.sigma[p] = self.cauchy(f, j);
-        }
+        set_stress(particles, |f, j| self.cauchy(f, j));
     }
 }
 
@@ -116,7 +111,8 @@ impl super::contract::ClosedForms for Hencky {
 
     fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
         let squares = (f.transpose() * f).symmetric_eigenvalues();
-        let (log, strain) = (libm::log(det(f)), squares.map(|square| 0.5 * libm::log(square)));
+        let (log, strain) =
+            (libm::log(crate::mpm::det(f)), squares.map(|square| 0.5 * libm::log(square)));
         Some(0.5 * self.lambda * log * log + self.mu * strain.norm_squared())
     }
 }

@@ -5,6 +5,7 @@ mod axisymmetric;
 #[cfg(test)]
 mod closed_forms;
 mod contract;
+mod hyperelastic;
 #[cfg(test)]
 mod laws;
 mod parameter;

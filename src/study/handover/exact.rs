@@ -1,9 +1,8 @@
 //! The exact state at the places of a level's particles.
 
-use crate::dimension::with_dimension;
 use crate::exact::Truth;
 use crate::external::ProblemParticles;
-use crate::mpm::{Matrix, det};
+use crate::mpm::det_of_rows;
 use crate::suite::model::ConvergencePlan;
 
 /// The particles as the exact motion has them at time `t` (s): position, velocity, and where they
@@ -27,8 +26,7 @@ pub fn exact_state(
         truth.velocity(label, t, &mut state.velocity[vector]);
         let f = &mut state.deformation_gradient[tensor.clone()];
         if truth.deformation_gradient(label, t, f) {
-            let j = with_dimension!(d, D => det(&Matrix::<D>::from_row_slice(f)));
-            state.volume[p] = j * start.reference_volume[p];
+            state.volume[p] = det_of_rows(d, f) * start.reference_volume[p];
         }
         truth.stress(label, t, &mut state.stress[tensor]);
     }

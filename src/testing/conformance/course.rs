@@ -4,6 +4,7 @@ use super::breach::Breach;
 use super::record::{RunState, columns};
 use super::start::ROUNDING;
 use crate::external::LevelProblem;
+use crate::mpm::det_of_rows;
 use crate::subject::Samples;
 
 /// Labels, weights and sizes that change, and numbers that are none.
@@ -102,13 +103,6 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
 /// The smallest det F of the points; infinite where F is not given.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
-    let det = |f: &[f64]| match d {
-        1 => f[0],
-        2 => f[0] * f[3] - f[1] * f[2],
-        _ => {
-            f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6])
-                + f[2] * (f[3] * f[7] - f[4] * f[6])
-        }
-    };
-    samples.deformation_gradient.chunks_exact(d * d).map(det).fold(f64::INFINITY, f64::min)
+    let all = samples.deformation_gradient.chunks_exact(d * d);
+    all.map(|f| det_of_rows(d, f)).fold(f64::INFINITY, f64::min)
 }
