@@ -28,6 +28,12 @@ fn paragraph(found: &Diagnosis) -> String {
     }
     let seen = format!("Theory gives the order {p}, and the case is {}", judgement.verdict);
     let seen = format!("{seen}: {}.", judgement.reason);
+    if found.left_grid {
+        return format!(
+            "{seen} Cause: the grid ends where the body moves to. What restores it: a larger `grid` in \
+             `scene`, or a smaller motion."
+        );
+    }
     let levels = match (found.levels.first(), found.levels.last()) {
         (Some(first), Some(last)) => format!("{first} to {last}"),
         _ => String::new(),

@@ -5,6 +5,10 @@ use crate::study::preflight::extremes::Extremes;
 use crate::suite::compile::wording::shown;
 use crate::suite::model::{ConvergencePlan, Suite};
 
+/// Radians of a motion in which a wave runs through the body, below which the body follows a force
+/// as if it were at rest: the second harmonic of the motion is then a fifth of its lowest mode.
+const SLOW: f64 = 0.3;
+
 /// The residual of a linearised solution, and its error.
 #[derive(Debug, Clone, Copy)]
 pub struct Linearisation {
@@ -20,12 +24,18 @@ impl Linearisation {
     /// Inertia and stress are of the size of the acceleration a = omega^2 u each, so that a
     /// residual r is a force 2 r a per unit mass. It comes to r a t^2; later, where it swings with
     /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. At rest,
-    /// where stress and load are the terms, it is a share 2 r of the load and of u.
+    /// where stress and load are the terms, it is a share 2 r of the load and of u. A body so stiff
+    /// that it follows at once is moved by no more than a held bar of its length L, r a L^2/c^2.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());
-        let turned = if u > 0.0 { (motion.acceleration / u).sqrt() * t } else { 0.0 };
+        let omega = if u > 0.0 { (motion.acceleration / u).sqrt() } else { 0.0 };
+        let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
+        let crossing =
+            lengths.fold(0.0, f64::max) / (problem.equation.modulus() / problem.density).sqrt();
+        let (turned, waved) = (omega * t, omega * crossing);
         let growth = if problem.at_rest { 2.0 } else { turned * turned.min(1.0) };
+        let growth = if waved < SLOW { growth.min(waved * waved) } else { growth };
         Some(Self { residual, error: residual * u * growth })
     }
 }

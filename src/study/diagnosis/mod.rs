@@ -64,11 +64,12 @@ pub fn diagnose(
         finest: context.judge(levels, plan.refine.axis),
         levels: levels.iter().map(|level| level.name(found.axis)).collect(),
         judgement: found.judgement.clone(),
+        left_grid: levels.iter().any(|level| level.run.counters.left_domain > Some(0)),
         kink: kink(suite, plan),
         runs: Vec::new(),
         skipped: Vec::new(),
     };
-    if diagnosis.is_sound() {
+    if diagnosis.is_sound() || diagnosis.left_grid {
         return Ok(Some(diagnosis));
     }
     let finest = only(plan, case, &plan.refine.levels(Extent::Usual)[range]);

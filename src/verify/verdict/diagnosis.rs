@@ -61,6 +61,8 @@ pub struct Diagnosis {
     pub finest: Judgement,
     /// Levels that are run again, by name.
     pub levels: Vec<String>,
+    /// Whether particles left the grid, so that the finest levels have no error to explain.
+    pub left_grid: bool,
     /// A function with a kink that the exact solution calls: theory's order is for smooth ones.
     pub kink: Option<&'static str>,
     /// The runs that change one thing.

@@ -113,9 +113,9 @@ fn against(verdict: Verdict, (low, high): (f64, f64), overlaps: bool) -> String 
     let (low, high) = (format_number(low), format_number(high));
     let undecided = if overlaps { ", but the interval overlaps it: not decided" } else { "" };
     match verdict {
-        Verdict::Converging => format!("within the expected [{low}, {high}]"),
-        Verdict::TooGood => format!("above the expected [{low}, {high}]{undecided}"),
-        Verdict::TooLow => format!("below the expected [{low}, {high}]{undecided}"),
-        _ => format!("but the interval sticks out of the expected [{low}, {high}]"),
+        Verdict::Converging => format!("within [{low}, {high}]"),
+        Verdict::TooGood => format!("above [{low}, {high}]{undecided}"),
+        Verdict::TooLow => format!("below [{low}, {high}]{undecided}"),
+        _ => format!("but the interval sticks out of [{low}, {high}]"),
     }
 }

@@ -26,6 +26,10 @@ use rstest::rstest;
     &[("E: 100", "E: \"▸M*4\"")],
     &["unknown name `M`", "there are no variables here; declared: `L`"]
 )]
+#[case::a_modulus_that_varies(
+    &[("young: E", "young: \"E*▸X\"")],
+    &["unknown name `X`", "where it changes, state several `bodies` in `scene`"]
+)]
 #[case::a_parameter_that_comes_later_in_a_function(
     &[("sin(pi*s/(2*L))", "sin(pi*s/(2*▸v0))"), ("L: 25 ", "L: \"25*mode(1)\" ")],
     &["unknown name `v0`", "`v0` is declared further down (line 9): move it up"]

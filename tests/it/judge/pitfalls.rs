@@ -114,10 +114,10 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
 
 /// An order out of the range is one thing, an interval that is far from it another.
 #[rstest]
-#[case(1.85, 0.06, Verdict::TooLow, "below the expected [1.9, 2.1], but the interval overlaps it")]
-#[case(2.15, 0.06, Verdict::TooGood, "above the expected [1.9, 2.1], but the interval overlaps it")]
-#[case(1.5, 0.01, Verdict::TooLow, "below the expected [1.9, 2.1]")]
-#[case(2.5, 0.01, Verdict::TooGood, "above the expected [1.9, 2.1]")]
+#[case(1.85, 0.06, Verdict::TooLow, "below [1.9, 2.1], but the interval overlaps it")]
+#[case(2.15, 0.06, Verdict::TooGood, "above [1.9, 2.1], but the interval overlaps it")]
+#[case(1.5, 0.01, Verdict::TooLow, "below [1.9, 2.1]")]
+#[case(2.5, 0.01, Verdict::TooGood, "above [1.9, 2.1]")]
 fn an_order_out_of_the_range_may_be_undecided(
     #[case] order: f64,
     #[case] noise: f64,

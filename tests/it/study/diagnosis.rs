@@ -50,7 +50,7 @@ fn a_cause_is_found(#[case] suite: &str, #[case] case: &str, #[case] cause: &str
 #[case("oedometer-small-strain", "mpm-linear-flip-musl-at-zero", "the start")]
 #[case("thermal-expansion-mms", "mpm-linear-flip-musl", "grid crossing")]
 #[case("simple-wave", "mpm-linear-flip-musl", "grid crossing")]
-#[ignore = "a minute and a half"]
+#[ignore = "40 s of CPU time"]
 fn a_cause_is_found_in_time(#[case] suite: &str, #[case] case: &str, #[case] cause: &str) {
     names(suite, case, cause);
 }
@@ -112,6 +112,34 @@ methods:
     let found = diagnose(&suite, &source, 0, BUDGET).expect("a run").expect("an order");
     let (run, _) = found.found().unwrap_or_else(|| panic!("no cause: {found:#?}"));
     assert!(run.change == "a tenth of the amplitude" && run.ratio < 0.2, "{found:#?}");
+}
+
+/// The end of the bar moves by 0.05 m, and the grid ends where the bar does.
+#[test]
+fn a_grid_that_is_too_small_is_told_from_bad_integration() {
+    let text = r#"suite: bar
+title: Bar
+source: a textbook
+parameters: {a: 0.05, c: 10, omega: "pi/2*c"}
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  grid: {from: [0], to: [1]}
+  material: {neo_hookean: {young: "c^2", poisson: 0, density: 1}}
+  boundary: {left: fixed}
+manufactured:
+  displacement: ["a*sin(pi*X/2)*sin(omega*t)"]
+run: {until: 0.1, dt: "0.2*h/c"}
+refine: {cells: [6, 12, 18, 24], ppc: 2}
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+"#;
+    let source = Source::from_text("bar.yaml", text).expect("a text");
+    let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let found = diagnose(&suite, &source, 0, BUDGET).expect("a run").expect("an order");
+    assert!(found.left_grid && found.runs.is_empty(), "{found:#?}");
+    let said = mpm_verify::report::diagnosis(&found);
+    assert!(said.replace('\n', " ").contains("a larger `grid` in `scene`"), "{said}");
 }
 
 /// The joint of two bars lies in the middle of a cell, where linear functions have no kink.

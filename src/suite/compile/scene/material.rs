@@ -1,6 +1,7 @@
 //! The material of a body, from words.
 
 use crate::mpm::{MaterialPlan, MaterialSpec, Range};
+use crate::suite::compile::coordinates::COORDINATES;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
@@ -15,12 +16,25 @@ pub(crate) fn material(
     let path = path.then(words.name());
     words.numbers(|key, parameter, text| {
         let at = path.then(key);
-        match parameter.range {
+        let value = match parameter.range {
             Range::Positive => evaluator.positive(&at, text, parameter.what),
             Range::NotNegative => not_negative(evaluator, &at, text, parameter.what),
             Range::PoissonsRatio => poissons_ratio(evaluator, &at, text),
-        }
+        };
+        value.map_err(uniform)
     })
+}
+
+/// A diagnostic of a parameter that varies from place to place, with what to state instead.
+fn uniform(diagnostic: Diagnostic) -> Diagnostic {
+    let varies = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
+    if !COORDINATES.iter().any(varies) {
+        return diagnostic;
+    }
+    diagnostic.with_help(
+        "a material is the same all over its body: where it changes, state several `bodies` in \
+         `scene`, each with its own",
+    )
 }
 
 fn not_negative(
