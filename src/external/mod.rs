@@ -21,8 +21,9 @@ pub use capabilities::{Capabilities, ProblemNeeds};
 pub use factory::SolverFactory;
 #[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
+pub(crate) use problem::ForceSource;
 pub use problem::{
-    BodyForceField, BodyForceFunction, LevelProblem, ProblemFace, ProblemGrid, ProblemLoad,
+    BodyForceField, LevelProblem, PlacedBodyForce, ProblemFace, ProblemGrid, ProblemLoad,
     ProblemMaterial, ProblemParticles,
 };
 #[cfg(feature = "external-programs")]

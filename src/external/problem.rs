@@ -157,13 +157,35 @@ impl ProblemParticles {
     }
 }
 
-/// Body force per unit of mass (m/s2) at a reference position (m) of the body with a number, and a
-/// time (s); components beyond the dimension are zero.
-pub type BodyForceFunction = dyn Fn(usize, &[f64], f64) -> [f64; 3] + Send + Sync;
+/// A body force of a scene.
+pub(crate) trait ForceSource: Send + Sync {
+    /// [`BodyForceField::at`].
+    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
 
-/// A body force that several owners share.
+    /// [`BodyForceField::at_places`].
+    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce;
+}
+
+/// A body force at its places: fills in the components (m/s2) at each, at a time (s).
+pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
+
+/// A body force per unit of mass, as a function of the reference position and time.
 #[derive(Clone)]
-pub struct BodyForceField(pub Arc<BodyForceFunction>);
+pub struct BodyForceField(pub(crate) Arc<dyn ForceSource>);
+
+impl BodyForceField {
+    /// The force (m/s2) at a reference position `label` (m, D numbers) of the body with a number,
+    /// and a time (s); components beyond the dimension are zero.
+    pub fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
+        self.0.at(body, label, t)
+    }
+
+    /// The force at places that are given once, with the body of each: much cheaper where the times
+    /// are many.
+    pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
+        self.0.at_places(bodies, labels)
+    }
+}
 
 impl fmt::Debug for BodyForceField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -4,7 +4,7 @@ use super::answer::{Answer, ColumnText, Hello, Points, State};
 use super::connection::Connection;
 use super::frame::Outgoing;
 use super::printable::printable;
-use crate::external::problem::{BodyForceField, LevelProblem};
+use crate::external::problem::{BodyForceField, LevelProblem, PlacedBodyForce};
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
@@ -31,6 +31,8 @@ pub(super) struct ProgramSubject {
     called: u64,
     taken: u64,
     body_force: Option<BodyForceField>,
+    /// The same at the points, once it has been asked for there.
+    placed: Option<PlacedBodyForce>,
     /// Bodies of the particles, where these are the points.
     bodies: Option<Vec<usize>>,
     /// Masses of the particles (kg), where these are the points.
@@ -88,6 +90,7 @@ impl ProgramSubject {
             called: 0,
             taken: 0,
             body_force: problem.body_force.clone(),
+            placed: None,
             bodies,
             mass,
             binary: hello.capabilities.binary,
@@ -139,19 +142,23 @@ impl ProgramSubject {
             let whole = if count % d == 0 { count } else { d * (count / d + 1) };
             places.numbers("reference_position", whole, bytes)
         });
-        let own = own.transpose()?;
-        let labels = own.as_ref().unwrap_or(&self.samples.label);
-        let body = |point: usize| match (&own, &self.bodies) {
-            (None, Some(bodies)) => bodies[point],
-            _ => 0,
-        };
-        let values: Vec<f64> = match &self.body_force {
-            None => vec![0.0; labels.len()],
-            Some(BodyForceField(force)) => labels
+        let values: Vec<f64> = match (&self.body_force, own.transpose()?) {
+            (None, own) => vec![0.0; own.map_or(self.samples.label.len(), |own| own.len())],
+            (Some(force), Some(own)) => own
                 .chunks_exact(d)
-                .enumerate()
-                .flat_map(|(point, label)| force(body(point), label, t).into_iter().take(d))
+                .flat_map(|label| force.at(0, label, t).into_iter().take(d))
                 .collect(),
+            (Some(force), None) => {
+                let Self { samples, bodies, placed, .. } = self;
+                let placed = placed.get_or_insert_with(|| {
+                    let labels: Vec<&[f64]> = samples.label.chunks_exact(d).collect();
+                    let none = || vec![0; labels.len()];
+                    force.at_places(&bodies.clone().unwrap_or_else(none), &labels)
+                });
+                let mut forces = vec![[0.0; 3]; samples.label.len() / d];
+                placed(t, &mut forces);
+                forces.into_iter().flat_map(|force| force.into_iter().take(d)).collect()
+            }
         };
         let mut message = Outgoing::new("body_force", json!({}), self.binary);
         message.set_numbers("values", &values);

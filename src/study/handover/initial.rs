@@ -1,10 +1,10 @@
 //! Initial state of a level.
 
 use crate::dimension::with_dimension;
-use crate::exact::{Problem, Term};
+use crate::exact::{Forcing, Problem, Term};
 use crate::external::{
-    BodyForceField, LevelProblem, ProblemFace, ProblemGrid, ProblemLoad, ProblemMaterial,
-    ProblemParticles,
+    BodyForceField, ForceSource, LevelProblem, PlacedBodyForce, ProblemFace, ProblemGrid,
+    ProblemLoad, ProblemMaterial, ProblemParticles,
 };
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector};
 use crate::study::build::conditions::periodic;
@@ -147,18 +147,51 @@ fn forces(plan: &ConvergencePlan) -> Vec<Vec<Arc<dyn Term>>> {
 
 /// The stated body force, and the manufactured one; none where the scene has neither.
 fn body_force(plan: &ConvergencePlan) -> Option<BodyForceField> {
-    let terms = forces(plan);
-    let made: Option<Problem> = plan.manufactured().cloned();
-    if made.is_none() && terms.iter().all(Vec::is_empty) {
-        return None;
-    }
-    Some(BodyForceField(Arc::new(move |body, label, t| {
-        let made = made.as_ref().map_or([0.0; 3], |made| made.manufactured_force(label, t));
-        let terms = terms.get(body).map_or(&[][..], Vec::as_slice);
+    let force = SceneForce { terms: forces(plan), made: plan.manufactured().cloned() };
+    let is_none = force.made.is_none() && force.terms.iter().all(Vec::is_empty);
+    (!is_none).then(|| BodyForceField(Arc::new(force)))
+}
+
+/// The body force of a scene.
+#[derive(Clone)]
+struct SceneForce {
+    /// The stated ones, body by body.
+    terms: Vec<Vec<Arc<dyn Term>>>,
+    /// The motion that needs a manufactured one.
+    made: Option<Problem>,
+}
+
+impl SceneForce {
+    /// The stated forces on a body, added to `made`.
+    fn whole(&self, made: [f64; 3], body: usize, label: &[f64], t: f64) -> [f64; 3] {
+        let terms = self.terms.get(body).map_or(&[][..], Vec::as_slice);
         std::array::from_fn(|i| {
             terms.iter().fold(made[i], |sum, term| sum + term.stated(i, label, t, &[0.0; 3]))
         })
-    })))
+    }
+}
+
+impl ForceSource for SceneForce {
+    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
+        let made = self.made.as_ref().map_or([0.0; 3], |made| made.manufactured_force(label, t));
+        self.whole(made, body, label, t)
+    }
+
+    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
+        let mut forcing = self.made.as_ref().map(|made| Forcing::new(made, labels.iter().copied()));
+        let labels = labels.iter().map(|label| label.to_vec());
+        let places: Vec<(usize, Vec<f64>)> = bodies.iter().copied().zip(labels).collect();
+        let force = self.clone();
+        Box::new(move |t, into| {
+            match &mut forcing {
+                Some(forcing) => forcing.at(t, into, |made| made),
+                None => into.fill([0.0; 3]),
+            }
+            for (into, (body, label)) in into.iter_mut().zip(&places) {
+                *into = force.whole(*into, *body, label, t);
+            }
+        })
+    }
 }
 
 /// The body force, where it is the same at every place and time of the only body.

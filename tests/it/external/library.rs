@@ -2,10 +2,10 @@
 
 use super::bar;
 use mpm_verify::external::{LevelProblem, SolverFactory};
-use mpm_verify::study::Runner;
+use mpm_verify::study::{Runner, level_problem};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, ExternalMethod, Suite};
+use mpm_verify::suite::{ConvergencePlan, Extent, ExternalMethod, Suite, embedded};
 use mpm_verify::verify::CaseOutcome;
 
 /// Finite differences of second order, one unknown at each particle: `u_tt = c^2 u_XX`.
@@ -95,4 +95,27 @@ fn what_a_maker_refuses_is_not_applicable() {
     let found = outcome(&free);
     assert_eq!((found.result(), found.verdict.as_str()), ("n/a", "not applicable"));
     assert!(found.reason.contains("a left end that is not held"), "{}", found.reason);
+}
+
+/// A force at places given once has the bits of the force at one place after another.
+#[test]
+fn a_placed_body_force_is_the_body_force() {
+    for name in ["mms-axis-aligned-2d", "geostatic-slope", "falling-block"] {
+        let Some(source) = embedded::source(name) else { panic!("no suite `{name}`") };
+        let suite = Suite::load(&source.expect("a text")).expect("a sound suite");
+        let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+        let (case, level) = (&plan.cases[0], plan.refine.levels[0]);
+        let problem = level_problem(name, plan, case, level).expect("a problem");
+        let force = problem.body_force.expect("a body force");
+        let bodies: Vec<usize> = problem.particles.body.iter().map(|body| *body as usize).collect();
+        let labels = problem.particles.reference_position.chunks_exact(problem.dimension);
+        let labels: Vec<&[f64]> = labels.collect();
+        let mut placed = force.at_places(&bodies, &labels);
+        for t in [0.0, 0.3 * problem.until, problem.until] {
+            let mut found = vec![[f64::NAN; 3]; labels.len()];
+            placed(t, &mut found);
+            let each = bodies.iter().zip(&labels).map(|(body, label)| force.at(*body, label, t));
+            assert_eq!(found, each.collect::<Vec<_>>(), "{name} at {t} s");
+        }
+    }
 }
