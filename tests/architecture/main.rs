@@ -11,10 +11,12 @@
 //! markdown   text -> headings, links, spans of code, fenced blocks
 //! documents  what they say that the repository does not have
 //! exercises  pages that add a member to a family, and how they are applied
+//! defects    seeded defects: what they change is still there
 //! ```
 //!
 //! [`synthetic`] and [`planted`] hold the scanners themselves to small texts with planted breaches.
 
+mod defects;
 mod documents;
 mod exercises;
 mod graph;
@@ -285,6 +287,26 @@ fn exercises_apply_to_the_present_sources() {
         let suites = exercises::suites(&changes);
         assert_eq!(suites.len(), 1, "{file} adds one suite that uses the new member");
     }
+}
+
+#[test]
+fn seeded_defects_apply_to_the_present_sources() {
+    let files = source::texts("tests/defects", ".txt");
+    let parsed = files.iter().map(|(file, text)| defects::parse(file, text));
+    let all: Vec<Vec<defects::Defect>> =
+        parsed.collect::<Result<_, _>>().unwrap_or_else(|what| panic!("{what}"));
+    let all: Vec<defects::Defect> = all.into_iter().flatten().collect();
+    assert!(all.len() >= 80, "only {} defects", all.len());
+    let mut names = std::collections::BTreeSet::new();
+    let mut wrong = Vec::new();
+    for defect in &all {
+        let text = std::fs::read_to_string(source::root().join(&defect.file)).unwrap_or_default();
+        wrong.extend(defect.check(&text).err());
+        if !names.insert(&defect.name) {
+            wrong.push(format!("{}: a second defect of this name", defect.site));
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
 /// Writes a copy of the repository with all exercises applied into the folder that the variable

@@ -1,0 +1,79 @@
+//! Runs one suite as the gate does and prints what each gate says: `ci/defects` builds this program in a
+//! scratch copy of the repository, with the defects of this folder behind switches.
+//!
+//! Arguments: the file of a suite, and the folder of snapshots. One line of JSON, as in
+//! `{"suite": "oedometer", "load": null, "cases": [["mpm-linear-flip-musl", "order", "expected ..."]],
+//! "drift": false}`.
+
+use mpm_verify::report;
+use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::{CaseOutcome, InternalForce, StabilityStudy, SuiteOutcome};
+use std::path::Path;
+use std::{env, fs};
+
+/// Gates of convergence studies by the first words of what they say; the first that fits.
+const GATES: [(&str, &str); 12] = [
+    ("expected the order within", "order"),
+    ("expected the finest pair's order", "order"),
+    ("expected the verdict", "verdict"),
+    ("expected every level to run", "verdict"),
+    ("expected the floor", "verdict"),
+    ("expected some crossings", "bound"),
+    ("expected no crossings", "bound"),
+    ("expected drift of energy", "energy"),
+    ("expected drift of kinetic energy", "energy"),
+    ("expected rate of energy", "energy"),
+    ("expected drift", "conservation"),
+    ("expected ", "bound"),
+];
+
+fn main() {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let [file, snapshots] = &arguments[..] else { panic!("arguments: SUITE.yaml SNAPSHOTS") };
+    let name = Path::new(file).file_stem().expect("a file").to_string_lossy().into_owned();
+    let found = match Source::read(file).and_then(|source| Suite::load(&source)) {
+        Err(refusal) => {
+            serde_json::json!({"load": refusal.to_string(), "cases": [], "drift": true})
+        }
+        Ok(suite) => {
+            let outcome = Runner::new(&suite).run(&|| ());
+            let snapshot = fs::read_to_string(Path::new(snapshots).join(format!("{name}.snap")));
+            let unmet = outcome.cases.iter().flat_map(|case| {
+                let gate = |line: &String| (case.case.clone(), gate(case, line), line.clone());
+                case.unmet.iter().map(gate)
+            });
+            let cases: Vec<_> = unmet.collect();
+            let drift = has_drifted(&outcome, &snapshot.expect("a suite has a snapshot"));
+            serde_json::json!({"load": null, "cases": cases, "drift": drift})
+        }
+    };
+    println!("{found}");
+}
+
+/// The gate that says `line`. A wrong order is a gate of its own, whatever the verdict is called.
+fn gate(case: &CaseOutcome, line: &str) -> &'static str {
+    if case.study.is_none() {
+        return "verdict";
+    }
+    if case.results::<StabilityStudy>().is_some() {
+        return "stability";
+    }
+    if case.results::<InternalForce>().is_some() {
+        return "force";
+    }
+    let of_order = ["got `too low`", "got `too good`", "got `converging`"];
+    let should_converge = line.starts_with("expected the verdict `converging`");
+    if should_converge && of_order.iter().any(|got| line.contains(got)) {
+        return "order";
+    }
+    let known = GATES.iter().find(|(words, _)| line.starts_with(words));
+    known.unwrap_or_else(|| panic!("no gate is known to say: {line}")).1
+}
+
+/// Whether the report differs from its snapshot, below whose head it stands.
+fn has_drifted(outcome: &SuiteOutcome, snapshot: &str) -> bool {
+    let kept = snapshot.splitn(3, "---\n").last().unwrap_or_default();
+    !report::drift::same(kept, &report::text(outcome))
+}
