@@ -5,6 +5,7 @@ mod args;
 mod compare;
 mod cost;
 mod diagnose;
+mod doctor;
 mod explain;
 mod list;
 mod merge;
@@ -37,6 +38,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Check(args)) => show::check(&args),
         Some(Command::Explain(args)) => explain::explain(&args),
         Some(Command::Diagnose(args)) => diagnose::diagnose(&args),
+        Some(Command::Doctor(args)) => doctor::doctor(&args),
         Some(Command::Propose(targets)) => propose::propose(&targets.targets),
         Some(Command::Steps(args)) => steps::steps(&args),
         Some(Command::Problem(args)) => problem::problem(&args),

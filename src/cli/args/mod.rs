@@ -1,11 +1,13 @@
 //! The words of the command line.
 
 mod cost;
+mod doctor;
 mod problem;
 mod report;
 mod shared;
 
 pub(super) use cost::{CostArgs, Vary};
+pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
 pub(super) use report::{ListArgs, MergeArgs, ReportArgs, RunArgs};
 pub(super) use shared::{Format, SolverArgs, Targets};
@@ -49,6 +51,10 @@ pub(super) enum Command {
     /// Find out why cases do not have the order of theory: the finest levels again, with one thing
     /// changed at a time
     Diagnose(DiagnoseArgs),
+    /// Put a solver to small problems that each show one kind of mistake, and say what is wrong
+    /// with it in the words that its author needs; exit status 1 if something is, 2 if it cannot
+    /// be talked to
+    Doctor(DoctorArgs),
     /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
     /// 1 if one is off by more than 1 %
     Steps(StepsArgs),

@@ -1,5 +1,6 @@
 //! Solvers of other programs, as shell scripts: sound ones, and every way to misbehave.
 
+mod doctor;
 mod library;
 #[cfg(unix)]
 mod misbehaving;

@@ -1,0 +1,188 @@
+//! A body in free fall.
+
+use crate::testing::doctor::course::{
+    Course, displacement, line, minus, shown, shown_vector, size, times, velocity,
+};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::BoxScene;
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "fall",
+    expected: "a body without stress falls with v = g t, as any scheme has it, and x = g t^2/2",
+    after: &["conversation", "rest", "translation"],
+    examine,
+};
+
+/// Gravity (m/s2): not that of the earth, which a solver may have by itself.
+const GRAVITY: f64 = 3.7;
+
+/// Share by which a figure may be off the pattern that explains it.
+const NEAR: f64 = 0.02;
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let scene = patient.able(&[2, 3, 1], &|kind| {
+        let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
+        let mut gravity = vec![0.0; kind.0];
+        gravity[kind.0 - 1] = -GRAVITY;
+        scene.gravity = Some(gravity);
+        BoxScene { steps: 40, dt: 0.01, ..scene }
+    })?;
+    let course = patient.run(&scene)?;
+    let mut g = [0.0; 3];
+    g[scene.dimension - 1] = -GRAVITY;
+    let (last, d) = (course.last(), scene.dimension);
+    let end = course.times[last];
+    let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
+    let measured = format!(
+        "after {last} steps v = {} m/s and u = {} m, where {} and {} were expected",
+        shown_vector(v, d),
+        shown_vector(u, d),
+        shown_vector(times(end, g), d),
+        shown_vector(times(0.5 * end * end, g), d)
+    );
+    let found = of_speed(patient, &course, g).or_else(|| of_way(patient, &course, g));
+    if found.is_none()
+        && let Some(failure) = course.failure
+    {
+        return Err(Hindrance::Broke(failure));
+    }
+    Ok(Examined::new(measured, found.into_iter().collect()))
+}
+
+/// Velocities that are not g t.
+fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+    let (last, d) = (course.last(), course.problem.dimension);
+    let end = course.times[last];
+    let off = |k: usize| course.farthest(velocity, k, times(course.times[k], g));
+    let most = (1..=last).map(off).fold(0.0, f64::max) / (GRAVITY * end);
+    if most <= patient.rounding() {
+        return None;
+    }
+    let v = course.mean(velocity, last);
+    let spread = course.farthest(velocity, last, v) / (GRAVITY * end);
+    if spread > NEAR && spread > NEAR * most {
+        return Some(SolverFinding::defect(
+            "force-uneven",
+            format!("velocities differ by {} of g t from point to point", shown(spread)),
+            "the body force of a node is not spread with the weights of its mass",
+            "mass and force at nodes must be sums with the same weights; a surface or a wall that \
+             takes part",
+        ));
+    }
+    let axis = d - 1;
+    let along: Vec<f64> = (1..=last).map(|k| course.mean(velocity, k)[axis]).collect();
+    let (start, slope, _) = line(&course.times[1..], &along);
+    let factor = slope / g[axis];
+    let across = size(minus(v, std::array::from_fn(|i| if i == axis { v[i] } else { 0.0 })));
+    if across > NEAR * GRAVITY * end {
+        return Some(SolverFinding::defect(
+            "gravity-along-another-axis",
+            format!("the body falls along {}", shown_vector(times(1.0 / size(v), v), d)),
+            "gravity acts along another axis than the problem says",
+            "the order of axes: `body_force_value` has its components in the order x, y, z",
+        ));
+    }
+    if (factor - 1.0).abs() > 1e-3 {
+        let seen = format!("the acceleration is {} of that of the problem", shown(factor));
+        let (name, cause) = factor_cause(factor, course);
+        return Some(SolverFinding::defect(
+            name,
+            seen,
+            &cause,
+            "where body forces enter: mass times acceleration once, with the sign of the problem, \
+             whose `body_force_value` is in m/s2",
+        ));
+    }
+    let steps = start / (g[axis] * course.problem.dt);
+    let seen =
+        format!("v = g (t {}{} dt)", if steps < 0.0 { "- " } else { "+ " }, shown(steps.abs()));
+    Some(if (steps + 0.5).abs() <= NEAR {
+        SolverFinding::remark(
+            "velocity-half-a-step-behind",
+            seen,
+            "velocities are those of a leapfrog, half a step before the positions that come with them",
+            "suites that judge velocities will show order 1 in dt; the mean of two velocities that \
+             follow each other is that of the positions",
+        )
+    } else {
+        SolverFinding::defect(
+            "velocity-of-another-time",
+            seen,
+            "velocities do not belong to the time after the step, and the start is not that of a \
+             leapfrog either",
+            "what is done before the first step: v(-dt/2) = v0 - a dt/2, not plus; the number of \
+             steps; where velocities are taken from for the answer",
+        )
+    })
+}
+
+pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, String) {
+    let density = course.problem.materials[0].density;
+    let mass = course.problem.particles.mass.first().copied().unwrap_or(f64::NAN);
+    let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
+    if factor.abs() <= 1e-3 {
+        return ("gravity-missing", "the load `gravity` has no effect".to_owned());
+    }
+    if is(-1.0) {
+        return ("gravity-upwards", "gravity has the other sign".to_owned());
+    }
+    let candidates = [
+        (2.0, "it acts twice: as gravity and as a body force, or in both halves of a step"),
+        (0.5, "it acts in one half of each step only"),
+        (density, "the force per mass is multiplied by the density"),
+        (1.0 / density, "the acceleration is divided by the density"),
+        (mass, "the force per mass is multiplied by the mass of a particle once more"),
+        (1.0 / mass, "the acceleration is divided by the mass of a particle"),
+        (9.81 / GRAVITY, "the solver's own 9.81 m/s2 acts in place of the problem's gravity"),
+        (1.0 + 9.81 / GRAVITY, "the solver's own 9.81 m/s2 acts besides that of the problem"),
+        (1e3, "a unit is mm"),
+        (1e-3, "a unit is mm"),
+    ];
+    let known = candidates.into_iter().find(|(wanted, _)| is(*wanted));
+    let cause = known.map_or("it is multiplied by something", |(_, cause)| cause);
+    ("gravity-scaled", cause.to_owned())
+}
+
+/// Positions, where velocities are right.
+fn of_way(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+    let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
+    let end = course.times[last];
+    let off = course.mean(displacement, last)[axis] - 0.5 * g[axis] * end * end;
+    let steps = off / (g[axis] * end * 0.5 * dt);
+    if steps.abs() * dt / end <= patient.rounding() {
+        return None;
+    }
+    let seen = format!(
+        "u = g t^2/2 {} {} g t dt/2",
+        if steps < 0.0 { "-" } else { "+" },
+        shown(steps.abs())
+    );
+    let near = 0.1;
+    Some(if (steps - 1.0).abs() <= near {
+        SolverFinding::remark(
+            "start-half-a-step-off",
+            seen,
+            "each step takes the velocity first and the position after it, and the velocity of t = 0 \
+             stands for that of -dt/2: a push of a dt/2 too much, which costs an order in time",
+            "before the first step, take dt/2 times the first acceleration off the velocity; suites \
+             then show the order in time that the scheme has",
+        )
+    } else if (steps + 1.0).abs() <= near {
+        SolverFinding::defect(
+            "positions-before-velocities",
+            seen,
+            "positions move with the velocities of before the step (forward Euler): order 1 in time, \
+             and energy grows where stresses act",
+            "the order of the updates: velocities first, then positions with the new ones",
+        )
+    } else {
+        SolverFinding::defect(
+            "way-not-of-velocities",
+            seen,
+            "positions do not follow the velocities that are reported",
+            "the velocity that moves particles, and gravity that acts on it twice or not at all",
+        )
+    })
+}

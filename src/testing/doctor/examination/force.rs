@@ -1,0 +1,222 @@
+//! A body force that is asked for at places and times.
+
+use super::fall::factor_cause;
+use super::translation::VELOCITY;
+use crate::external::{BodyForceField, ForceSource, PlacedBodyForce};
+use crate::testing::doctor::course::{Course, line, minus, shown, size, times, velocity};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::{BoxScene, H};
+use std::sync::{Arc, Mutex, PoisonError};
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "force",
+    expected: "a body force is asked for at reference positions and at the time of each step, and acts \
+               on the points that it was asked for",
+    after: &["conversation", "rest", "translation", "fall"],
+    examine,
+};
+
+/// Force per mass at the start (m/s2), and its rate (m/s3).
+const FORCE: f64 = 0.8;
+const RATE: f64 = 6.0;
+
+/// Share by which a figure may be off the pattern that explains it.
+const NEAR: f64 = 0.1;
+
+/// Questions: times (s) and reference positions (m).
+type Questions = Arc<Mutex<Vec<(f64, [f64; 3])>>>;
+
+/// A force along the first axis, as a function of the place on it (m) and time (s).
+type ForceAlong = fn(f64, f64) -> f64;
+
+/// A force that keeps the questions.
+#[derive(Clone)]
+struct AskedForce {
+    asked: Questions,
+    force: ForceAlong,
+}
+
+impl ForceSource for AskedForce {
+    fn at(&self, _: usize, label: &[f64], t: f64) -> [f64; 3] {
+        let place = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
+        self.asked.lock().unwrap_or_else(PoisonError::into_inner).push((t, place));
+        [(self.force)(place[0], t), 0.0, 0.0]
+    }
+
+    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
+        let force = self.clone();
+        let labels = labels.iter().map(|label| label.to_vec());
+        let places: Vec<(usize, Vec<f64>)> = bodies.iter().copied().zip(labels).collect();
+        Box::new(move |t, into| {
+            for (into, (body, label)) in into.iter_mut().zip(&places) {
+                *into = force.at(*body, label, t);
+            }
+        })
+    }
+}
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let moving = patient.able_with(
+        &[2, 3, 1],
+        &|kind| {
+            let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
+            scene.velocity[0] = VELOCITY[0].to_string();
+            BoxScene { steps: 20, dt: 0.02, ..scene }
+        },
+        &|needs| needs.manufactured = true,
+    )?;
+    let asked = Questions::default();
+    let course = run(patient, &moving, &asked, |_, t| FORCE + RATE * t)?;
+    let mut found = places(&asked, &moving).or_else(|| of_time(&asked, &course));
+    let resting =
+        BoxScene { velocity: vec!["0".to_owned(); moving.dimension], steps: 1, ..moving.clone() };
+    if found.is_none() {
+        let course = run(patient, &resting, &Questions::default(), |x, _| x / H)?;
+        found = of_points(&course, resting.dt / H);
+    }
+    let count = asked.lock().unwrap_or_else(PoisonError::into_inner).len();
+    let measured = format!(
+        "{count} values were asked for in {} steps; the speed gained is {} m/s, {} by the integral",
+        course.last(),
+        shown(course.mean(velocity, course.last())[0] - VELOCITY[0]),
+        shown(integral(course.times[course.last()]))
+    );
+    Ok(Examined::new(measured, found.into_iter().collect()))
+}
+
+fn integral(t: f64) -> f64 {
+    FORCE * t + 0.5 * RATE * t * t
+}
+
+/// A run of `scene` with the force `force(x, t)` along the first axis.
+fn run(
+    patient: &Patient<'_>,
+    scene: &BoxScene,
+    asked: &Questions,
+    force: ForceAlong,
+) -> Result<Course, Hindrance> {
+    let (mut problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
+    let asked = Arc::clone(asked);
+    problem.body_force = Some(BodyForceField(Arc::new(AskedForce { asked, force })));
+    let course = patient.run_problem(problem)?;
+    match course.failure {
+        Some(failure) => Err(Hindrance::Broke(failure)),
+        None => Ok(course),
+    }
+}
+
+/// Questions at places where particles are, and not at those from which they come.
+fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
+    let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
+    if asked.is_empty() {
+        return Some(SolverFinding::defect(
+            "force-not-asked",
+            "no value was asked for".to_owned(),
+            "the solver says `manufactured` and does not ask",
+            "`body_force` of the problem, which is \"asked\" here",
+        ));
+    }
+    let (low, high) = (scene.body.0[0], scene.body.1[0]);
+    let late = 0.5 * scene.steps as f64 * scene.dt;
+    let outside = asked.iter().filter(|(t, x)| *t > late && !(low..=high).contains(&x[0])).count();
+    let last = asked.iter().map(|(t, _)| *t).fold(0.0, f64::max);
+    (outside > 0).then(|| {
+        SolverFinding::defect(
+            "force-at-present-positions",
+            format!(
+                "{outside} of the places asked for after {} s are outside of the body as it was at the \
+                 start, which has moved on by {} m",
+                shown(late),
+                shown(VELOCITY[0] * last)
+            ),
+            "the force is asked for at the places where particles are now",
+            "the `reference_position` of the question: X of each particle, which does not change; \
+             without that key the harness takes those of the particles",
+        )
+    })
+}
+
+/// Forces of another size, or of other times.
+fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
+    let (last, dt) = (course.last(), course.problem.dt);
+    let end = course.times[last];
+    let gained = |k: usize| course.mean(velocity, k)[0] - VELOCITY[0];
+    let wanted = integral(end);
+    let steps = (gained(last) - wanted) / (0.5 * RATE * end * dt);
+    let is = |wanted: f64| (steps - wanted).abs() <= NEAR;
+    // Velocities of a leapfrog are half a step behind.
+    let behind = (gained(last) - integral(end - 0.5 * dt)).abs() <= 0.5 * NEAR * RATE * end * dt;
+    if is(-1.0) || is(0.0) || behind {
+        return None;
+    }
+    let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut at: Vec<f64> = asked.iter().map(|(t, _)| *t).collect();
+    at.sort_by(f64::total_cmp);
+    at.dedup();
+    let seen = format!(
+        "the body gains {} m/s of {}; times asked for are {} to {} s, {} of them in {last} steps",
+        shown(gained(last)),
+        shown(wanted),
+        shown(at[0]),
+        shown(at[at.len() - 1]),
+        at.len()
+    );
+    if is(1.0) {
+        return Some(SolverFinding::remark(
+            "force-of-the-end-of-the-step",
+            seen,
+            "each step takes the force of its end",
+            "an explicit step takes that of its start: the other one costs an order in time",
+        ));
+    }
+    if (gained(last) - FORCE * end).abs() <= 0.02 * wanted {
+        return Some(SolverFinding::defect(
+            "force-of-one-time",
+            seen,
+            "the force of the start acts all the time",
+            "ask in each step, with the time of that step: `from` of `advance` and steps of `dt` on",
+        ));
+    }
+    let (_, slope, _) = line(
+        &course.times[1..].iter().map(|t| integral(*t)).collect::<Vec<f64>>(),
+        &(1..=last).map(gained).collect::<Vec<f64>>(),
+    );
+    let (_, cause) = factor_cause(slope, course);
+    Some(SolverFinding::defect(
+        "force-scaled",
+        seen,
+        &format!("the force acts with a factor of about {}: {cause}", shown(slope)),
+        "where body forces enter: mass times the values of the answer, which are in m/s2; the times of \
+         the questions",
+    ))
+}
+
+/// A force that grows along X, of which each point has its own after one step.
+fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
+    let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
+    for (label, speed) in course.points(velocity, 1) {
+        x.push(label[0]);
+        v.push(speed[0]);
+        across = across.max(size(minus(speed, times(speed[0], [1.0, 0.0, 0.0]))));
+    }
+    let (_, found, _) = line(&x, &v);
+    let share = found / slope;
+    // Weights smooth a linear field at the rim, and APIC and PIC no more than that.
+    let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
+    if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
+        return None;
+    }
+    Some(SolverFinding::defect(
+        "force-of-other-points",
+        format!(
+            "velocities after a step grow along X by {} of the force times dt, and have up to {} m/s \
+             across it",
+            shown(share),
+            shown(across)
+        ),
+        "values of the answer come to other particles than those that they were asked for",
+        "the order of particles (sorted by cells?) and of components in `values`: point after point",
+    ))
+}

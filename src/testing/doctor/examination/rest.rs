@@ -1,0 +1,132 @@
+//! A body at rest, without stress and loads, which stays where it is.
+
+use crate::subject::Precision;
+use crate::testing::doctor::course::{
+    Course, displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
+};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::motion::single;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::{BoxScene, H};
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "rest",
+    expected: "a body at rest, without stress and loads, stays where it is",
+    after: &["conversation"],
+    examine,
+};
+
+/// Share of a mean by which points may differ from it and move as one.
+const AS_ONE: f64 = 0.02;
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let scene = patient.able(&[2, 3, 1], &|kind| {
+        let scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 4.0);
+        BoxScene { young: 3.0, steps: 20, dt: 0.01, ..scene }
+    })?;
+    let course = patient.run(&scene)?;
+    let last = course.last();
+    let way = course.farthest(displacement, last, [0.0; 3]) / H;
+    let speed = course.farthest(velocity, last, [0.0; 3]) / scene.wave_speed();
+    let measured = format!(
+        "after {last} steps points are {} cells away and have {} of the wave speed",
+        shown(way),
+        shown(speed)
+    );
+    let tolerance = patient.rounding();
+    let mut findings = Vec::new();
+    if !(way <= tolerance && speed <= tolerance) {
+        let claims_double = patient.solver.precision() == Precision::Double;
+        // Far less than a step of any real acceleration.
+        let is_noise = claims_double && way.max(speed) <= 1e-5;
+        findings.push(if is_noise { single(way, speed) } else { cause(&course) });
+    } else if let Some(failure) = &course.failure {
+        return Err(Hindrance::Broke(failure.clone()));
+    }
+    Ok(Examined::new(measured, findings))
+}
+
+fn cause(course: &Course) -> SolverFinding {
+    let (last, d) = (course.last(), course.problem.dimension);
+    let (u, v) = (course.mean(displacement, last), course.mean(velocity, last));
+    let spread = |field, mean| course.farthest(field, last, mean);
+    let reach = |field| course.farthest(field, last, [0.0; 3]);
+    let are_positions =
+        course.points(displacement, last).all(|(label, u)| size(minus(u, label)) <= 1e-3 * H);
+    if are_positions {
+        return SolverFinding::defect(
+            "positions-for-displacements",
+            format!("the column `displacement` has {} at a body at rest", shown_vector(u, d)),
+            "it has the positions of the particles",
+            "the answer to `advance`: displacement is position less `reference_position`",
+        );
+    }
+    let as_one = spread(displacement, u) <= AS_ONE * reach(displacement)
+        && spread(velocity, v) <= AS_ONE * reach(velocity);
+    if !as_one {
+        return apart(course);
+    }
+    let t = &course.times[1..];
+    let speeds: Vec<f64> = (1..=last).map(|k| dot(course.mean(velocity, k), v) / size(v)).collect();
+    let (_, slope, off) = line(t, &speeds);
+    if size(v) > 0.0 && off <= AS_ONE * size(v) && slope * course.times[last] >= 0.5 * size(v) {
+        let g = times(slope / size(v), v);
+        let seen = format!(
+            "the whole body has the velocity {} m/s after {} s: an acceleration of {} m/s2",
+            shown_vector(v, d),
+            shown(course.times[last]),
+            shown_vector(g, d)
+        );
+        return SolverFinding::defect(
+            "gravity-left-on",
+            seen,
+            "gravity or another uniform acceleration acts that the problem does not have",
+            "the solver's own default for gravity: `loads` of the problem is empty, and \
+             `body_force` is \"none\"",
+        );
+    }
+    if size(v) * course.times[last] >= 0.5 * size(u) {
+        let seen = format!("the whole body has the velocity {} m/s", shown_vector(v, d));
+        return SolverFinding::defect(
+            "velocity-of-its-own",
+            seen,
+            "the body starts with a velocity that it was not given",
+            "the initial velocity: `particles.velocity` of the problem is zero here",
+        );
+    }
+    SolverFinding::defect(
+        "displaced-from-the-start",
+        format!("the whole body is {} m from its place, and stays there", shown_vector(u, d)),
+        "displacements are counted from another place than `reference_position`, or particles are \
+         moved when the solver is set up",
+        "the origin of the grid, a shift of the solver's own box, the seeding of particles",
+    )
+}
+
+/// Points that do not move as one.
+fn apart(course: &Course) -> SolverFinding {
+    let (last, d) = (course.last(), course.problem.dimension);
+    let centre = {
+        let labels = course.points(displacement, last).map(|(label, _)| label);
+        let sum = labels.fold([0.0; 3], |sum, x| std::array::from_fn(|i| sum[i] + x[i]));
+        times(1.0 / course.states[last].len() as f64, sum)
+    };
+    let outward: f64 =
+        course.points(velocity, last).map(|(label, v)| dot(v, minus(label, centre))).sum();
+    let speed = course.farthest(velocity, last, [0.0; 3]);
+    let seen = format!(
+        "points have up to {} m/s, {} on the whole, and {} m/s in the mean",
+        shown(speed),
+        if outward > 0.0 { "outwards" } else { "inwards" },
+        shown_vector(course.mean(velocity, last), d)
+    );
+    SolverFinding::defect(
+        "stress-at-rest",
+        seen,
+        "particles start with a stress or a deformation that they were not given, or surface \
+         tension, friction or a wall acts",
+        "the initial F (one), stress (zero) and volume; a reference volume of h^D over the particles \
+         per cell where the problem has its own; a pressure that is not zero where det F is one",
+    )
+}

@@ -1,0 +1,68 @@
+//! The same problem in other units.
+
+use super::stress::spreading;
+use crate::subject::Precision;
+use crate::testing::doctor::course::{Course, displacement, shown};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "units",
+    expected: "a thousandth of each length, of each time, and 1e-12 of each mass change nothing but the \
+               units of the answer",
+    after: &["conversation", "rest", "translation", "stress"],
+    examine,
+};
+
+/// Powers of two, so that not even rounding changes.
+const THOUSANDTH: f64 = 1.0 / 1024.0;
+const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let scene = patient.able(&[2, 3, 1], &|kind| spreading(kind, 4.0))?;
+    let plain = patient.run(&scene)?;
+    if let Some(failure) = plain.failure {
+        return Err(Hindrance::Broke(failure));
+    }
+    let most = match patient.solver.precision() {
+        Precision::Double => 1e-6,
+        Precision::Single => 0.02,
+    };
+    let (mut measured, mut spoiled) = (Vec::new(), Vec::new());
+    for (what, length, time, mass) in [
+        ("lengths", THOUSANDTH, 1.0, 1.0),
+        ("times", 1.0, THOUSANDTH, 1.0),
+        ("masses", 1.0, 1.0, TINY),
+    ] {
+        let off = match patient.run(&scene.scaled(length, time, mass)) {
+            Ok(scaled) if scaled.failure.is_none() => difference(&plain, &scaled, length),
+            Ok(_) | Err(Hindrance::Broke(_)) => f64::INFINITY,
+            Err(lacks) => return Err(lacks),
+        };
+        measured.push(format!("{what}: {}", shown(off)));
+        if !(off <= most) {
+            spoiled.push(what);
+        }
+    }
+    let measured = format!("displacements change with small {}", measured.join(", "));
+    let finding = (!spoiled.is_empty()).then(|| {
+        let names = spoiled.join(" and ");
+        SolverFinding::defect(
+            "depends-on-units",
+            format!("with small {names} the same motion is another one"),
+            "a number with a unit is compiled in, such as a threshold on mass, length or time",
+            "comparisons with numbers like 1e-12 (nodes with little mass, cells, times), which belong \
+             over a mass, length or time of the problem; constants such as 9.81; output with few digits",
+        )
+    });
+    Ok(Examined::new(measured, finding.into_iter().collect()))
+}
+
+/// Largest difference of displacements at the end, in units of the largest.
+fn difference(plain: &Course, scaled: &Course, length: f64) -> f64 {
+    let last = plain.last();
+    let (a, b) = (&plain.states[last].displacement, &scaled.states[last].displacement);
+    let pairs = a.iter().zip(b).map(|(a, b)| (a - b / length).abs());
+    pairs.fold(0.0, f64::max) / plain.farthest(displacement, last, [0.0; 3])
+}

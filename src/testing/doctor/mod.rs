@@ -1,0 +1,111 @@
+//! A solver put to small problems of which each shows one kind of mistake, and what is wrong with
+//! it in the words that its author needs (docs/doctor.md).
+//!
+//! ```text
+//! finding       findings and reports
+//! scene         small scenes, handed over as suites are
+//! patient       what a solver can be given, and how it takes its steps
+//! question      one question to a solver
+//! course        runs as they were seen, and figures of them
+//! motion/       a body that should move on, and why it does not
+//! examination/  one file for each question, the plainest first
+//! page          the report as text
+//! ```
+
+mod course;
+mod examination;
+mod finding;
+mod motion;
+mod page;
+mod patient;
+mod question;
+mod scene;
+
+pub use finding::{
+    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
+};
+pub use page::page;
+
+use crate::external::SolverFactory;
+use examination::ALL;
+use patient::{Hindrance, Patient};
+use question::Examination;
+
+/// Examines a solver, the plainest question first. One that says nothing as long as another has
+/// defects is left out then. `progress` is called with the name of each.
+pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorReport {
+    let mut report = DoctorReport {
+        solver: solver.name().to_owned(),
+        settings: solver.settings(),
+        silent: None,
+        examinations: Vec::new(),
+    };
+    let patient = Patient { solver };
+    for examination in ALL {
+        progress(examination.name);
+        let result = match ground(examination, &report) {
+            Some(after) => ExaminationResult::LeftOut { after },
+            None => examined(examination, &patient),
+        };
+        let Examination { name, expected, .. } = *examination;
+        report.examinations.push(ExaminationReport { examination: name, expected, result });
+        report.silent = silent(&report.examinations[0].result);
+        if report.silent.is_some() {
+            break;
+        }
+    }
+    report
+}
+
+/// Why nothing can be examined, by the first examination.
+fn silent(first: &ExaminationResult) -> Option<String> {
+    match first {
+        ExaminationResult::Examined { findings, .. } => {
+            let broke = findings.iter().find(|finding| finding.name == BROKE);
+            broke.map(|finding| finding.seen.clone())
+        }
+        ExaminationResult::NotApplicable { lacks } => Some(format!("it lacks {lacks}")),
+        ExaminationResult::LeftOut { .. } => None,
+    }
+}
+
+/// Name of the finding that a solver does not get through an examination.
+const BROKE: &str = "does-not-get-through";
+
+fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {
+    match (examination.examine)(patient) {
+        Ok(examined) => {
+            let (measured, findings) = (examined.measured, examined.findings);
+            ExaminationResult::Examined { measured, findings }
+        }
+        Err(Hindrance::Lacks(lacks)) => ExaminationResult::NotApplicable { lacks },
+        Err(Hindrance::Broke(seen)) => ExaminationResult::Examined {
+            measured: "nothing".to_owned(),
+            findings: vec![broke(seen)],
+        },
+    }
+}
+
+fn broke(seen: String) -> SolverFinding {
+    SolverFinding::defect(
+        BROKE,
+        seen,
+        "the solver ended, failed or broke the protocol amid the run",
+        "its standard error, and the table of docs/protocol.md of what is held against a solver",
+    )
+}
+
+/// The first examination with defects that this one builds upon.
+fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
+    let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
+    let has_defect = |made: &&ExaminationReport| {
+        let findings = made.result.findings();
+        let is_left_out = matches!(made.result, ExaminationResult::LeftOut { .. });
+        is_left_out || findings.iter().any(|finding| finding.weight == FindingWeight::Defect)
+    };
+    let found = report.examinations.iter().filter(is_ground).find(has_defect)?;
+    Some(match found.result {
+        ExaminationResult::LeftOut { after } => after,
+        _ => found.examination,
+    })
+}

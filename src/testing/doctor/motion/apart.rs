@@ -1,0 +1,171 @@
+//! A body without stress whose parts do not move alike.
+
+use super::seen::UniformMotion;
+use crate::testing::doctor::course::{
+    displacement, dot, minus, shown, shown_vector, size, times, velocity,
+};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::Hindrance;
+use crate::testing::doctor::scene::{BoxScene, SOFT};
+
+/// Distance from the rim (cells) up to which functions see nodes beyond it.
+const RIM: f64 = 1.6;
+
+/// Causes that show themselves whatever the size of the error: limits, and cells.
+pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
+    limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
+}
+
+/// The cause of what is more than rounding.
+pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
+    let soft = BoxScene { young: SOFT * motion.scene.young, ..motion.scene.clone() };
+    let course = motion.patient.run(&soft)?;
+    let is_whole = course.failure.is_none();
+    let again = UniformMotion { course, ..*motion };
+    let (way, speed) = again.off();
+    let (_, stiff) = motion.off();
+    let share = first_share(motion);
+    if is_whole && way.max(speed) <= 1e-3 * stiff.max(motion.patient.rounding()) {
+        return Ok(SolverFinding::defect(
+            "gradients-do-not-sum-to-zero",
+            format!(
+                "velocities are off by {} of the speed, and by {} without stiffness",
+                shown(stiff),
+                shown(speed)
+            ),
+            "a uniform velocity has a gradient at particles: it strains the body, and stress parts it",
+            "the sum of all gradients of a particle, which must be zero: are all nodes visited at \
+             which its functions do not vanish, and are slopes those of the weights, divided by h",
+        ));
+    }
+    Ok(weights(motion, share))
+}
+
+/// Smallest and largest way of a point in the first step, over that of the velocity.
+fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
+    let v = motion.velocity;
+    let scale = dot(v, v) * motion.course.times[1];
+    let shares = motion.course.points(displacement, 1).map(|(_, u)| dot(u, v) / scale);
+    shares.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
+}
+
+fn weights(motion: &UniformMotion<'_>, (low, high): (f64, f64)) -> SolverFinding {
+    let (way, speed) = motion.off();
+    SolverFinding::defect(
+        "weights-do-not-sum-to-one",
+        format!(
+            "in the first step points go {} to {} of v dt, by their places in the cells; at the end x \
+             is off by {} of the way and v by {} of the speed, also without stiffness",
+            shown(low),
+            shown(high),
+            shown(way),
+            shown(speed)
+        ),
+        "the weights of a particle do not sum to one, or not by the same sums to the grid and back",
+        "the sum of all weights of a particle at some places in a cell: which nodes are visited, the \
+         formula of the functions, and whether momentum and mass at a node have the same weights",
+    )
+}
+
+/// An end of the body that goes no further.
+fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
+    let (course, v) = (&motion.course, motion.velocity);
+    let (last, d) = (course.last(), course.problem.dimension);
+    let step = course.times[1];
+    (0..d).filter(|i| v[*i] != 0.0 && last > 5).find_map(|i| {
+        // Largest place along the motion, counted along it.
+        let end = |k: usize| {
+            let places = course.points(displacement, k).map(|(label, u)| label[i] + u[i]);
+            places.map(|x| x * v[i].signum()).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let (now, short) = (end(last), end(0) + v[i].abs() * course.times[last] - end(last));
+        let stands = (now - end(last - 5)).abs() <= 1e-3 * (v[i] * step).abs();
+        let moves = (end(1) - end(0)).abs() >= 0.5 * (v[i] * step).abs();
+        if !(stands && moves && short > (v[i] * step).abs()) {
+            return None;
+        }
+        let (axis, place) = (["x", "y", "z"][i], shown(now * v[i].signum()));
+        Some(SolverFinding::defect(
+            "position-limited",
+            format!("the body moves up to {axis} = {place} m, and no point gets beyond"),
+            "positions are held within a box of the solver's own",
+            "clamps on positions or cells, walls of a unit cube; the grid of the problem begins at \
+             `grid.origin` and has room for the motion",
+        ))
+    })
+}
+
+/// An error that comes with the first change of a cell.
+fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
+    let course = &motion.course;
+    let (h, origin) = (motion.scene.h, &course.problem.grid.origin);
+    let cell = |x: [f64; 3]| -> Vec<i64> {
+        origin.iter().enumerate().map(|(i, low)| libm::floor((x[i] - low) / h) as i64).collect()
+    };
+    let labels: Vec<[f64; 3]> = course.points(displacement, 0).map(|(label, _)| label).collect();
+    let crosses = |k: &usize| {
+        let way = times(course.times[*k], motion.velocity);
+        labels.iter().any(|x| cell(*x) != cell(std::array::from_fn(|i| x[i] + way[i])))
+    };
+    let first = (1..=course.last()).find(crosses)?;
+    let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
+    let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
+    // Two steps that were right tell that it is not the steps as such.
+    if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
+        return None;
+    }
+    let v_before = course.farthest(velocity, first - 1, motion.velocity) / size(motion.velocity);
+    if v_before > motion.patient.rounding() {
+        return None;
+    }
+    Some(SolverFinding::defect(
+        "wrong-after-a-cell-crossing",
+        format!(
+            "x is right up to step {} and off by {} of the way at the end; in step {first} the first \
+             particle changes its cell",
+            first - 1,
+            shown(at)
+        ),
+        "a particle that has changed its cell is still seen from its old one, or in part",
+        "cells, nodes and weights of a particle that are kept from the start or an earlier step",
+    ))
+}
+
+/// An error that begins at the rim alone.
+fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
+    let (course, v) = (&motion.course, motion.velocity);
+    let whole = size(v) * course.times[course.last()];
+    let first = (1..=course.last()).find(|k| motion.way_off(*k) > 1e-6 * whole)?;
+    let wanted = times(course.times[first], v);
+    let (low, high) = &motion.scene.body;
+    let d = course.problem.dimension;
+    let depth = |x: [f64; 3]| {
+        let all = (0..d).map(|i| (x[i] - low[i]).min(high[i] - x[i]));
+        all.fold(f64::INFINITY, f64::min) / motion.scene.h
+    };
+    let (mut rim, mut inside, mut any_inside) = (0.0_f64, 0.0_f64, false);
+    for (label, u) in course.points(displacement, first) {
+        let off = size(minus(u, wanted)) / (size(v) * course.times[1]);
+        if depth(label) > RIM {
+            (inside, any_inside) = (inside.max(off), true);
+        } else {
+            rim = rim.max(off);
+        }
+    }
+    if !(any_inside && inside <= motion.patient.rounding() && rim > 1e3 * inside.max(1e-12)) {
+        return None;
+    }
+    Some(SolverFinding::defect(
+        "light-nodes-left-out",
+        format!(
+            "in step {first} points at the rim are off by {} of v dt, and none further than {RIM} \
+             cells inside; the mean velocity ends at {} m/s of {}",
+            shown(rim),
+            shown_vector(course.mean(velocity, course.last()), d),
+            shown_vector(v, d)
+        ),
+        "nodes with little mass are left out, and their momentum is lost",
+        "a threshold on the mass of nodes, below which they get no velocity: it must be zero, or far \
+         below the mass of a particle times the smallest weight",
+    ))
+}

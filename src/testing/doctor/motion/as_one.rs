@@ -1,0 +1,188 @@
+//! A body that keeps its shape and does not move as it should.
+
+use super::seen::UniformMotion;
+use crate::testing::doctor::course::{
+    displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
+};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::Hindrance;
+use crate::testing::doctor::scene::BoxScene;
+
+/// Share by which a figure may be off the pattern that explains it.
+const NEAR: f64 = 0.02;
+
+/// The cause, if the motion follows one of the patterns.
+pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
+    let course = &motion.course;
+    let last = course.last();
+    let end = course.times[last];
+    let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
+    if let Some(found) = turned(motion, "velocity", v) {
+        return Ok(Some(found));
+    }
+    if let Some(found) = turned(motion, "displacement", times(1.0 / end, u)) {
+        return Ok(Some(found));
+    }
+    let (_, speed) = motion.off();
+    if speed <= motion.patient.rounding() { Ok(way(motion)) } else { of_speed(motion) }
+}
+
+/// A vector whose components are those wanted, in another order or with other signs.
+fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<SolverFinding> {
+    let d = motion.course.problem.dimension;
+    let wanted = motion.velocity;
+    let is_same = |a: f64, b: f64| (a - b).abs() <= NEAR * size(wanted);
+    let is_one = |i: usize| (0..d).any(|j| is_same(seen[i].abs(), wanted[j].abs()));
+    let off = size(minus(seen, wanted)) > 0.1 * size(wanted);
+    if !(off && (0..d).all(is_one) && is_same(size(seen), size(wanted))) {
+        return None;
+    }
+    let (seen, wanted) = (shown_vector(seen, d), shown_vector(wanted, d));
+    Some(SolverFinding::defect(
+        "axes-exchanged",
+        format!("`{column}` goes along {seen} where {wanted} was expected"),
+        "axes are exchanged, or have another sign",
+        "the order of components in columns (point after point: x y, x y) and of axes in the solver; \
+         which axis it calls upward",
+    ))
+}
+
+/// Velocities that are not kept.
+fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
+    let shares = shares(motion);
+    let last = shares[shares.len() - 1];
+    let t = &motion.course.times[1..];
+    let error = (last - 1.0).abs().max((shares[0] - 1.0).abs());
+    let (_, _, off) = line(t, &shares);
+    let spread = shares.iter().map(|a| (a - last).abs()).fold(0.0, f64::max);
+    if spread <= NEAR * error {
+        return Ok(Some(SolverFinding::defect(
+            "velocity-scaled",
+            format!("velocities are {} of what was given, from the first step on", shown(last)),
+            units(last),
+            "units at the border of the solver: lengths in m, times in s",
+        )));
+    }
+    if shares.iter().any(|a| !(*a > 0.0)) {
+        return Ok(None);
+    }
+    let logs: Vec<f64> = shares.iter().map(|a| libm::log(*a)).collect();
+    let (_, rate, log_off) = line(t, &logs);
+    if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
+        return Ok(None);
+    }
+    // The same with half the step: a rate stays, a loss in each step doubles.
+    let scene = motion.scene;
+    let halved = BoxScene { dt: 0.5 * scene.dt, steps: 2 * scene.steps, ..scene.clone() };
+    let course = motion.patient.run(&halved)?;
+    let again = UniformMotion { course, ..*motion };
+    let logs = shares_of(&again).into_iter().map(libm::log).collect::<Vec<f64>>();
+    let (_, halved, _) = line(&again.course.times[1..], &logs);
+    let per_step = 1.0 - libm::exp(rate * scene.dt);
+    let verb = if rate < 0.0 { "lost" } else { "gained" };
+    Ok(Some(if (halved / rate - 1.0).abs() <= 0.25 {
+        SolverFinding::defect(
+            "drag",
+            format!("speed is {verb} at a rate of {} per second, at any time step", shown(-rate)),
+            "drag or damping in proportion to the velocity acts that the problem does not have",
+            "the solver's own defaults: air drag, damping of mass (Rayleigh's alpha), a viscous medium",
+        )
+    } else {
+        SolverFinding::defect(
+            "speed-lost-each-step",
+            format!(
+                "a share of {} of the speed is {verb} in each step, whatever its length ({} and {} \
+                 per second with half of it)",
+                shown(per_step.abs()),
+                shown(-rate),
+                shown(-halved)
+            ),
+            "weights sum to the same number at every place, which is not one; or velocities are \
+             multiplied in each step",
+            "the sum of all weights of a particle, which must be 1 to rounding; a damping factor for \
+             grid velocities",
+        )
+    }))
+}
+
+/// Shares of the speed along the motion that are left at each time.
+fn shares(motion: &UniformMotion<'_>) -> Vec<f64> {
+    shares_of(motion)
+}
+
+fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
+    let v = motion.velocity;
+    let mean = |k| motion.course.mean(velocity, k);
+    (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
+}
+
+/// Displacements that do not follow velocities, which are right.
+fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
+    let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
+    let t = &course.times[1..];
+    let mean = |k| course.mean(displacement, k);
+    let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
+    let (ahead, slope, off) = line(t, &ways);
+    if off > NEAR * dt {
+        return None;
+    }
+    if (slope - 1.0).abs() <= 1e-6 {
+        let steps = ahead / dt;
+        let (amount, name) = match steps.abs() {
+            a if (a - 0.5).abs() <= NEAR => ("half a step", "start-half-a-step-off"),
+            a if (a - 1.0).abs() <= NEAR => ("a step", "start-a-step-off"),
+            _ => ("a constant time", "displaced-in-motion"),
+        };
+        let side = if steps > 0.0 { "ahead" } else { "behind" };
+        return Some(SolverFinding::defect(
+            name,
+            format!("x is v times {} s {side} at all times: {amount}", shown(ahead.abs())),
+            "positions belong to another time than t = 0 and those after each step",
+            "whether positions are moved before the first step or reported half a step on; the number \
+             of steps that `advance` takes",
+        ));
+    }
+    if (0.5..1.5).contains(&slope) {
+        return Some(SolverFinding::defect(
+            "weights-do-not-sum-to-one",
+            format!("displacements are {} of velocity times time, everywhere", shown(slope)),
+            "velocities come from the grid with weights that sum to that number",
+            "the sum of all weights of a particle, which must be 1 to rounding",
+        ));
+    }
+    Some(SolverFinding::defect(
+        "displacement-scaled",
+        format!("displacements are {} of velocity times time", shown(slope)),
+        units(slope),
+        "the units in which positions come back, and the step by which they are moved",
+    ))
+}
+
+/// The likely cause of a factor.
+fn units(factor: f64) -> &'static str {
+    let log = libm::log10(factor.abs());
+    if (log - libm::round(log)).abs() <= 1e-3 && libm::round(log) != 0.0 {
+        "a unit is another one: the factor is a power of ten"
+    } else {
+        "one of them is multiplied by a number: a length or a time unit of the solver's own"
+    }
+}
+
+/// No pattern fits.
+pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
+    let (course, d) = (&motion.course, motion.course.problem.dimension);
+    let last = course.last();
+    SolverFinding::defect(
+        "motion-not-kept",
+        format!(
+            "the body as a whole has the velocity {} m/s at the end and went {} m, where {} m/s and \
+             {} m were expected",
+            shown_vector(course.mean(velocity, last), d),
+            shown_vector(course.mean(displacement, last), d),
+            shown_vector(motion.velocity, d),
+            shown_vector(times(course.times[last], motion.velocity), d)
+        ),
+        "a force acts that the problem does not have, or the motion meets a limit",
+        "loads and walls that the solver adds by itself",
+    )
+}

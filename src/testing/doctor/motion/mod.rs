@@ -1,0 +1,74 @@
+//! A body that should move on at constant speed, and why it does not.
+//!
+//! ```text
+//! as_one   the body keeps its shape: drag, units, times
+//! apart    it does not: weights, gradients, cells, limits
+//! seen     errors of the motion
+//! ```
+
+mod apart;
+mod as_one;
+mod seen;
+
+use super::course::shown;
+use super::finding::SolverFinding;
+use super::patient::{Examined, Hindrance, Patient};
+use super::scene::BoxScene;
+use crate::subject::Precision;
+use seen::UniformMotion;
+
+/// Largest error of a motion whose cause may be rounding to 24 bits.
+const SINGLE: f64 = 1e-4;
+
+/// Examines whether `scene` moves on with `velocity` (m/s), which is the initial one everywhere.
+pub(super) fn uniform(
+    patient: &Patient<'_>,
+    scene: &BoxScene,
+    velocity: [f64; 3],
+) -> Result<Examined, Hindrance> {
+    let course = patient.run(scene)?;
+    let motion = UniformMotion { patient, scene, course, velocity };
+    let (way, speed) = motion.off();
+    let measured = format!(
+        "in {} steps x is off by {} of the way, v by {} of the speed",
+        motion.course.last(),
+        shown(way),
+        shown(speed)
+    );
+    let mut findings = Vec::new();
+    if !(way <= patient.rounding() && speed <= patient.rounding()) {
+        findings.push(cause(&motion)?);
+    } else if let Some(failure) = &motion.course.failure {
+        return Err(Hindrance::Broke(failure.clone()));
+    }
+    Ok(Examined::new(measured, findings))
+}
+
+fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
+    let (way, speed) = motion.off();
+    let claims_double = motion.patient.solver.precision() == Precision::Double;
+    let as_one = motion.errs_as_one();
+    let found = if as_one { as_one::cause(motion)? } else { apart::plain(motion) };
+    if let Some(found) = found {
+        return Ok(found);
+    }
+    if claims_double && way <= SINGLE && speed <= SINGLE {
+        return Ok(single(way, speed));
+    }
+    if as_one { Ok(as_one::unknown(motion)) } else { apart::cause(motion) }
+}
+
+/// The finding that noise is more than doubles leave.
+pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
+    SolverFinding::defect(
+        "single-precision",
+        format!(
+            "noise of {} of the way and {} of the speed, where doubles leave 1e-13",
+            shown(way),
+            shown(speed)
+        ),
+        "numbers pass through single precision somewhere, and `precision` says double",
+        "`float` or `f32` in the arrays or the adapter, a file or message with seven digits; a solver \
+         that computes in single precision says `\"precision\": \"single\"`",
+    )
+}

@@ -1,0 +1,347 @@
+//! A small MPM in the plane, with a defect: linear functions, FLIP, USL.
+
+use super::defect::{Defect, Defect::*};
+use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+type Vector = [f64; 2];
+
+/// The maker of clients with a defect.
+pub(super) struct Clinic {
+    pub(super) defect: Defect,
+    runs: AtomicU32,
+}
+
+impl Clinic {
+    pub(super) fn new(defect: Defect) -> Self {
+        Self { defect, runs: AtomicU32::new(0) }
+    }
+}
+
+impl SolverFactory for Clinic {
+    fn name(&self) -> &'static str {
+        "client"
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        let conditions = ["free", "fixed", "roller", "periodic"];
+        let able = Capabilities {
+            manufactured: true,
+            ..Capabilities::of(&[2], &["linear_elastic"], &conditions, &["gravity"])
+        };
+        able.lacking(needs)
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+        let run = self.runs.fetch_add(1, Ordering::Relaxed);
+        Ok(Box::new(Client::new(problem, self.defect, run)))
+    }
+}
+
+struct Client {
+    defect: Defect,
+    problem: LevelProblem,
+    x: Vec<Vector>,
+    v: Vec<Vector>,
+    f: Vec<[f64; 4]>,
+    sigma: Vec<[f64; 4]>,
+    steps: u64,
+    /// Number of the run among those of the maker.
+    run: u32,
+}
+
+fn vectors(column: &[f64]) -> Vec<Vector> {
+    column.chunks_exact(2).map(|v| [v[0], v[1]]).collect()
+}
+
+impl Client {
+    fn new(problem: LevelProblem, defect: Defect, run: u32) -> Self {
+        let (x, v) = (vectors(&problem.particles.position), vectors(&problem.particles.velocity));
+        let n = x.len();
+        let stress = if defect == StressAtStart { 0.01 } else { 0.0 };
+        let mut client = Self {
+            defect,
+            x,
+            v,
+            f: vec![[1.0, 0.0, 0.0, 1.0]; n],
+            sigma: vec![[stress, 0.0, 0.0, stress]; n],
+            steps: 0,
+            run,
+            problem,
+        };
+        if defect == PositionsHalfAStepOn {
+            for (x, v) in client.x.iter_mut().zip(&client.v) {
+                *x = [0, 1].map(|i| x[i] + 0.5 * client.problem.dt * v[i]);
+            }
+        }
+        client
+    }
+
+    /// The cell of a place.
+    fn cell(&self, x: Vector) -> [isize; 2] {
+        let grid = &self.problem.grid;
+        [0, 1].map(|i| ((x[i] - grid.origin[i]) / grid.h).floor() as isize)
+    }
+
+    /// Nodes around a particle, with weights and gradients.
+    fn weights(&self, p: usize) -> Vec<(usize, f64, Vector)> {
+        let grid = &self.problem.grid;
+        let cell = self.cell(self.x[p]);
+        let s = [0, 1].map(|i| (self.x[p][i] - grid.origin[i]) / grid.h - cell[i] as f64);
+        if self.defect == NoCellOnFaces && s.contains(&0.0) {
+            return Vec::new();
+        }
+        let value = |i: usize, high: usize| match (high, self.defect) {
+            (0, _) => 1.0 - s[i],
+            (_, WeightsOfTheirOwn) => s[i] * s[i],
+            (_, LowWeights) => 0.999 - 1.0 + s[i],
+            _ => s[i],
+        };
+        let slope = |high: usize| match (high, self.defect) {
+            (0, GradientsOfTheirOwn) => -0.9 / grid.h,
+            (0, _) => -1.0 / grid.h,
+            _ => 1.0 / grid.h,
+        };
+        let width = self.nodes()[0];
+        let corner = |corner: usize| {
+            let high = [corner % 2, corner / 2];
+            let at = [0, 1].map(|i| {
+                let node = cell[i] + high[i] as isize;
+                let count = grid.cells[i] as isize;
+                (if grid.periodic[i] { node.rem_euclid(count) } else { node }) as usize
+            });
+            let gradient = [slope(high[0]) * value(1, high[1]), value(0, high[0]) * slope(high[1])];
+            (at[0] + width * at[1], value(0, high[0]) * value(1, high[1]), gradient)
+        };
+        (0..4).map(corner).collect()
+    }
+
+    fn nodes(&self) -> [usize; 2] {
+        [0, 1].map(|i| self.problem.grid.cells[i] as usize + 2)
+    }
+
+    fn body_force(&self, p: usize, t: f64) -> Vector {
+        let defect = self.defect;
+        let mut force = [0.0; 2];
+        if let Some(field) = &self.problem.body_force {
+            let label = &self.problem.particles.reference_position[2 * p..2 * p + 2];
+            let at = if defect == ForceAtPresentPositions { &self.x[p] } else { label };
+            let t = match defect {
+                ForceOfTheStart => 0.0,
+                ForceOfTheEnd => t + self.problem.dt,
+                _ => t,
+            };
+            let place = if defect == ForceOfOtherPoints {
+                let q = 7 * p % self.x.len();
+                &self.problem.particles.reference_position[2 * q..2 * q + 2]
+            } else {
+                at
+            };
+            let value = field.at(0, place, t);
+            force = [value[0], value[1]];
+        }
+        force = match defect {
+            GravityTwice => force.map(|g| 2.0 * g),
+            GravityUpwards => force.map(|g| -g),
+            GravityIgnored => [0.0; 2],
+            GravityTimesDensity => force.map(|g| g * self.problem.materials[0].density),
+            _ => force,
+        };
+        if defect == GravityLeftOn {
+            force[1] -= 9.81;
+        }
+        force
+    }
+
+    /// Volume and stress after a velocity gradient has acted.
+    fn strain(&mut self, p: usize, l: [f64; 4], dt: f64) {
+        let material = &self.problem.materials[0];
+        let (e, nu) = (material.parameter("young"), material.parameter("poisson"));
+        let mut lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        let mut mu = e / (2.0 * (1.0 + nu));
+        match self.defect {
+            PlaneStress => lambda = 2.0 * lambda * mu / (lambda + 2.0 * mu),
+            LameExchanged => (lambda, mu) = (mu, lambda),
+            BulkForLambda => lambda += 2.0 * mu / 3.0,
+            MuTwice => mu *= 2.0,
+            NoVolumeTerm => lambda = 0.0,
+            _ => {}
+        }
+        let shear = match self.defect {
+            EngineeringShear => l[1] + l[2],
+            OneSidedShear => 0.5 * l[1],
+            _ => 0.5 * (l[1] + l[2]),
+        };
+        let trace = l[0] + l[3];
+        let rates = [
+            lambda * trace + 2.0 * mu * l[0],
+            2.0 * mu * shear,
+            2.0 * mu * if self.defect == OneSidedShear { 0.5 * l[2] } else { shear },
+            lambda * trace + 2.0 * mu * l[3],
+        ];
+        for k in 0..4 {
+            self.sigma[p][k] += dt * rates[k];
+        }
+        let f = self.f[p];
+        for i in 0..2 {
+            for j in 0..2 {
+                self.f[p][2 * i + j] += dt * (l[2 * i] * f[j] + l[2 * i + 1] * f[2 + j]);
+            }
+        }
+    }
+
+    fn hold(&self, node: usize, v: &mut Vector) {
+        let grid = &self.problem.grid;
+        let width = self.nodes()[0];
+        let at = [node % width, node / width];
+        for face in &self.problem.faces {
+            let wall = libm::round((face.at - grid.origin[face.axis]) / grid.h) as usize;
+            let is_there = if face.high { at[face.axis] >= wall } else { at[face.axis] <= wall };
+            let holds = ["fixed", "roller"].contains(&face.condition);
+            if !is_there || !holds || self.defect == NoWalls {
+                continue;
+            }
+            if self.defect == WallsLetGo && (v[face.axis] > 0.0) != face.high {
+                continue;
+            }
+            if face.condition == "fixed" || self.defect == StickyRollers {
+                *v = [0.0; 2];
+            } else {
+                v[face.axis] = 0.0;
+            }
+        }
+    }
+}
+
+impl Subject for Client {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        let defect = self.defect;
+        let dt = if defect == OwnStep { 0.01 } else { dt };
+        let t = self.steps as f64 * dt;
+        let [width, height] = self.nodes();
+        let particles = &self.problem.particles;
+        let (masses, volumes) = (particles.mass.clone(), particles.volume.clone());
+        let mut mass = vec![0.0; width * height];
+        let mut momentum = vec![[0.0; 2]; width * height];
+        let mut force = vec![[0.0; 2]; width * height];
+        let all: Vec<_> = (0..self.x.len()).map(|p| self.weights(p)).collect();
+        for (p, weights) in all.iter().enumerate() {
+            let body = self.body_force(p, t);
+            let sigma = self.sigma[p];
+            let volume = volumes[p]
+                * match defect {
+                    WholeCells => 4.0,
+                    PushingStress => -1.0,
+                    NoStress => 0.0,
+                    _ => 1.0,
+                };
+            let m = if defect == NoDensity { volumes[p] } else { masses[p] };
+            for (node, weight, gradient) in weights {
+                mass[*node] += weight * m;
+                for i in 0..2 {
+                    momentum[*node][i] += weight * m * self.v[p][i];
+                    let pull = sigma[2 * i] * gradient[0] + sigma[2 * i + 1] * gradient[1];
+                    force[*node][i] += weight * m * body[i] - volume * pull;
+                }
+            }
+        }
+        let lightest = match defect {
+            LightNodesLeftOut => 0.3 * masses[0],
+            AbsoluteThreshold => 1e-12,
+            _ => 0.0,
+        };
+        let (mut acceleration, mut velocity) = (force, momentum);
+        for node in 0..width * height {
+            if mass[node] > lightest {
+                let before = velocity[node].map(|p| p / mass[node]);
+                let mut after = [0, 1].map(|i| before[i] + dt * acceleration[node][i] / mass[node]);
+                let mut held = before;
+                self.hold(node, &mut after);
+                self.hold(node, &mut held);
+                acceleration[node] = [0, 1].map(|i| (after[i] - before[i]) / dt);
+                velocity[node] = if defect == ForwardEuler { held } else { after };
+            } else {
+                (acceleration[node], velocity[node]) = ([0.0; 2], [0.0; 2]);
+            }
+        }
+        for (p, weights) in all.iter().enumerate() {
+            let (mut l, mut v, mut change) = ([0.0; 4], [0.0; 2], [0.0; 2]);
+            for (node, weight, gradient) in weights {
+                for i in 0..2 {
+                    v[i] += weight * velocity[*node][i];
+                    change[i] += dt * weight * acceleration[*node][i];
+                    for j in 0..2 {
+                        l[2 * i + j] += velocity[*node][i] * gradient[j];
+                    }
+                }
+            }
+            // That of a first step half a step back, or of one half a step on.
+            let first = match defect {
+                Leapfrog if self.steps == 0 => 0.5,
+                VelocityAhead if self.steps == 0 => 1.5,
+                _ => 1.0,
+            };
+            let cell = self.cell(self.x[p]);
+            for i in 0..2 {
+                self.v[p][i] += first * change[i];
+                match defect {
+                    Leapfrog => v[i] = if self.steps == 0 { self.v[p][i] } else { v[i] },
+                    Pic => self.v[p][i] = v[i],
+                    Drag => self.v[p][i] *= 1.0 - 0.5 * dt,
+                    LossPerStep => self.v[p][i] *= 0.999,
+                    _ => {}
+                }
+                self.x[p][i] += dt * v[i];
+                if defect == UnitCube {
+                    self.x[p][i] = self.x[p][i].min(1.0);
+                }
+                if defect == SinglePrecision {
+                    self.x[p][i] = f64::from(self.x[p][i] as f32);
+                    self.v[p][i] = f64::from(self.v[p][i] as f32);
+                }
+            }
+            if defect == LossAtCrossings && self.cell(self.x[p]) != cell {
+                self.v[p] = self.v[p].map(|v| 0.99 * v);
+            }
+            self.strain(p, l, dt);
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        let particles = &self.problem.particles;
+        let grid = &self.problem.grid;
+        samples.restart(2);
+        for (p, label) in vectors(&particles.reference_position).iter().enumerate() {
+            let mut u = [0, 1].map(|i| self.x[p][i] - label[i]);
+            let mut v = self.v[p];
+            match self.defect {
+                Positions => u = self.x[p],
+                Millimetres => u = u.map(|u| 1000.0 * u),
+                Exchanged => {
+                    u.swap(0, 1);
+                    v.swap(0, 1);
+                }
+                Wrapped if grid.periodic[0] => {
+                    let period = grid.h * grid.cells[0] as f64;
+                    let x = (self.x[p][0] - grid.origin[0]).rem_euclid(period) + grid.origin[0];
+                    u[0] = x - label[0];
+                }
+                Random => u[0] += 1e-3 * f64::from(self.run) * u[0],
+                _ => {}
+            }
+            samples.push(label, &u, &v, particles.reference_volume[p]);
+        }
+        let sign = if self.defect == PressurePositive { -1.0 } else { 1.0 };
+        samples.stress = self.sigma.iter().flatten().map(|s| sign * s).collect();
+        let turned =
+            |f: &[f64; 4]| if self.defect == Transposed { [f[0], f[2], f[1], f[3]] } else { *f };
+        samples.deformation_gradient = self.f.iter().flat_map(turned).collect();
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters::new(self.steps)
+    }
+}

@@ -1,0 +1,90 @@
+//! The doctor: each defect of a small client is named, and nothing else is.
+
+mod client;
+mod defect;
+#[cfg(unix)]
+mod program;
+
+use client::Clinic;
+use defect::Defect;
+use mpm_verify::testing::{FindingWeight, doctor, page};
+use rstest::rstest;
+
+/// Defects that are found, and all remarks.
+fn found(defect: Defect) -> (Vec<&'static str>, Vec<&'static str>, String) {
+    let report = doctor(&Clinic::new(defect), &|_| ());
+    let of = |weight: FindingWeight| {
+        let all = report.findings().filter(|finding| finding.weight == weight);
+        all.map(|finding| finding.name).collect()
+    };
+    (of(FindingWeight::Defect), of(FindingWeight::Remark), page(&report))
+}
+
+#[rstest]
+#[case(Defect::GravityLeftOn, "gravity-left-on")]
+#[case(Defect::StressAtStart, "stress-at-rest")]
+#[case(Defect::Positions, "positions-for-displacements")]
+#[case(Defect::Millimetres, "displacement-scaled")]
+#[case(Defect::Exchanged, "axes-exchanged")]
+#[case(Defect::Random, "another-way-each-time")]
+#[case(Defect::OwnStep, "own-step")]
+#[case(Defect::Drag, "drag")]
+#[case(Defect::LossPerStep, "speed-lost-each-step")]
+#[case(Defect::SinglePrecision, "single-precision")]
+#[case(Defect::PositionsHalfAStepOn, "start-half-a-step-off")]
+#[case(Defect::WeightsOfTheirOwn, "weights-do-not-sum-to-one")]
+#[case(Defect::LowWeights, "weights-do-not-sum-to-one")]
+#[case(Defect::GradientsOfTheirOwn, "gradients-do-not-sum-to-zero")]
+#[case(Defect::LossAtCrossings, "wrong-after-a-cell-crossing")]
+#[case(Defect::LightNodesLeftOut, "light-nodes-left-out")]
+#[case(Defect::UnitCube, "position-limited")]
+#[case(Defect::NoCellOnFaces, "particles-on-faces")]
+#[case(Defect::Wrapped, "displacements-wrapped")]
+#[case(Defect::GravityTwice, "gravity-scaled")]
+#[case(Defect::GravityUpwards, "gravity-upwards")]
+#[case(Defect::GravityIgnored, "gravity-missing")]
+#[case(Defect::GravityTimesDensity, "gravity-scaled")]
+#[case(Defect::VelocityAhead, "velocity-of-another-time")]
+#[case(Defect::ForwardEuler, "positions-before-velocities")]
+#[case(Defect::ForceAtPresentPositions, "force-at-present-positions")]
+#[case(Defect::ForceOfTheStart, "force-of-one-time")]
+#[case(Defect::ForceOfOtherPoints, "force-of-other-points")]
+#[case(Defect::NoStress, "stress-missing")]
+#[case(Defect::PushingStress, "stress-sign")]
+#[case(Defect::WholeCells, "stress-scaled")]
+#[case(Defect::NoDensity, "stress-scaled")]
+#[case(Defect::PlaneStress, "plane-stress")]
+#[case(Defect::LameExchanged, "lame-parameters-exchanged")]
+#[case(Defect::BulkForLambda, "bulk-modulus-for-lambda")]
+#[case(Defect::MuTwice, "mu-doubled")]
+#[case(Defect::NoVolumeTerm, "volume-term-missing")]
+#[case(Defect::EngineeringShear, "shear-doubled")]
+#[case(Defect::OneSidedShear, "stress-not-symmetric")]
+#[case(Defect::PressurePositive, "stress-column")]
+#[case(Defect::Transposed, "deformation-gradient-transposed")]
+#[case(Defect::NoWalls, "wall-missing")]
+#[case(Defect::WallsLetGo, "wall-lets-go")]
+#[case(Defect::StickyRollers, "roller-holds-tangent")]
+#[case(Defect::AbsoluteThreshold, "depends-on-units")]
+fn a_defect_is_named_and_no_other(#[case] defect: Defect, #[case] name: &str) {
+    let (defects, _, page) = found(defect);
+    assert_eq!(defects, [name], "{page}");
+}
+
+/// What belongs to a scheme is said, and is no defect.
+#[rstest]
+#[case(Defect::Nothing, &["rounding-grows-on-faces", "start-half-a-step-off"])]
+#[case(Defect::Leapfrog, &["rounding-grows-on-faces", "velocity-half-a-step-behind"])]
+#[case(
+    Defect::Pic,
+    &["rounding-grows-on-faces", "start-half-a-step-off", "momentum-spreads"]
+)]
+#[case(
+    Defect::ForceOfTheEnd,
+    &["rounding-grows-on-faces", "start-half-a-step-off", "force-of-the-end-of-the-step"]
+)]
+fn a_sound_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&str]) {
+    let (defects, found, page) = found(scheme);
+    assert!(defects.is_empty(), "{page}");
+    assert_eq!(found, remarks, "{page}");
+}

@@ -1,0 +1,97 @@
+//! The command line: a script that moves every particle with the velocity that it was given.
+
+use crate::cli::{BAD_INPUT, FAILED, Folder};
+use crate::external::program::HELLO;
+
+/// Exact where nothing but translation is asked for, with an acceleration of `G`.
+const MOVER: &str = r#"
+read -r m; echo 'HELLO'
+read -r problem || exit 0
+case "$problem" in *'"bye"'*) exit 0;; esac
+echo '{"type":"ready"}'
+while read -r m; do
+    case "$m" in *'"bye"'*) exit 0;; esac
+    printf '%s\n%s\n' "$problem" "$m" | awk '
+        function number(name, rest) {
+            rest = substr($0, index($0, "\"" name "\":") + length(name) + 3)
+            return rest + 0
+        }
+        NR == 1 {
+            x = substr($0, index($0, "\"velocity\":[") + 12)
+            n = split(substr(x, 1, index(x, "]") - 1), V, ",")
+        }
+        NR == 2 {
+            t = number("from") + number("steps") * number("dt")
+            for (p = 1; p <= n; p++) {
+                u = u (p > 1 ? "," : "") sprintf("%.17g", V[p] * t + G * t * t / 2)
+                v = v (p > 1 ? "," : "") sprintf("%.17g", V[p] + G * t)
+            }
+            printf "{\"type\":\"state\",\"columns\":{\"displacement\":[%s],\"velocity\":[%s]}}\n", u, v
+        }'
+done
+"#;
+
+/// A call of the doctor on a script.
+fn call(script: &str, more: &[&str]) -> (i32, String, String) {
+    let folder = Folder::new();
+    folder.write("solver.sh", script.replace("HELLO", HELLO));
+    let mut arguments = vec!["doctor", "--solver", "sh solver.sh"];
+    arguments.extend(more);
+    let found = folder.call(&arguments);
+    (found.code, found.out, found.errors)
+}
+
+#[test]
+fn a_program_is_told_of_the_gravity_that_it_has() {
+    let (code, out, errors) = call(&MOVER.replace('G', "9.81"), &[]);
+    assert_eq!(code, FAILED, "{out}{errors}");
+    let out = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in ["solver: odd", "gravity-left-on", "an acceleration of (9.810) m/s2"] {
+        assert!(out.contains(words), "no `{words}` in\n{out}");
+    }
+    assert!(out.contains("verdict: gravity-left-on; 8 left out until that is mended"), "{out}");
+    assert!(errors.contains("examining: rest"), "{errors}");
+}
+
+#[test]
+fn the_same_as_json() {
+    let (code, out, _) = call(&MOVER.replace('G', "0"), &["--format", "json"]);
+    assert_eq!(code, FAILED, "{out}");
+    let report: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+    let of = |name: &str| {
+        let all = report["examinations"].as_array().expect("examinations");
+        all.iter().find(|made| made["examination"] == name).expect("an examination").clone()
+    };
+    assert_eq!(of("translation")["findings"], serde_json::json!([]));
+    assert_eq!(of("stress")["findings"][0]["name"], "stress-missing");
+    assert_eq!(of("fall")["result"], "not_applicable");
+    assert_eq!(of("fall")["lacks"], "loads: gravity");
+    assert_eq!(of("walls")["after"], "stress");
+}
+
+#[test]
+fn a_program_that_dies_cannot_be_examined() {
+    let (code, out, _) = call("read -r m; echo 'HELLO'; read -r m; exit 3", &[]);
+    assert_eq!(code, BAD_INPUT, "{out}");
+    let flat = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = "verdict: odd cannot be examined: step 1 of 6: the solver ended without an answer \
+                 (exit status 3)";
+    assert!(flat.contains(words), "{out}");
+}
+
+#[test]
+fn a_program_without_abilities_cannot_be_examined() {
+    let poor = HELLO.replace(r#""dimensions":[1]"#, r#""dimensions":[]"#);
+    let (code, out, _) = call(&MOVER.replace("HELLO", &poor).replace('G', "0"), &[]);
+    assert_eq!(code, BAD_INPUT, "{out}");
+    assert!(out.contains("cannot be examined: it lacks dimensions: 2"), "{out}");
+}
+
+#[test]
+fn a_command_that_does_not_start_is_bad_input() {
+    let folder = Folder::new();
+    assert_eq!(folder.call(&["doctor"]).code, BAD_INPUT);
+    let found = folder.call(&["doctor", "--solver", "true"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains("ended without an answer"), "{}", found.errors);
+}
