@@ -2,8 +2,9 @@
 
 use super::args::{CostArgs, Vary};
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, select};
+use super::{output, select, solver};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
 use mpm_verify::study::cost::{Over, best_candidate, price, variants};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
@@ -21,10 +22,20 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
     }
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
-    let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
+    let mut suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
+    let solver = match solver::greeted(&args.program) {
+        Ok(solver) => solver,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
+    if let Some(solver) = &solver {
+        suites = solver::judged(suites, solver, false);
+    }
     let found = match args.budget {
         Some(budget) => best_candidates(&suites, budget, args),
-        None => prices(&suites, args),
+        None => prices(&suites, solver.as_ref(), args),
     };
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::complain(&diagnostic.to_string());
@@ -57,12 +68,12 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
 }
 
 /// Errors and seconds of every level of each convergence suite; others have no error to pay for.
-fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
+fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> u8 {
     let over: Vec<Over> = args.over.iter().map(|what| varied(*what)).collect();
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = PASSED;
     for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
-        let timed = one(suite, &over, args);
+        let timed = one(suite, &over, solver, args);
         if !args.json {
             output::print(&format!("{}\n", report::timed(&timed, !over.is_empty())));
         }
@@ -78,7 +89,12 @@ fn prices(suites: &[Suite], args: &CostArgs) -> u8 {
     code
 }
 
-fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> TimedSuite {
+fn one(
+    suite: &Suite,
+    over: &[Over],
+    solver: Option<&SolverProgram>,
+    args: &CostArgs,
+) -> TimedSuite {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let variants = variants(suite, over);
     let levels: usize = std::iter::once(suite)
@@ -92,7 +108,8 @@ fn one(suite: &Suite, over: &[Over], args: &CostArgs) -> TimedSuite {
         bar.set_style(style);
     }
     bar.set_message(suite.name.clone());
-    let timed = price(suite, &variants, extent, &|| bar.inc(1));
+    let solver = solver.map(|solver| solver as &dyn SolverFactory);
+    let timed = price(suite, &variants, extent, solver, &|| bar.inc(1));
     bar.finish_and_clear();
     timed
 }

@@ -170,10 +170,10 @@ impl Judging {
 fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &ProgressBar) -> SuiteOutcome {
     bar.set_message(suite.name.clone());
     let (kept, solver) = (judging.kept.as_ref(), judging.solver.as_ref());
-    let runner = Runner::over(suite, extent(args));
+    let runner = Runner::over(suite, extent(args)).keeping(kept);
     let runner = match solver {
         Some(solver) => runner.judging(solver),
-        None => runner.keeping(kept),
+        None => runner,
     };
     for warning in runner.warnings() {
         bar.suspend(|| output::complain(&format!("warning: {warning}")));

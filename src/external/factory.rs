@@ -24,6 +24,13 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
+    /// A number that stands for all that its results depend on besides the problem: its program
+    /// and arguments. Results are kept for a later run of a solver with the same number, and of one
+    /// that has none (the default) not at all.
+    fn identity(&self) -> Option<u64> {
+        None
+    }
+
     /// Everything that a problem needs and the solver lacks; empty if it can be tried.
     fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
         Vec::new()

@@ -81,9 +81,15 @@ impl RunContext<'_> {
         name: &str,
         run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
     ) -> Result<T, String> {
+        let solver = match self.solver.map(SolverFactory::identity) {
+            None => String::new(),
+            Some(Some(identity)) => format!(" {identity:016x}"),
+            // Of a solver that may be another one the next time nothing is kept.
+            Some(None) => return run(&mut NoCheckpoints),
+        };
         match self.storage {
             Storage::Nowhere => run(&mut NoCheckpoints),
-            Storage::Cache(cache) => cache.level(key, name, run),
+            Storage::Cache(cache) => cache.level(&format!("{key}{solver}"), name, run),
             Storage::Stores(make) => run(make().as_mut()),
         }
     }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Runs cases of one suite.
 pub struct Runner<'a> {
     suite: &'a Suite,
-    extent: Extent,
+    context: RunContext<'a>,
     cases: Box<dyn CaseRunner + 'a>,
 }
 
@@ -23,36 +23,32 @@ impl<'a> Runner<'a> {
 
     /// A runner of so many levels.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
-        Self::with(suite, extent, Storage::Nowhere, None)
+        let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
+        let (storage, solver) = (Storage::Nowhere, None);
+        Self::with(suite, RunContext { suite: name, fingerprint, extent, storage, solver })
     }
 
-    /// The solver of the cases of [`Suite::of_external`]; of it nothing is stored.
+    /// The solver of the cases of [`Suite::of_external`].
     #[must_use]
     pub fn judging(self, solver: &'a dyn SolverFactory) -> Self {
-        Self::with(self.suite, self.extent, Storage::Nowhere, Some(solver))
+        Self::with(self.suite, RunContext { solver: Some(solver), ..self.context })
     }
 
     /// Stores finished levels in a cache, and takes them from it.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
-        Self::with(self.suite, self.extent, cache.map_or(Storage::Nowhere, Storage::Cache), None)
+        let storage = cache.map_or(Storage::Nowhere, Storage::Cache);
+        Self::with(self.suite, RunContext { storage, ..self.context })
     }
 
     /// Keeps checkpoints of running levels in stores of the caller's, and no results.
     #[must_use]
     pub fn checkpointing(self, stores: CheckpointStores<'a>) -> Self {
-        Self::with(self.suite, self.extent, Storage::Stores(stores), None)
+        Self::with(self.suite, RunContext { storage: Storage::Stores(stores), ..self.context })
     }
 
-    fn with(
-        suite: &'a Suite,
-        extent: Extent,
-        storage: Storage<'a>,
-        solver: Option<&'a dyn SolverFactory>,
-    ) -> Self {
-        let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
-        let context = RunContext { suite: name, fingerprint, extent, storage, solver };
-        Self { suite, extent, cases: study(suite).runner(context) }
+    fn with(suite: &'a Suite, context: RunContext<'a>) -> Self {
+        Self { suite, context, cases: study(suite).runner(context) }
     }
 
     /// Units of progress of the whole suite.

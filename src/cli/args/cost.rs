@@ -1,6 +1,6 @@
 //! The words of `cost`.
 
-use super::shared::{Targets, seconds};
+use super::shared::{SolverArgs, Targets, seconds};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ pub(in crate::cli) struct CostArgs {
     pub(in crate::cli) over: Vec<Vary>,
     /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
     /// `500ms`, `2min`
-    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with_all = ["over", "figures"])]
+    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with_all = ["over", "figures", "solver"])]
     pub(in crate::cli) budget: Option<f64>,
     /// Print one JSON document
     #[arg(long)]
@@ -24,6 +24,8 @@ pub(in crate::cli) struct CostArgs {
     /// Measure the finer levels too that suites list under `full`
     #[arg(long)]
     pub(in crate::cli) full: bool,
+    #[command(flatten)]
+    pub(in crate::cli) program: SolverArgs,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

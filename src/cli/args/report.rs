@@ -45,7 +45,7 @@ pub(in crate::cli) struct RunArgs {
     pub(in crate::cli) shard: Option<Shard>,
     /// Keep finished levels and the states of running ones in this folder, and take from it those
     /// that are there: an interrupted run goes on where it was
-    #[arg(long, value_name = "DIR", conflicts_with = "solver")]
+    #[arg(long, value_name = "DIR")]
     pub(in crate::cli) resume: Option<PathBuf>,
     /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
     #[arg(long, value_name = "TIME", value_parser = seconds, requires = "resume")]

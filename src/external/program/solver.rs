@@ -13,6 +13,8 @@ use crate::subject::{
     Failure, HIGHEST_ORDER, LONGEST_NAME, Precision, RunCounters, Samples, Subject, is_solver_name,
 };
 use serde_json::json;
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Version of the protocol.
 const PROTOCOL: u64 = 1;
@@ -23,6 +25,7 @@ pub struct SolverProgram {
     command: Vec<String>,
     limits: ProgramLimits,
     hello: Hello,
+    identity: u64,
 }
 
 impl SolverProgram {
@@ -35,7 +38,8 @@ impl SolverProgram {
         let command = command.ok_or("expected a command with its arguments")?;
         let (connection, hello) = connected(&command, limits)?;
         connection.end();
-        Ok(Self { command, limits, hello })
+        let identity = identity(&command, &hello);
+        Ok(Self { command, limits, hello, identity })
     }
 
     fn start(&self, problem: &LevelProblem) -> Result<Result<ProgramSubject, String>, String> {
@@ -64,6 +68,19 @@ impl SolverProgram {
             (other, _) => return Err(format!("answered `problem` with `{}`", other.name())),
         })
     }
+}
+
+/// A hash of the command, of the files that its words name, and of what the solver says of itself.
+/// Modules of its language and the like, which a program reads besides, are known by its version.
+fn identity(command: &[String], hello: &Hello) -> u64 {
+    let mut all = DefaultHasher::new();
+    (command, format!("{hello:?}")).hash(&mut all);
+    for word in command {
+        // A folder or a device is no program.
+        let is_file = fs::metadata(word).is_ok_and(|found| found.is_file());
+        is_file.then(|| fs::read(word).ok()).flatten().hash(&mut all);
+    }
+    all.finish()
 }
 
 fn connected(command: &[String], limits: ProgramLimits) -> Result<(Connection, Hello), String> {
@@ -117,6 +134,10 @@ impl SolverFactory for SolverProgram {
             ("precision".to_owned(), self.hello.precision.name().to_owned()),
             ("formal order".to_owned(), format!("{}, by its own account", self.hello.formal_order)),
         ]
+    }
+
+    fn identity(&self) -> Option<u64> {
+        Some(self.identity)
     }
 
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {

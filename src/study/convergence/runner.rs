@@ -151,13 +151,23 @@ impl<'a> ConvergenceRunner<'a> {
         let RunContext { suite, fingerprint, .. } = self.context;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
+        // A solver that breaks, or says nothing for too long, may do better the next time.
+        let mut broken = None;
         let run = |store: &mut dyn CheckpointStore| match self.context.solver {
             None => run_of(plan, truth, (&clock, store), || subject(plan, case.method, level)),
-            Some(solver) => run_of(plan, truth, (&clock, store), || {
-                solver.subject(level_problem(suite, plan, case, level)?)
-            }),
+            Some(solver) => {
+                let make = || solver.subject(level_problem(suite, plan, case, level)?);
+                let found = run_of(plan, truth, (&clock, store), make)?;
+                let reason = found.failure.clone();
+                reason.map_or(Ok(found.clone()), |reason| {
+                    broken = Some(found);
+                    Err(reason)
+                })
+            }
         };
-        Ok(level_of(plan, level, clock.dt(), self.context.cached(&key, &name, run)?))
+        let found = self.context.cached(&key, &name, run);
+        let found = broken.map_or(found, Ok)?;
+        Ok(level_of(plan, level, clock.dt(), found))
     }
 
     /// The same method with a shorter spacing, run for this case.

@@ -6,8 +6,11 @@
 //! processes had the core does not count, where the system tells it.
 
 use super::machine::{LoadMonitor, Observed, alone};
+use crate::external::SolverFactory;
 use crate::study::build::dispatch::subject;
+use crate::study::handover::level_problem;
 use crate::study::runner::Runner;
+use crate::subject::Subject;
 use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
@@ -26,12 +29,23 @@ struct TimingJob<'a> {
     plan: &'a ConvergencePlan,
     case: &'a Case,
     level: LevelPlan,
+    solver: Option<(&'a str, &'a dyn SolverFactory)>,
     /// Where the result belongs.
     at: (usize, usize),
     seconds: Vec<f64>,
 }
 
 impl TimingJob<'_> {
+    fn run(&self) -> Result<f64, String> {
+        let Self { plan, case, level, .. } = *self;
+        match self.solver {
+            None => seconds(plan, case, level),
+            Some((suite, solver)) => seconds_of(plan, case, level, || {
+                solver.subject(level_problem(suite, plan, case, level)?)
+            }),
+        }
+    }
+
     fn is_done(&self) -> bool {
         let (spent, repeats) = (self.seconds.iter().sum::<f64>(), self.seconds.len());
         (repeats >= FEWEST && spent >= LEAST) || spent >= LONGEST || repeats >= MOST
@@ -47,9 +61,20 @@ pub(crate) fn seconds(
     case: &Case,
     level: LevelPlan,
 ) -> Result<f64, String> {
+    seconds_of(plan, case, level, || subject(plan, case.method, level))
+}
+
+/// Seconds that the steps of a subject take on a level. Of another process they are those until it
+/// has answered.
+fn seconds_of(
+    plan: &ConvergencePlan,
+    case: &Case,
+    level: LevelPlan,
+    make: impl FnOnce() -> Result<Box<dyn Subject>, String> + Send,
+) -> Result<f64, String> {
     let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
     alone(|| {
-        let mut subject = subject(plan, case.method, level)?;
+        let mut subject = make()?;
         let watch = LoadMonitor::start();
         for _ in 0..clock.steps {
             if subject.step(clock.dt()).is_err() {
@@ -61,12 +86,13 @@ pub(crate) fn seconds(
 }
 
 /// Runs `suite` and its `variants`, whose cases count as cases of the suite, and times every level;
-/// calls `progress` after each level that ran and after each that was timed. Only convergence
-/// studies have levels to time.
+/// calls `progress` after each level that ran and after each that was timed. `solver` is that of
+/// cases whose method is not of this crate. Only convergence studies have levels to time.
 pub fn price(
     suite: &Suite,
     variants: &[Suite],
     extent: Extent,
+    solver: Option<&dyn SolverFactory>,
     progress: &(dyn Fn() + Sync),
 ) -> TimedSuite {
     let suites: Vec<&Suite> = std::iter::once(suite).chain(variants).collect();
@@ -78,10 +104,16 @@ pub fn price(
             let levels = plan.refine.levels(extent).iter().enumerate();
             jobs.extend(levels.map(|(k, level)| {
                 let at = (cases.len() + index(plan, case), k);
-                TimingJob { plan, case, level: *level, at, seconds: Vec::new() }
+                let solver = solver.map(|solver| (one.name.as_str(), solver));
+                TimingJob { plan, case, level: *level, solver, at, seconds: Vec::new() }
             }));
         }
-        cases.extend(Runner::over(one, extent).run(progress).cases);
+        let runner = Runner::over(one, extent);
+        let runner = match solver {
+            Some(solver) => runner.judging(solver),
+            None => runner,
+        };
+        cases.extend(runner.run(progress).cases);
     }
     let observed = alone(|| {
         let mut observed = Observed::new();
@@ -106,14 +138,14 @@ fn index(plan: &ConvergencePlan, case: &Case) -> usize {
 /// Round after round until every level has been timed often enough.
 fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
     for job in jobs.iter() {
-        let _ = seconds(job.plan, job.case, job.level);
+        let _ = job.run();
     }
     let mut open: Vec<usize> = (0..jobs.len()).collect();
     while !open.is_empty() {
         observed.look();
         open.retain(|k| {
             let job = &mut jobs[*k];
-            let found = seconds(job.plan, job.case, job.level);
+            let found = job.run();
             job.seconds.extend(found.iter());
             // What cannot be set up has no time, now or later.
             let done = found.is_err() || job.is_done();

@@ -94,3 +94,56 @@ fn other_studies_are_left_out() {
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     assert!(found.errors.contains("courant-limit: left out"), "{}", found.errors);
 }
+
+/// A solver that writes a line into `log` for each problem that it takes.
+fn logged() -> Folder {
+    let folder = folder();
+    let logging = "echo problem >>log\necho '{\"type\":\"ready\"}'";
+    let script = SECOND_ORDER.replace("HELLO", HELLO);
+    folder.write("solver.sh", script.replace("echo '{\"type\":\"ready\"}'", logging));
+    folder
+}
+
+fn problems(folder: &Folder) -> usize {
+    folder.read("log").lines().count()
+}
+
+const KEPT: [&str; 6] = ["run", "bar.yaml", "--solver", SOLVER, "--resume", "kept"];
+
+#[test]
+fn finished_levels_are_kept_for_the_same_solver_only() {
+    let folder = logged();
+    let first = folder.call(&KEPT);
+    let (levels, _) = (problems(&folder), assert_eq!(first.code, SOUND, "{}", first.errors));
+    assert!(levels >= 4, "{levels}");
+    let again = folder.call(&KEPT);
+    assert_eq!((again.code, &again.out), (SOUND, &first.out));
+    assert_eq!(problems(&folder), levels, "nothing ran again");
+    folder.write("solver.sh", format!("# another version\n{}", folder.read("solver.sh")));
+    let other = folder.call(&KEPT);
+    assert_eq!((other.code, &other.out), (SOUND, &first.out));
+    assert_eq!(problems(&folder), 2 * levels, "another program ran");
+}
+
+#[test]
+fn a_level_that_broke_runs_again() {
+    let folder = logged();
+    let ready = "echo problem >>log";
+    let broken =
+        folder.read("solver.sh").replace(ready, "[ -e well ] || exit 3\necho problem >>log");
+    folder.write("solver.sh", broken);
+    let first = folder.call(&KEPT);
+    assert!(first.out.contains("exit status 3"), "{}{}", first.out, first.errors);
+    folder.write("well", String::new());
+    let again = folder.call(&KEPT);
+    assert!(again.out.contains("converging: order 2.000"), "{}{}", again.out, again.errors);
+}
+
+#[test]
+fn what_its_accuracy_costs_is_timed() {
+    let found = folder().call(&["cost", "bar.yaml", "--solver", SOLVER, "--json"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
+    let text = found.to_string();
+    assert!(text.contains("\"odd\"") && text.contains("\"seconds\""), "{text}");
+}
