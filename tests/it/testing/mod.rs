@@ -3,3 +3,5 @@
 mod conformance;
 mod harness;
 mod own_solver;
+
+pub(crate) use own_solver::OwnSolver;

@@ -36,10 +36,10 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         return Ok(Examined::new(found.measured, vec![finding]));
     }
     let stiff = uniform(patient, &scene, velocity)?;
-    let finding = stiff.findings.first().map(|finding| {
+    let finding = stiff.findings.first().map(|_| {
         SolverFinding::remark(
             "rounding-grows-on-faces",
-            finding.seen.clone(),
+            format!("{}, and without stiffness {}", stiff.measured, found.measured),
             "a node beside a face has no mass, or one of the size of rounding, and linear functions have \
              a gradient there all the same: its velocity strains the particle",
             "functions with continuous gradients (quadratic B-splines, GIMP); until then, no lattice \

@@ -38,7 +38,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
              which its functions do not vanish, and are slopes those of the weights, divided by h",
         ));
     }
-    Ok(weights(motion, share))
+    Ok(weights(motion, share, (way, speed)))
 }
 
 /// Smallest and largest way of a point in the first step, over that of the velocity.
@@ -49,17 +49,20 @@ fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     shares.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-fn weights(motion: &UniformMotion<'_>, (low, high): (f64, f64)) -> SolverFinding {
+/// `soft` are the errors of way and speed without stiffness.
+fn weights(motion: &UniformMotion<'_>, (low, high): (f64, f64), soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
     SolverFinding::defect(
         "weights-do-not-sum-to-one",
         format!(
             "in the first step points go {} to {} of v dt, by their places in the cells; at the end x \
-             is off by {} of the way and v by {} of the speed, also without stiffness",
+             is off by {} of the way and v by {} of the speed, and without stiffness by {} and {}",
             shown(low),
             shown(high),
             shown(way),
-            shown(speed)
+            shown(speed),
+            shown(soft.0),
+            shown(soft.1)
         ),
         "the weights of a particle do not sum to one, or not by the same sums to the grid and back",
         "the sum of all weights of a particle at some places in a cell: which nodes are visited, the \

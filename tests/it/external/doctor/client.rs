@@ -288,6 +288,7 @@ impl Subject for Client {
                 match defect {
                     Leapfrog => v[i] = if self.steps == 0 { self.v[p][i] } else { v[i] },
                     Pic => self.v[p][i] = v[i],
+                    PicAtFirst if self.steps == 0 => self.v[p][i] = v[i],
                     Drag => self.v[p][i] *= 1.0 - 0.5 * dt,
                     LossPerStep => self.v[p][i] *= 0.999,
                     _ => {}

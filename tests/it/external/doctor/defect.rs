@@ -14,6 +14,7 @@ pub(super) enum Defect {
     Drag,
     LossPerStep,
     Pic,
+    PicAtFirst,
     SinglePrecision,
     PositionsHalfAStepOn,
     WeightsOfTheirOwn,

@@ -5,9 +5,10 @@ mod defect;
 #[cfg(unix)]
 mod program;
 
+use crate::testing::OwnSolver;
 use client::Clinic;
 use defect::Defect;
-use mpm_verify::testing::{FindingWeight, doctor, page};
+use mpm_verify::testing::{ExaminationReport, ExaminationResult, FindingWeight, doctor, page};
 use rstest::rstest;
 
 /// Defects that are found, and all remarks.
@@ -80,6 +81,10 @@ fn a_defect_is_named_and_no_other(#[case] defect: Defect, #[case] name: &str) {
     &["rounding-grows-on-faces", "start-half-a-step-off", "momentum-spreads"]
 )]
 #[case(
+    Defect::PicAtFirst,
+    &["rounding-grows-on-faces", "start-half-a-step-off", "first-step-spreads"]
+)]
+#[case(
     Defect::ForceOfTheEnd,
     &["rounding-grows-on-faces", "start-half-a-step-off", "force-of-the-end-of-the-step"]
 )]
@@ -87,4 +92,25 @@ fn a_sound_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&s
     let (defects, found, page) = found(scheme);
     assert!(defects.is_empty(), "{page}");
     assert_eq!(found, remarks, "{page}");
+}
+
+/// In one dimension, and without gravity and questions.
+#[test]
+fn the_solver_of_the_example_is_sound() {
+    let report = doctor(&OwnSolver, &|_| ());
+    assert_eq!(report.defects(), 0, "{}", page(&report));
+    let not_applicable =
+        |made: &&ExaminationReport| matches!(made.result, ExaminationResult::NotApplicable { .. });
+    let names: Vec<_> =
+        report.examinations.iter().filter(not_applicable).map(|made| made.examination).collect();
+    assert_eq!(names, ["periodic", "fall", "force"]);
+}
+
+/// An author in a hurry reads the last lines.
+#[test]
+fn the_page_ends_with_the_verdict() {
+    let (_, _, page) = found(Defect::Drag);
+    let flat = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("speed is lost at a rate of 0.5"), "{page}");
+    assert!(flat.ends_with("verdict: drag; 7 left out until that is mended"), "{page}");
 }

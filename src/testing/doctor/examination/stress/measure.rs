@@ -26,6 +26,8 @@ pub(super) struct SeenModuli {
     pub(super) viscosity: f64,
     /// Share of the momentum that spreads so, up to one.
     pub(super) spread: f64,
+    /// Share of the momentum that the first step moves by itself, up to one.
+    pub(super) jump: f64,
 }
 
 /// The scene; also that of others that want a body under stress.
@@ -44,47 +46,37 @@ pub(in crate::testing::doctor) fn spreading(kind: (usize, &'static str), cells: 
 
 /// Moduli by the momentum of the two halves of tubes along the axes.
 pub(super) fn moduli_of(course: &Course, scene: &BoxScene) -> SeenModuli {
-    let (along, spread) = flux(course, scene, (0, 0));
+    let [along, spread, jump] = flux(course, scene, (0, 0));
     let mut seen = SeenModuli {
         along: along / STRETCH,
         across: 0.0,
         shear: [0.0; 2],
         viscosity: 0.0,
         spread: 0.0,
+        jump: 0.0,
     };
     // What the staggering of a step puts there is no viscosity.
     let spread = (spread.abs() - 0.6 * (along * scene.dt).abs()).max(0.0);
+    let end = course.times[course.last()];
+    let share = |impulse: f64| (2.0 * impulse / (along * end * end).abs()).min(1.0);
     seen.viscosity = spread / STRETCH / scene.density;
-    seen.spread = (2.0 * spread / (along * course.times[course.last()]).abs()).min(1.0);
+    (seen.spread, seen.jump) = (share(spread * end), share(jump.abs()));
     if scene.dimension > 1 {
-        seen.across = flux(course, scene, (1, 1)).0 / STRETCH;
-        seen.shear = [(0, 1), (1, 0)].map(|way| flux(course, scene, way).0 / SHEAR);
+        seen.across = flux(course, scene, (1, 1))[0] / STRETCH;
+        seen.shear = [(0, 1), (1, 0)].map(|way| flux(course, scene, way)[0] / SHEAR);
     }
     seen
 }
 
-/// Rate of the stress (Pa/s) of normal i and force j, and a constant stress besides (Pa), by the
-/// momentum that has left the upper half for the lower.
-fn flux(course: &Course, scene: &BoxScene, (i, j): (usize, usize)) -> (f64, f64) {
-    let d = scene.dimension;
-    let middle: Vec<f64> = (0..d).map(|k| 0.5 * (scene.body.0[k] + scene.body.1[k])).collect();
-    let area = (1..d).fold(1.0, |area, _| area * 2.0 * TUBE * scene.h);
-    let weight = &course.states[0].weight;
-    let start: Vec<[f64; 3]> = course.points(velocity, 0).map(|(_, v)| v).collect();
+/// Rate of the stress (Pa/s) of normal i and force j, a constant stress besides (Pa), and what the
+/// first step moves by itself (Pa s), by the momentum that has left the upper half for the lower.
+fn flux(course: &Course, scene: &BoxScene, way: (usize, usize)) -> [f64; 3] {
+    let (t, y) = (&course.times, impulses(course, scene, way));
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
-    for k in 1..=course.last() {
-        let mut gained = 0.0;
-        for (p, (label, v)) in course.points(velocity, k).enumerate() {
-            let in_tube = |a: usize| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h;
-            if (0..d).all(in_tube) {
-                let side = if label[i] > middle[i] { 0.5 } else { -0.5 };
-                gained += side * scene.density * weight[p] * (v[j] - start[p][j]);
-            }
-        }
-        let t = course.times[k];
-        let terms = [t, 0.5 * t * t];
+    for k in 2..y.len() {
+        let terms = [t[k] - t[1], 0.5 * (t[k] * t[k] - t[1] * t[1])];
         for a in 0..2 {
-            ends[a] -= terms[a] * gained / area;
+            ends[a] += terms[a] * (y[k] - y[1]);
             for b in 0..2 {
                 rows[a][b] += terms[a] * terms[b];
             }
@@ -93,5 +85,26 @@ fn flux(course: &Course, scene: &BoxScene, (i, j): (usize, usize)) -> (f64, f64)
     let det = rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0];
     let constant = (ends[0] * rows[1][1] - ends[1] * rows[0][1]) / det;
     let rate = (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det;
-    (rate, constant)
+    [rate, constant, y[1] - constant * t[1] - 0.5 * rate * t[1] * t[1]]
+}
+
+/// Impulse (Pa s) from the upper half to the lower at each time.
+fn impulses(course: &Course, scene: &BoxScene, (i, j): (usize, usize)) -> Vec<f64> {
+    let d = scene.dimension;
+    let middle: Vec<f64> = (0..d).map(|k| 0.5 * (scene.body.0[k] + scene.body.1[k])).collect();
+    let area = (1..d).fold(1.0, |area, _| area * 2.0 * TUBE * scene.h);
+    let weight = &course.states[0].weight;
+    let start: Vec<[f64; 3]> = course.points(velocity, 0).map(|(_, v)| v).collect();
+    let impulse = |k: usize| {
+        let mut gained = 0.0;
+        for (p, (label, v)) in course.points(velocity, k).enumerate() {
+            let in_tube = |a: usize| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h;
+            if (0..d).all(in_tube) {
+                let side = if label[i] > middle[i] { 0.5 } else { -0.5 };
+                gained += side * scene.density * weight[p] * (v[j] - start[p][j]);
+            }
+        }
+        -gained / area
+    };
+    (0..=course.last()).map(impulse).collect()
 }

@@ -23,7 +23,7 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::BoxScene;
-use measure::{STRETCH, moduli_of};
+use measure::{STRETCH, SeenModuli, moduli_of};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "stress",
@@ -46,21 +46,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         course = patient.run(&shorter)?;
         seen = moduli_of(&course, &shorter);
     }
-    let mut measured =
-        format!("by momentum, stress along the stretch is {} of it", shown(seen.along));
-    if scene.dimension > 1 {
-        measured.push_str(&format!(
-            ", across {}, and of shear {} and {} Pa, where {}, {} and {} Pa were expected",
-            shown(seen.across),
-            shown(seen.shear[0]),
-            shown(seen.shear[1]),
-            shown(lambda + 2.0 * mu),
-            shown(lambda),
-            shown(mu)
-        ));
-    } else {
-        measured.push_str(&format!(" Pa, where {} Pa was expected", shown(lambda + 2.0 * mu)));
-    }
+    let measured = measured(&scene, &seen);
     let mut findings = Vec::new();
     if let Some(failure) = &course.failure {
         return Err(Hindrance::Broke(failure.clone()));
@@ -72,7 +58,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     if findings.is_empty() {
         findings.extend(columns::findings(&course, &scene));
     }
-    if findings.is_empty() && seen.spread > 0.05 {
+    let moduli_are_sound = findings.is_empty();
+    if moduli_are_sound && seen.spread > 0.05 {
         findings.push(SolverFinding::remark(
             "momentum-spreads",
             format!("momentum spreads with a viscosity of {} m2/s", shown(seen.viscosity)),
@@ -81,7 +68,36 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
              order falls",
         ));
     }
+    if moduli_are_sound && seen.jump > 0.05 {
+        findings.push(SolverFinding::remark(
+            "first-step-spreads",
+            format!(
+                "the first step moves momentum by itself: {} of what stress moves in the run",
+                shown(seen.jump)
+            ),
+            "particles start without the gradient of their velocity: the first step is one of PIC, \
+             which averages velocities over cells",
+            "affine matrices (APIC, MLS-MPM) at the start: those of the grad v of the initial velocity, \
+             which a fit through neighbours or one transfer without motion gives",
+        ));
+    }
     Ok(Examined::new(measured, findings))
+}
+
+fn measured(scene: &BoxScene, seen: &SeenModuli) -> String {
+    let (lambda, mu) = scene.lame();
+    let whole = shown(lambda + 2.0 * mu);
+    let along = shown(seen.along);
+    if scene.dimension == 1 {
+        return format!("by momentum, the modulus is {along} Pa, where {whole} Pa was expected");
+    }
+    let [across, one, other] = [seen.across, seen.shear[0], seen.shear[1]].map(shown);
+    format!(
+        "by momentum, moduli are {along} Pa along a stretch, {across} Pa across it, and {one} and \
+         {other} Pa of shear, where {whole}, {} and {} Pa were expected",
+        shown(lambda),
+        shown(mu)
+    )
 }
 
 /// Momentum of all, which no inner force changes.
