@@ -15,6 +15,7 @@ mod page;
 mod problem;
 mod propose;
 mod run;
+mod schema;
 mod select;
 mod show;
 mod solver;
@@ -40,6 +41,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Diagnose(args)) => diagnose::diagnose(&args),
         Some(Command::Doctor(args)) => doctor::doctor(&args),
         Some(Command::Propose(targets)) => propose::propose(&targets.targets),
+        Some(Command::Schema(args)) => schema::schema(&args),
         Some(Command::Steps(args)) => steps::steps(&args),
         Some(Command::Problem(args)) => problem::problem(&args),
         Some(Command::Cost(args)) => cost::cost(&args),

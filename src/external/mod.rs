@@ -27,4 +27,4 @@ pub use problem::{
     ProblemMaterial, ProblemParticles,
 };
 #[cfg(feature = "external-programs")]
-pub use program::{ProgramLimits, SolverProgram};
+pub use program::{ProgramLimits, SolverProgram, protocol_schema};

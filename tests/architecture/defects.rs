@@ -34,7 +34,7 @@ fn defect(file: &str, block: &str) -> Result<Defect, String> {
     for line in lines {
         let (key, rest) = line.split_once(' ').unwrap_or((line, ""));
         match key {
-            "in" => defect.file = rest.to_owned(),
+            "in" => rest.clone_into(&mut defect.file),
             "after" => defect.after = Some(rest.to_owned()),
             "-" => join(&mut defect.original, rest),
             "+" => join(&mut defect.changed, rest),

@@ -55,6 +55,8 @@ pub(super) enum Command {
     /// with it in the words that its author needs; exit status 1 if something is, 2 if it cannot
     /// be talked to
     Doctor(DoctorArgs),
+    /// Print a JSON Schema, for editors and for authors of solvers
+    Schema(SchemaArgs),
     /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
     /// 1 if one is off by more than 1 %
     Steps(StepsArgs),
@@ -105,6 +107,19 @@ pub(super) struct ExplainArgs {
     /// Draw the scene of one suite into this file (SVG), and print nothing
     #[arg(long, value_name = "FILE")]
     pub(super) sketch: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SchemaArgs {
+    /// The texts that it describes
+    #[arg(value_enum)]
+    pub(super) of: SchemaName,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SchemaName {
+    /// Messages between the harness and a solver of another program
+    Protocol,
 }
 
 #[derive(Debug, Args)]

@@ -4,46 +4,67 @@ use super::frame::MessageFrame;
 use super::printable::printable;
 use crate::external::capabilities::Capabilities;
 use crate::subject::Precision;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// An answer of a solver.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Answer {
     Hello(Hello),
+    /// The problem is taken.
     Ready {
+        /// Places of the states to come; the particles, if there are none.
         #[serde(default)]
         points: Option<Points>,
     },
+    /// The problem is not for this solver.
     Cannot {
+        /// Why.
         reason: String,
     },
     State(Box<State>),
+    /// The solver broke.
     Failed {
+        /// How.
         reason: String,
     },
     /// Not an answer: a question for the body force.
     BodyForce {
+        /// Time (s).
         t: f64,
+        /// Reference positions (m), D numbers each; the particles or points, if there are none.
         #[serde(default)]
         reference_position: Option<ColumnText>,
     },
 }
 
 /// Who a solver is, and what it can do.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 pub(super) struct Hello {
+    /// Version of the protocol.
     pub(super) protocol: u64,
+    /// Name: letters, digits, `-`, `_` and `.`, no more than 64.
     pub(super) name: String,
+    /// Version of the solver.
     #[serde(default)]
     pub(super) version: String,
+    /// Order in h of its displacements on a smooth solution.
     #[serde(default = "two")]
     pub(super) formal_order: f64,
+    /// Precision of its numbers.
     #[serde(default)]
+    #[schemars(schema_with = "precisions")]
     pub(super) precision: Precision,
+    /// Abilities; what is not named is lacking.
     #[serde(default)]
     pub(super) capabilities: Capabilities,
+}
+
+fn precisions(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<&str> = Precision::ALL.iter().map(|precision| precision.name()).collect();
+    json_schema!({"enum": names})
 }
 
 fn two() -> f64 {
@@ -51,26 +72,32 @@ fn two() -> f64 {
 }
 
 /// Places of a solver that has no particles, or others.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 pub(super) struct Points {
+    /// Reference positions (m), D numbers each.
     pub(super) reference_position: ColumnText,
+    /// Reference volume (m^D) that each stands for.
     pub(super) weight: ColumnText,
 }
 
 /// A state after a step.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 pub(super) struct State {
+    /// Columns by their names: `displacement` (m), `velocity` (m/s), and what `capabilities` names.
     pub(super) columns: BTreeMap<String, ColumnText>,
+    /// How often particles changed their cells so far.
     #[serde(default)]
     pub(super) crossings: Option<u64>,
+    /// Particles outside the grid.
     #[serde(default)]
     pub(super) left_domain: Option<u64>,
+    /// Smallest determinant of F so far.
     #[serde(default)]
     pub(super) min_j: Option<f64>,
 }
 
 /// A column, as numbers or as a part of the bytes that follow: its offset, and how many doubles.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColumnText {
     Numbers(Vec<f64>),

@@ -7,6 +7,7 @@
 //! frame        one message: a line of JSON, and a block of bytes
 //! answer       what a solver may say
 //! subject      a level on its way
+//! schema       all messages as a JSON Schema
 //! ```
 
 mod answer;
@@ -15,8 +16,10 @@ mod frame;
 mod limits;
 mod printable;
 mod reader;
+mod schema;
 mod solver;
 mod subject;
 
 pub use limits::ProgramLimits;
+pub use schema::protocol_schema;
 pub use solver::SolverProgram;

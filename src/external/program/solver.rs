@@ -17,7 +17,7 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Version of the protocol.
-const PROTOCOL: u64 = 1;
+pub(super) const PROTOCOL: u64 = 1;
 
 /// A solver behind a command.
 #[derive(Debug, Clone)]

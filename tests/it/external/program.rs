@@ -2,6 +2,7 @@
 
 use super::bar;
 use crate::cli::{FAILED, Folder, SOUND};
+use mpm_verify::external::protocol_schema;
 
 /// What a solver of one-dimensional elasticity says first.
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
@@ -114,7 +115,8 @@ const KEPT: [&str; 6] = ["run", "bar.yaml", "--solver", SOLVER, "--resume", "kep
 fn finished_levels_are_kept_for_the_same_solver_only() {
     let folder = logged();
     let first = folder.call(&KEPT);
-    let (levels, _) = (problems(&folder), assert_eq!(first.code, SOUND, "{}", first.errors));
+    assert_eq!(first.code, SOUND, "{}", first.errors);
+    let levels = problems(&folder);
     assert!(levels >= 4, "{levels}");
     let again = folder.call(&KEPT);
     assert_eq!((again.code, &again.out), (SOUND, &first.out));
@@ -146,4 +148,11 @@ fn what_its_accuracy_costs_is_timed() {
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     let text = found.to_string();
     assert!(text.contains("\"odd\"") && text.contains("\"seconds\""), "{text}");
+}
+
+#[test]
+fn the_kept_schema_is_that_of_the_messages() {
+    let kept = include_str!("../../../docs/protocol.schema.json");
+    let written = "`mpm-verify schema protocol > docs/protocol.schema.json` writes it anew";
+    assert!(protocol_schema() == kept, "{written}");
 }

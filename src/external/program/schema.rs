@@ -1,0 +1,74 @@
+//! The protocol as a JSON Schema (draft 2020-12), made from the types that read and write it.
+
+use super::answer::{Answer, ColumnText};
+use super::solver::PROTOCOL;
+use crate::external::problem::{LevelProblem, ProblemParticles};
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde_json::{Map, Value, json};
+
+/// The schema of every message, of either side, as indented JSON. `answer` and `request` among its
+/// definitions are those of the solver and of the harness.
+pub fn protocol_schema() -> String {
+    let mut definitions = SchemaSettings::draft2020_12().into_generator();
+    let answer = with_bytes(definitions.root_schema_for::<Answer>());
+    let request = request(&mut definitions);
+    let mut all = definitions.take_definitions(true);
+    all.insert("answer".to_owned(), answer);
+    all.insert("request".to_owned(), request);
+    let schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "mpm-verify solver protocol",
+        "description": format!("One message of version {PROTOCOL}: a line of JSON."),
+        "anyOf": [{"$ref": "#/$defs/request"}, {"$ref": "#/$defs/answer"}],
+        "$defs": all,
+    });
+    // Names and texts only: there is nothing that JSON has no word for.
+    serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
+}
+
+/// A message that may announce a block of bytes.
+fn with_bytes(schema: Schema) -> Value {
+    let mut schema = schema.to_value();
+    if let Value::Object(message) = &mut schema {
+        message.remove("$schema");
+        message.remove("$defs");
+        let count =
+            json!({"type": "integer", "minimum": 0, "description": "Bytes that follow the line."});
+        message.insert("properties".to_owned(), json!({"bytes": count}));
+    }
+    schema
+}
+
+/// Messages of the harness.
+fn request(definitions: &mut SchemaGenerator) -> Value {
+    let column = definitions.subschema_for::<ColumnText>().to_value();
+    let count = json!({"type": "integer", "minimum": 0});
+    let number = json!({"type": "number"});
+    let names = ProblemParticles::default().columns().map(|(name, _)| name);
+    let columns: Map<String, Value> =
+        names.iter().map(|name| ((*name).to_owned(), column.clone())).collect();
+    let particles = json!({"type": "object", "properties": columns, "required": names});
+    let problem = with_bytes(LevelProblem::json_schema(definitions));
+    let forces = json!({"enum": ["none", "constant", "asked"]});
+    json!({"oneOf": [
+        message("hello", json!({"protocol": {"const": PROTOCOL}, "harness": {"type": "string"}})),
+        {"allOf": [
+            problem,
+            message("problem", json!({"particles": particles, "body_force": forces})),
+        ]},
+        message("advance", json!({"steps": count, "dt": number, "from": number})),
+        message("body_force", json!({"values": column})),
+        message("bye", json!({})),
+    ]})
+}
+
+/// A message of a type, with keys that must be there.
+fn message(kind: &str, keys: Value) -> Value {
+    let mut properties = Map::from_iter([("type".to_owned(), json!({"const": kind}))]);
+    if let Value::Object(keys) = keys {
+        properties.extend(keys);
+    }
+    let required: Vec<&String> = properties.keys().collect();
+    json!({"type": "object", "required": required, "properties": properties})
+}
