@@ -6,6 +6,7 @@
 //! ended.
 
 use super::log::CacheLog;
+use super::write_whole;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::verify::CheckpointStore;
 use std::fs;
@@ -82,8 +83,7 @@ impl CheckpointStore for LevelKeeper<'_> {
 
     fn keep(&mut self, state: &[u8]) {
         let unfinished = self.unfinished();
-        let written = fs::write(&unfinished, sealed(state, self.key))
-            .and_then(|()| fs::rename(&unfinished, &self.path));
+        let written = write_whole(&self.path, &unfinished, &sealed(state, self.key));
         if let Err(error) = written {
             self.log.record_error(&error);
         }

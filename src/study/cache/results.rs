@@ -9,6 +9,7 @@
 
 use super::checkpoints::LevelKeeper;
 use super::log::CacheLog;
+use super::write_whole;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::yaml::{read_again, written};
 use crate::verify::CheckpointStore;
@@ -108,8 +109,7 @@ impl ResultCache {
 fn save(path: &Path, key: &str, level: &impl Serialize) -> Result<(), String> {
     let text = written(level)?;
     let unfinished = path.with_extension(format!("{}", std::process::id()));
-    fs::write(&unfinished, format!("# {key}\n{text}"))
-        .and_then(|()| fs::rename(&unfinished, path))
+    write_whole(path, &unfinished, format!("# {key}\n{text}").as_bytes())
         .map_err(|error| error.to_string())
 }
 

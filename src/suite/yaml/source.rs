@@ -3,7 +3,7 @@
 use super::scalar::Scalar;
 use super::scan::scan;
 use super::{Diagnostic, Place};
-use std::fs::{self, File};
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -104,6 +104,12 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
         let diagnostic = Diagnostic::about(name, "this is a folder, not a suite file");
         return Err(diagnostic.with_help("name a file in it"));
     }
+    if is_named_pipe(path, &metadata) {
+        let diagnostic = Diagnostic::about(name, "this is a named pipe, not a suite file");
+        return Err(
+            diagnostic.with_help("a pipe of the shell is read as `/dev/stdin` or `<(COMMAND)`")
+        );
+    }
     if metadata.len() > MAX_BYTES as u64 {
         return Err(too_large(name, Some(metadata.len())));
     }
@@ -113,6 +119,16 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
         .and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes))
         .map_err(|error| unreadable(&error))?;
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
+}
+
+/// Whether it is a pipe that nobody may ever write to, so that reading it would not end. What the
+/// shell opens for a command has a writer.
+fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
+    #[cfg(unix)]
+    let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());
+    #[cfg(not(unix))]
+    let is_pipe = false;
+    is_pipe && !path.starts_with("/dev") && !path.starts_with("/proc")
 }
 
 fn unreadable(error: &io::Error) -> String {

@@ -55,6 +55,19 @@ fn a_folder() {
     assert_eq!(diagnostic.help(), Some("name a file in it"));
 }
 
+/// Nobody will ever write to it, and opening it would wait for that.
+#[cfg(unix)]
+#[test]
+fn a_named_pipe() {
+    let pipe = Temporary::new("pipe.yaml");
+    let made = std::process::Command::new("mkfifo").arg(&pipe.0).status();
+    assert!(made.is_ok_and(|status| status.success()), "no `mkfifo`");
+    let diagnostic = refused(&pipe.0);
+    assert_eq!(diagnostic.message(), "this is a named pipe, not a suite file");
+    let help = diagnostic.help().unwrap_or_default();
+    assert!(help.contains("/dev/stdin"), "{help}");
+}
+
 #[test]
 fn fifty_megabytes_are_not_read() {
     let file = Temporary::new("large.yaml");
