@@ -297,11 +297,15 @@ fn seeded_defects_apply_to_the_present_sources() {
         parsed.collect::<Result<_, _>>().unwrap_or_else(|what| panic!("{what}"));
     let all: Vec<defects::Defect> = all.into_iter().flatten().collect();
     assert!(all.len() >= 80, "only {} defects", all.len());
+    let page = std::fs::read_to_string(source::root().join("docs/defects.md")).expect("a page");
     let mut names = std::collections::BTreeSet::new();
     let mut wrong = Vec::new();
     for defect in &all {
         let text = std::fs::read_to_string(source::root().join(&defect.file)).unwrap_or_default();
         wrong.extend(defect.check(&text).err());
+        if !page.contains(&format!("| `{}` |", defect.name)) {
+            wrong.push(format!("{}: not in docs/defects.md; run ci/defects", defect.site));
+        }
         if !names.insert(&defect.name) {
             wrong.push(format!("{}: a second defect of this name", defect.site));
         }
