@@ -144,10 +144,15 @@ fn counters<'a>() -> Vec<LevelColumn<'a>> {
             "particles outside the grid at the end",
             |row| Cell::plain(row.level.run.counters.left_domain),
         ),
-        LevelColumn::new("min J", "min_j", "smallest det F met", |row| {
-            let known = Some(row.level.run.counters.min_j).filter(|j| !j.is_nan());
-            Cell::number(known, decimals(4))
-        }),
+        LevelColumn::new(
+            "min J",
+            "min_j",
+            "smallest det F met; a particle that is turned inside out along two axes at once has a positive one",
+            |row| {
+                let known = Some(row.level.run.counters.min_j).filter(|j| !j.is_nan());
+                Cell::number(known, decimals(4))
+            },
+        ),
         LevelColumn::new(
             "speed/c",
             "residual_speed",
