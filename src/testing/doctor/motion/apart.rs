@@ -21,7 +21,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     let soft = BoxScene { young: SOFT * motion.scene.young, ..motion.scene.clone() };
     let course = motion.patient.run(&soft)?;
     let is_whole = course.failure.is_none();
-    let again = UniformMotion { course, ..*motion };
+    let again = UniformMotion { course, scene: &soft, ..*motion };
     let (way, speed) = again.off();
     let (_, stiff) = motion.off();
     let share = first_share(motion);
@@ -38,7 +38,47 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
              which its functions do not vanish, and are slopes those of the weights, divided by h",
         ));
     }
-    Ok(weights(motion, share, (way, speed)))
+    let slowed = uneven_drag(&again)?;
+    Ok(slowed.unwrap_or_else(|| weights(motion, share, (way, speed))))
+}
+
+/// Points that slow unevenly, as much in a second whatever the step: weights cost a share of the
+/// speed in each step, or none. `motion` has no stiffness, so that points do not pull each other.
+fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
+    let scene = motion.scene;
+    let halved = BoxScene { dt: 0.5 * scene.dt, steps: 2 * scene.steps, ..scene.clone() };
+    let course = motion.patient.run(&halved)?;
+    if course.last() < 2 {
+        return Ok(None);
+    }
+    let again = UniformMotion { course, scene: &halved, ..*motion };
+    // At the end of the first step, before losses saturate.
+    let (once, twice) = (lost(motion, 1), lost(&again, 2));
+    let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
+    if is_noise || !((twice.1 / once.1 - 1.0).abs() <= 0.25) {
+        return Ok(None);
+    }
+    let rate = |share: f64| shown(share / scene.dt);
+    Ok(Some(SolverFinding::defect(
+        "drag",
+        format!(
+            "points lose {} to {} of their speed per second, by their places, and {} to {} with half \
+             the step",
+            rate(once.0),
+            rate(once.1),
+            rate(twice.0),
+            rate(twice.1)
+        ),
+        "drag or damping acts that the problem does not have, more on some nodes than on others",
+        "the solver's own defaults: air drag, a viscous medium, damping of nodes whatever their mass",
+    )))
+}
+
+/// Smallest and largest share of the speed that a point has lost in state `k`.
+fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
+    let v = motion.velocity;
+    let losses = motion.course.points(velocity, k).map(|(_, seen)| 1.0 - dot(seen, v) / dot(v, v));
+    losses.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
 /// Smallest and largest way of a point in the first step, over that of the velocity.

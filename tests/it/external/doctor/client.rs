@@ -95,6 +95,7 @@ impl Client {
         let value = |i: usize, high: usize| match (high, self.defect) {
             (0, _) => 1.0 - s[i],
             (_, WeightsOfTheirOwn) => s[i] * s[i],
+            (_, UnevenWeightsInPic) => s[i] - 0.01 * s[i] * (1.0 - s[i]),
             (_, LowWeights) => 0.999 - 1.0 + s[i],
             _ => s[i],
         };
@@ -287,9 +288,13 @@ impl Subject for Client {
                 self.v[p][i] += first * change[i];
                 match defect {
                     Leapfrog => v[i] = if self.steps == 0 { self.v[p][i] } else { v[i] },
-                    Pic => self.v[p][i] = v[i],
+                    Pic | UnevenWeightsInPic => self.v[p][i] = v[i],
                     PicAtFirst if self.steps == 0 => self.v[p][i] = v[i],
                     Drag => self.v[p][i] *= 1.0 - 0.5 * dt,
+                    UnevenDrag => {
+                        let label = self.problem.particles.reference_position[2 * p];
+                        self.v[p][i] *= 1.0 - label * dt;
+                    }
                     LossPerStep => self.v[p][i] *= 0.999,
                     _ => {}
                 }
