@@ -33,23 +33,25 @@ def is_rigid(suite: str) -> bool:
 
 @dataclass
 class Run:
-    """One code with some settings under one suite."""
+    """One code with some settings under one suite, in whose text `changes` are made."""
 
     suite: str
     variant: str
     arguments: list[str]
+    changes: dict[str, str]
 
 
 @dataclass
 class Code:
     """A public code: variants to be put under all suites of its dimensions, and further runs that
-    isolate a cause, each with the suites that it is for."""
+    isolate a cause, each with the suites that it is for; some change the text of these."""
 
     name: str  # of the adapter, of the requirements and of a Cargo project
     title: str
     suites: list[str]
     variants: dict[str, list[str]]
     further: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
+    changes: dict[str, dict[str, str]] = field(default_factory=dict)
     crate: str | None = None
 
     def runs(self) -> list[Run]:
@@ -58,9 +60,14 @@ class Code:
         asked += [(suite, variant, arguments)
                   for variant, (arguments, suites) in self.further.items() for suite in suites]
         rigid = {True: ["--any-law"], False: []}
-        return [Run(suite, variant, arguments + rigid[is_rigid(suite)])
+        return [Run(suite, variant, arguments + rigid[is_rigid(suite)],
+                    self.changes.get(variant, {}))
                 for suite, variant, arguments in asked]
 
+
+# The lattice of particles, some tenth of a cell off the faces of cells on which it lies.
+OFF_FACES = {"grid: {from: [0, 0.375, 0.375], to: [1, 0.625, 0.625]}":
+             "grid: {from: [0, 0.3725, 0.3725], to: [1, 0.6225, 0.6225]}"}
 
 CODES = [
     Code("kratos", "Kratos MPM 10.4.4", PLANE + SPACE, {"USL": ["--scheme", "usl"]}, {
@@ -68,7 +75,10 @@ CODES = [
                                ["falling-block", "free-bar-pulse-small", "square-between-rollers"]),
         "MUSL": (["--scheme", "musl"], ["free-bar-pulse-small", "mms-axis-aligned-2d",
                                         "free-bar-pulse-small-3d"]),
-    }),
+        "off faces": (["--scheme", "usl"], ["free-bar-pulse-small-3d",
+                                            "moving-bar-pulse-small-3d"]),
+        "MUSL, off faces": (["--scheme", "musl"], ["free-bar-pulse-small-3d"]),
+    }, {"off faces": OFF_FACES, "MUSL, off faces": OFF_FACES}),
     Code("mpm99", "taichi mpm99 1.7.4", PLANE,
          {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}),
     Code("torch_mpm", "mpm-pytorch 0.1.1", SPACE, {"f32": []}, {
@@ -77,8 +87,8 @@ CODES = [
     }),
     Code("newton_mpm", "newton 1.8.0", SPACE, {"f32": []}, {
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),
-        "drag as it comes": (["--drag", "1"], ["translating-block-3d"]),
-    }),
+        "dt as h^2": ([], ["free-bar-pulse-hencky-3d"]),
+    }, {"dt as h^2": {'dt: "0.2*h/c"': 'dt: "6.4*h^2/c"'}}),
     Code("phyz", "phyz-particle 0.1.0", SPACE, {"FLIP 0.95": []}, {
         "FLIP 1": (["--flip", "1"], ["translating-block-3d", "free-bar-pulse-small-3d"]),
         "FLIP 1, no stiffness": (["--flip", "1", "--stiffness", "0"],
