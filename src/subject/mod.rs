@@ -149,6 +149,7 @@ impl Samples {
     /// Adds a point: reference position (m), displacement (m) and velocity (m/s), D numbers each,
     /// and the reference volume (m^D) that it stands for.
     pub fn push(&mut self, label: &[f64], displacement: &[f64], velocity: &[f64], weight: f64) {
+        self.dimension = label.len();
         self.label.extend_from_slice(label);
         self.displacement.extend_from_slice(displacement);
         self.velocity.extend_from_slice(velocity);

@@ -124,3 +124,11 @@ fn suites_load_that_documents_show_whole() {
     }
     assert!(count > 0, "the README shows a whole suite");
 }
+
+/// The document shows the adapter that is compiled and run, not one that resembles it.
+#[test]
+fn the_adapter_that_the_library_page_shows_is_the_example() {
+    let page = include_str!("../../docs/library.md");
+    let adapter = include_str!("../../examples/own_solver/subject.rs");
+    assert!(page.contains(&format!("```rust\n{adapter}```")), "examples/own_solver/subject.rs");
+}

@@ -122,6 +122,10 @@ impl Answer {
                     return format!("answered with {word}, which is no number");
                 }
             }
+            if !text.trim_start().starts_with('{') {
+                let hint = "what else it prints belongs on its standard error";
+                return format!("answered with what is no message ({hint}): `{}`", excerpt(&text));
+            }
             format!("answered with what is no message ({error}): `{}`", excerpt(&text))
         })
     }

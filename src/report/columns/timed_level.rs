@@ -50,7 +50,7 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
             error.or_failed(row.level.run.failure.as_ref())
         }),
         TimedColumn::new("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
-            Cell::plain(row.level.run.counters.transfers)
+            Cell::plain(Some(row.level.run.counters.transfers).filter(|count| *count > 0))
         }),
         TimedColumn::new("seconds", "seconds", "time of the steps, median of the repeats", |row| {
             let text = Cell::text(row.timing.map(|timing| short(timing.median)));
@@ -62,7 +62,8 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
         TimedColumn::text("repeats", "repeats", |row| row.timing.map(|timing| timing.repeats)),
         TimedColumn::text("ns/transfer", "time of a transfer (ns)", |row| {
             let transfers = row.level.run.counters.transfers as f64;
-            row.timing.map(|timing| format!("{:.2}", 1e9 * timing.median / transfers))
+            let timing = row.timing.filter(|_| transfers > 0.0)?;
+            Some(format!("{:.2}", 1e9 * timing.median / transfers))
         }),
     ]
 }

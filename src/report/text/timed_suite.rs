@@ -24,7 +24,10 @@ pub fn timed(timed: &TimedSuite, varied: bool) -> String {
                 lines(&Table::new(&columns::splits(seconds), 0..seconds.targets.len()).lines())
             );
         }
-        text += &format!("\n{}", cost(transfers, TRANSFERS));
+        // A solver of another program has none to count.
+        if timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0) {
+            text += &format!("\n{}", cost(transfers, TRANSFERS));
+        }
     }
     if by_seconds.is_empty() {
         text += "\n  no case has levels enough, and an exact size, to rank\n";

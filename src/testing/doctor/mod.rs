@@ -64,7 +64,9 @@ fn silent(first: &ExaminationResult) -> Option<String> {
             let broke = findings.iter().find(|finding| finding.name == BROKE);
             broke.map(|finding| finding.seen.clone())
         }
-        ExaminationResult::NotApplicable { lacks } => Some(format!("it lacks {lacks}")),
+        ExaminationResult::NotApplicable { lacks } => Some(format!(
+            "not applicable to it is a body that is free on all sides, the plainest there is: {lacks}"
+        )),
         ExaminationResult::LeftOut { .. } => None,
     }
 }

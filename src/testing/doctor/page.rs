@@ -25,7 +25,7 @@ pub fn page(report: &DoctorReport) -> String {
                 }
             }
             ExaminationResult::NotApplicable { lacks } => {
-                row(&mut lines, "the solver lacks", lacks);
+                row(&mut lines, "what is missing", lacks);
             }
             ExaminationResult::LeftOut { after } => {
                 let why = format!("it says nothing as long as `{after}` has a defect");

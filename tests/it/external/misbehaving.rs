@@ -32,7 +32,10 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
     "echo 'out of cheese' >&2; echo 'first'",
     "`first`; its last words: out of cheese"
 )]
-#[case::garbage("echo hello there", "answered with what is no message (expected value at line 1")]
+#[case::garbage(
+    "echo hello there",
+    "answered with what is no message (what else it prints belongs on its standard error): `hello"
+)]
 #[case::another_type("echo '{\"type\":\"ready\"}'", "answered `advance` with `ready`")]
 #[case::an_unknown_type("echo '{\"type\":\"done\"}'", "unknown variant `done`")]
 #[case::half_a_line("printf '{\"type\":\"sta'", "ended in the middle of an answer")]
