@@ -21,10 +21,10 @@ pub use capabilities::{Capabilities, ProblemNeeds};
 pub use factory::SolverFactory;
 #[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
-pub(crate) use problem::ForceSource;
 pub use problem::{
     BodyForceField, LevelProblem, PlacedBodyForce, ProblemFace, ProblemGrid, ProblemLoad,
     ProblemMaterial, ProblemParticles,
 };
+pub(crate) use problem::{ForceSource, owned};
 #[cfg(feature = "external-programs")]
 pub use program::{ProgramLimits, SolverProgram, protocol_schema};

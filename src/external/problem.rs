@@ -170,8 +170,10 @@ pub(crate) trait ForceSource: Send + Sync {
     /// [`BodyForceField::at`].
     fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
 
-    /// [`BodyForceField::at_places`].
-    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce;
+    /// [`BodyForceField::at_places`], where that is cheaper than one place after another.
+    fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
+        None
+    }
 }
 
 /// A body force at its places: fills in the components (m/s2) at each, at a time (s).
@@ -191,8 +193,20 @@ impl BodyForceField {
     /// The force at places that are given once, with the body of each: much cheaper where the times
     /// are many.
     pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
-        self.0.at_places(bodies, labels)
+        self.0.at_places(bodies, labels).unwrap_or_else(|| {
+            let (force, places) = (self.clone(), owned(bodies, labels));
+            Box::new(move |t, into| {
+                for (into, (body, label)) in into.iter_mut().zip(&places) {
+                    *into = force.at(*body, label, t);
+                }
+            })
+        })
     }
+}
+
+/// Places with their bodies, to be kept.
+pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
+    bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }
 
 impl fmt::Debug for BodyForceField {

@@ -9,11 +9,10 @@ use super::small_step_reference::FineSteps;
 use super::stable_step::StableSteps;
 use super::{probe, statement};
 use crate::exact::{Problem, Truth};
-use crate::study::build::dispatch::subject;
 use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
-use crate::study::handover::{level_problem, needs};
+use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::subject::{Profile, Subject};
 use crate::suite::compile::truth::conservation_only::Unknown;
@@ -153,16 +152,15 @@ impl<'a> ConvergenceRunner<'a> {
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
         // A solver that breaks, or says nothing for too long, may do better the next time.
         let mut broken = None;
-        let run = |store: &mut dyn CheckpointStore| match self.context.solver {
-            None => run_of(plan, truth, (&clock, store), || subject(plan, case.method, level)),
-            Some(solver) => {
-                let make = || solver.subject(level_problem(suite, plan, case, level)?);
-                let found = run_of(plan, truth, (&clock, store), make)?;
-                let reason = found.failure.clone();
-                reason.map_or(Ok(found.clone()), |reason| {
+        let run = |store: &mut dyn CheckpointStore| {
+            let make = || subject_under(self.context.solver, suite, plan, case, level);
+            let found = run_of(plan, truth, (&clock, store), make)?;
+            match found.failure.clone().filter(|_| self.context.solver.is_some()) {
+                None => Ok(found),
+                Some(reason) => {
                     broken = Some(found);
                     Err(reason)
-                })
+                }
             }
         };
         let found = self.context.cached(&key, &name, run);

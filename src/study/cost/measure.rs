@@ -8,7 +8,7 @@
 use super::machine::{LoadMonitor, Observed, alone};
 use crate::external::SolverFactory;
 use crate::study::build::dispatch::subject;
-use crate::study::handover::level_problem;
+use crate::study::handover::subject_under;
 use crate::study::runner::Runner;
 use crate::subject::Subject;
 use crate::suite::compile::check::size::nodes;
@@ -26,10 +26,11 @@ const MOST: usize = 200;
 
 /// One level that is timed.
 struct TimingJob<'a> {
+    suite: &'a str,
     plan: &'a ConvergencePlan,
     case: &'a Case,
     level: LevelPlan,
-    solver: Option<(&'a str, &'a dyn SolverFactory)>,
+    solver: Option<&'a dyn SolverFactory>,
     /// Where the result belongs.
     at: (usize, usize),
     seconds: Vec<f64>,
@@ -37,13 +38,8 @@ struct TimingJob<'a> {
 
 impl TimingJob<'_> {
     fn run(&self) -> Result<f64, String> {
-        let Self { plan, case, level, .. } = *self;
-        match self.solver {
-            None => seconds(plan, case, level),
-            Some((suite, solver)) => seconds_of(plan, case, level, || {
-                solver.subject(level_problem(suite, plan, case, level)?)
-            }),
-        }
+        let Self { suite, plan, case, level, solver, .. } = *self;
+        seconds_of(plan, case, level, || subject_under(solver, suite, plan, case, level))
     }
 
     fn is_done(&self) -> bool {
@@ -104,8 +100,8 @@ pub fn price(
             let levels = plan.refine.levels(extent).iter().enumerate();
             jobs.extend(levels.map(|(k, level)| {
                 let at = (cases.len() + index(plan, case), k);
-                let solver = solver.map(|solver| (one.name.as_str(), solver));
-                TimingJob { plan, case, level: *level, solver, at, seconds: Vec::new() }
+                let (suite, level, seconds) = (one.name.as_str(), *level, Vec::new());
+                TimingJob { suite, plan, case, level, solver, at, seconds }
             }));
         }
         let runner = Runner::over(one, extent);

@@ -4,7 +4,7 @@ use crate::dimension::with_dimension;
 use crate::exact::{Forcing, Problem, Term};
 use crate::external::{
     BodyForceField, ForceSource, LevelProblem, PlacedBodyForce, ProblemFace, ProblemGrid,
-    ProblemLoad, ProblemMaterial, ProblemParticles,
+    ProblemLoad, ProblemMaterial, ProblemParticles, owned,
 };
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector};
 use crate::study::build::conditions::periodic;
@@ -177,20 +177,15 @@ impl ForceSource for SceneForce {
         self.whole(made, body, label, t)
     }
 
-    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
-        let mut forcing = self.made.as_ref().map(|made| Forcing::new(made, labels.iter().copied()));
-        let labels = labels.iter().map(|label| label.to_vec());
-        let places: Vec<(usize, Vec<f64>)> = bodies.iter().copied().zip(labels).collect();
-        let force = self.clone();
-        Box::new(move |t, into| {
-            match &mut forcing {
-                Some(forcing) => forcing.at(t, into, |made| made),
-                None => into.fill([0.0; 3]),
-            }
+    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> Option<PlacedBodyForce> {
+        let mut forcing = Forcing::new(self.made.as_ref()?, labels.iter().copied());
+        let (force, places) = (self.clone(), owned(bodies, labels));
+        Some(Box::new(move |t, into| {
+            forcing.at(t, into, |made| made);
             for (into, (body, label)) in into.iter_mut().zip(&places) {
                 *into = force.whole(*into, *body, label, t);
             }
-        })
+        }))
     }
 }
 

@@ -15,4 +15,5 @@ mod under;
 pub use exact::exact_state;
 pub use initial::level_problem;
 pub use needs::{lacking, needs};
+pub(crate) use under::subject_under;
 pub use under::under;

@@ -42,6 +42,11 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
+    /// The same run in twice as many steps of half the length.
+    pub(super) fn with_half_the_step(&self) -> Self {
+        Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
+    }
+
     /// A body of so many cells along each axis, `from` on, with `room` cells around it. It is
     /// soft, and at rest.
     pub(super) fn of_cells(

@@ -2,7 +2,7 @@
 
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
-use crate::external::{BodyForceField, ForceSource, PlacedBodyForce};
+use crate::external::{BodyForceField, ForceSource};
 use crate::testing::doctor::course::{Course, line, minus, shown, size, times, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
@@ -43,17 +43,6 @@ impl ForceSource for AskedForce {
         let place = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
         self.asked.lock().unwrap_or_else(PoisonError::into_inner).push((t, place));
         [(self.force)(place[0], t), 0.0, 0.0]
-    }
-
-    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
-        let force = self.clone();
-        let labels = labels.iter().map(|label| label.to_vec());
-        let places: Vec<(usize, Vec<f64>)> = bodies.iter().copied().zip(labels).collect();
-        Box::new(move |t, into| {
-            for (into, (body, label)) in into.iter_mut().zip(&places) {
-                *into = force.at(*body, label, t);
-            }
-        })
     }
 }
 

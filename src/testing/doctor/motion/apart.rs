@@ -47,7 +47,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
 /// speed in each step, or none. `motion` has no stiffness, so that points do not pull each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
-    let halved = BoxScene { dt: 0.5 * scene.dt, steps: 2 * scene.steps, ..scene.clone() };
+    let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
     if course.last() < 2 {
         return Ok(None);

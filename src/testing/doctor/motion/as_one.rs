@@ -6,7 +6,6 @@ use crate::testing::doctor::course::{
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::scene::BoxScene;
 
 /// Share by which a figure may be off the pattern that explains it.
 const NEAR: f64 = 0.02;
@@ -73,7 +72,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     }
     // The same with half the step: a rate stays, a loss in each step doubles.
     let scene = motion.scene;
-    let halved = BoxScene { dt: 0.5 * scene.dt, steps: 2 * scene.steps, ..scene.clone() };
+    let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
     let again = UniformMotion { course, ..*motion };
     let logs = shares_of(&again).into_iter().map(libm::log).collect::<Vec<f64>>();
