@@ -5,7 +5,7 @@
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
 
 use super::problem::Conduction;
-use crate::exact::check::weak::{SpaceTimePatch, Sums, bump, labels, patches};
+use crate::exact::check::weak::{Raster, SpaceTimePatch, Sums, bump, labels, patches};
 use crate::exact::motion::{Derivatives, Motion};
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
@@ -26,20 +26,22 @@ pub(super) fn balance(problem: &Conduction) -> Result<(), Violation> {
 fn on_patch(problem: &Conduction, patch: &SpaceTimePatch) -> Result<(), Violation> {
     let d = problem.dimension();
     let centre = (&patch.centre[..d], patch.centre[d]);
-    sums(problem, patch).judge("heat balance across kinks (the heat equation", centre)
+    // A constant temperature stores nothing: without it the terms are those that matter.
+    let middle = problem.temperature.at(centre.0, centre.1);
+    let [sums] = patch.integrate(|raster| [sums(problem, &raster, middle)]);
+    sums.judge("heat balance across kinks (the heat equation", centre)
 }
 
-/// The balance by the midpoint rule on a raster of the patch.
-fn sums(problem: &Conduction, patch: &SpaceTimePatch) -> Sums {
+/// The balance on a raster of a patch, of the temperature beyond `middle` (K).
+fn sums(problem: &Conduction, raster: &Raster, middle: f64) -> Sums {
     let d = problem.dimension();
-    let (points, times) = patch.raster();
-    let labels = labels(&points);
+    let Raster { points, times } = raster;
+    let labels = labels(points);
     let all_labels = || labels.iter().map(Vec::as_slice);
     let mut warm = problem.temperature.at_places(all_labels());
     let mut places = problem.motion.as_ref().map(|motion| motion.at_places(all_labels()));
-    let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
     let (mut all, mut motion) = (Sums::default(), Derivatives::default());
-    for time in &times {
+    for time in times {
         warm.set_time(time.at);
         if let Some(places) = &mut places {
             places.set_time(time.at);
@@ -52,7 +54,6 @@ fn sums(problem: &Conduction, patch: &SpaceTimePatch) -> Sums {
             let mut event = [*time; 4];
             event[..d].copy_from_slice(point);
             let (phi, slope) = bump(&event[..=d]);
-            // A constant temperature stores nothing: without it the terms are those that matter.
             let stored = problem.density * problem.capacity * (now.value - middle) * slope[d];
             let inflow = problem.inflow(&motion, &now);
             let flow: f64 = (0..d).map(|a| inflow[a] * slope[a]).sum();

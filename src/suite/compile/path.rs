@@ -1,6 +1,6 @@
 //! Where a value stands in a file.
 
-use crate::suite::yaml::Step;
+use crate::suite::yaml::{OneOrMany, Step};
 
 /// The way to a value in a file.
 #[derive(Debug, Clone)]
@@ -17,6 +17,11 @@ impl Path {
         let mut longer = self.0.clone();
         longer.push(step.into());
         Self(longer)
+    }
+
+    /// The way to alternative `i` of those that stand here.
+    pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
+        if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
 
     /// The way, step by step.

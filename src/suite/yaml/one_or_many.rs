@@ -12,29 +12,37 @@ use std::marker::PhantomData;
 /// Never empty. `T` may be a number, text, a struct or an enum, but not itself a list: the
 /// first bracket is always that of the alternatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OneOrMany<T>(Vec<T>);
+pub struct OneOrMany<T> {
+    values: Vec<T>,
+    listed: bool,
+}
 
 impl<T> OneOrMany<T> {
     /// The alternatives in the order of the file; at least one.
     pub fn as_slice(&self) -> &[T] {
-        &self.0
+        &self.values
     }
 
     /// The alternatives themselves; at least one.
     pub fn into_vec(self) -> Vec<T> {
-        self.0
+        self.values
+    }
+
+    /// Whether the file has brackets around them.
+    pub fn is_listed(&self) -> bool {
+        self.listed
     }
 }
 
 impl<T> From<T> for OneOrMany<T> {
     fn from(one: T) -> Self {
-        Self(vec![one])
+        Self { values: vec![one], listed: false }
     }
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Alternatives(PhantomData)).map(Self)
+        deserializer.deserialize_any(Alternatives(PhantomData))
     }
 }
 
@@ -42,18 +50,18 @@ struct Alternatives<T>(PhantomData<T>);
 
 fn one<'de, T: Deserialize<'de>, E: de::Error>(
     value: impl IntoDeserializer<'de, E>,
-) -> Result<Vec<T>, E> {
-    T::deserialize(value.into_deserializer()).map(|value| vec![value])
+) -> Result<OneOrMany<T>, E> {
+    T::deserialize(value.into_deserializer()).map(OneOrMany::from)
 }
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for Alternatives<T> {
-    type Value = Vec<T>;
+    type Value = OneOrMany<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a value or a list of values")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<T>, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
         let mut values = Vec::new();
         while let Some(value) = list.next_element()? {
             values.push(value);
@@ -66,38 +74,38 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Alternatives<T> {
                 "",
             ));
         }
-        Ok(values)
+        Ok(OneOrMany { values, listed: true })
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<T>, A::Error> {
-        T::deserialize(MapAccessDeserializer::new(map)).map(|value| vec![value])
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(OneOrMany::from)
     }
 
-    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Vec<T>, E> {
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Self::Value, E> {
         one(value)
     }
 
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Vec<T>, E> {
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Self::Value, E> {
         one(value)
     }
 
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Vec<T>, E> {
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Self::Value, E> {
         one(value)
     }
 
-    fn visit_i128<E: de::Error>(self, value: i128) -> Result<Vec<T>, E> {
+    fn visit_i128<E: de::Error>(self, value: i128) -> Result<Self::Value, E> {
         one(value)
     }
 
-    fn visit_u128<E: de::Error>(self, value: u128) -> Result<Vec<T>, E> {
+    fn visit_u128<E: de::Error>(self, value: u128) -> Result<Self::Value, E> {
         one(value)
     }
 
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Vec<T>, E> {
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Self::Value, E> {
         one(value)
     }
 
-    fn visit_str<E: de::Error>(self, value: &str) -> Result<Vec<T>, E> {
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Self::Value, E> {
         one(value)
     }
 }

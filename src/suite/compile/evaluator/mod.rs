@@ -169,12 +169,6 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
     }
 
-    /// The way to alternative `i` of what is a list or, if there is only one, may stand alone.
-    pub(crate) fn alternative(&self, path: &Path, i: usize) -> Path {
-        let member = path.then(i);
-        if self.source.value_at(member.steps()).is_some() { member } else { path.clone() }
-    }
-
     /// A complaint about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)

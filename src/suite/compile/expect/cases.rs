@@ -57,11 +57,12 @@ pub(crate) fn assign(
         selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
     };
     for (i, selector) in selectors.iter().enumerate() {
-        let globs = selector.map_or(&[][..], OneOrMany::as_slice);
+        let Some(globs) = selector else { continue };
         let idle = |glob: &String| !names.iter().any(|name| matches(glob, name));
-        if let Some(k) = globs.iter().position(idle) {
-            let at = evaluator.alternative(&path.then(i).then("case"), k);
-            let diagnostic = evaluator.diagnostic(&at, &format!("`{}` fits no case", globs[k]));
+        if let Some(k) = globs.as_slice().iter().position(idle) {
+            let at = path.then(i).then("case").alternative(globs, k);
+            let message = format!("`{}` fits no case", globs.as_slice()[k]);
+            let diagnostic = evaluator.diagnostic(&at, &message);
             return Err(diagnostic.with_help(&format!("cases: {}", names.join(", "))));
         }
     }

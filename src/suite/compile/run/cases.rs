@@ -24,7 +24,7 @@ pub(crate) fn until(
     let path = Path::top("run").then("until");
     let mut ends: Vec<(String, f64)> = Vec::new();
     for (i, text) in spec.as_slice().iter().enumerate() {
-        let path = evaluator.alternative(&path, i);
+        let path = path.alternative(spec, i);
         let until = evaluator.positive(&path, text, "the end of the run")?;
         let text = shown(until);
         if ends.iter().any(|(known, _)| *known == text) {

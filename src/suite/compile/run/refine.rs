@@ -32,9 +32,8 @@ pub(crate) fn plan(
     let axis = axis(evaluator, &spec.refine)?;
     no_idle_expectation(evaluator, spec)?;
     let d = scene.dimension();
-    let cells = counts(evaluator, &listed(evaluator, spec, Axis::Space, axis), "cells")?;
-    let ppc =
-        counts(evaluator, &listed(evaluator, spec, Axis::Particles, axis), "particles per cell")?;
+    let cells = counts(evaluator, &listed(spec, Axis::Space, axis), "cells")?;
+    let ppc = counts(evaluator, &listed(spec, Axis::Particles, axis), "particles per cell")?;
     for entry in &ppc {
         equally_spaced(evaluator, entry, d)?;
     }
@@ -120,12 +119,7 @@ pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a fo
 
 /// The entries of one key of `refine`, followed by those of `full` if it is the key that is
 /// refined.
-fn listed<'w>(
-    evaluator: &Evaluator<'_>,
-    spec: &'w ConvergenceSpec,
-    key: Axis,
-    refined: Axis,
-) -> Vec<Located<&'w NumberText>> {
+fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Located<&'w NumberText>> {
     let refine = &spec.refine;
     let (name, list) = match key {
         Axis::Space => ("cells", Some(&refine.cells)),
@@ -133,14 +127,13 @@ fn listed<'w>(
         Axis::Particles => ("ppc", refine.ppc.as_ref()),
     };
     let further = refine.full.as_ref().filter(|_| key == refined);
-    let entries = |name: &str, list: Option<&'w OneOrMany<NumberText>>| {
+    let entries = |name: &str, list: &'w OneOrMany<NumberText>| {
         let path = Path::top("refine").then(name);
-        let texts = list.map_or(&[][..], OneOrMany::as_slice).iter().enumerate();
-        let entry = |(i, value)| Located { value, at: evaluator.alternative(&path, i) };
-        texts.map(entry).collect::<Vec<_>>()
+        let texts = list.as_slice().iter().enumerate();
+        texts.map(|(i, value)| Located { value, at: path.alternative(list, i) }).collect::<Vec<_>>()
     };
-    let mut all = entries(name, list);
-    all.extend(entries("full", further));
+    let mut all = list.map_or_else(Vec::new, |list| entries(name, list));
+    all.extend(further.into_iter().flat_map(|list| entries("full", list)));
     all
 }
 
@@ -207,7 +200,7 @@ fn steps(
             return Err(diagnostic.with_help("move it to `run`, or list several"));
         }
         (Some(value), None) => vec![Located { value, at: at_run }],
-        (None, Some(_)) => listed(evaluator, spec, Axis::Time, axis),
+        (None, Some(_)) => listed(spec, Axis::Time, axis),
     };
     let bind = |Located { value, at }: Located<&NumberText>| {
         Ok(Located { value: evaluator.formula(&at, value, &["h"])?, at })

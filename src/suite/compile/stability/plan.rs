@@ -71,7 +71,7 @@ fn sweep(
         .as_slice()
         .iter()
         .enumerate()
-        .map(|(i, text)| evaluator.number(&evaluator.alternative(&path, i), text))
+        .map(|(i, text)| evaluator.number(&path.alternative(list, i), text))
         .collect::<Result<Vec<f64>, _>>()?;
     if values.len() > MOST {
         let message = format!("{} values of one parameter", values.len());

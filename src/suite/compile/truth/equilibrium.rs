@@ -37,7 +37,7 @@ pub(crate) fn refuse(
         return Err(evaluator.diagnostic_at_key(&path, message));
     }
     if spec.run.until.as_slice().len() > 1 {
-        let at = evaluator.alternative(&Path::top("run").then("until"), 1);
+        let at = Path::top("run").then("until").alternative(&spec.run.until, 1);
         let message = "a body comes to rest once, under the loads at the end of its run";
         return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
     }
