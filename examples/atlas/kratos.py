@@ -34,8 +34,8 @@ class Kratos:
     name = "kratos-mpm"
     version = Km.KratosGlobals.Kernel.Version().split("-")[0]
 
-    def __init__(self, scheme: str, any_law: bool) -> None:
-        self.scheme = scheme
+    def __init__(self, scheme: str, search: float, any_law: bool) -> None:
+        self.scheme, self.search = scheme, search
         self.capabilities = {
             "dimensions": [2, 3], "laws": laws(["linear_elastic", "neo_hookean"], any_law),
             "conditions": ["free", "fixed", "roller"], "loads": ["gravity", "body_force"],
@@ -67,9 +67,13 @@ class Kratos:
             "analysis_type": "linear", "model_part_name": "MPM_Material",
             "grid_model_import_settings": {"input_type": "use_input_model_part"},
             "model_import_settings": {"input_type": "use_input_model_part"},
-            "time_stepping": {"time_step": 0.0}}""")
+            "time_stepping": {"time_step": 0.0},
+            "element_search_settings": {"search_algorithm_type": "bin_based",
+                "max_number_of_results": 1000, "searching_tolerance": 0.0,
+                "remove_entities_not_found": true}}""")
         settings.AddInt("domain_size", self.d)
         settings["time_stepping"]["time_step"].SetDouble(self.problem.dt)
+        settings["element_search_settings"]["searching_tolerance"].SetDouble(self.search)
         settings.AddString("scheme_type", "central_difference" if central else "forward_euler")
         settings.AddString("stress_update", "usf" if central else self.scheme)
         return settings
@@ -151,5 +155,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     schemes = ["usf", "usl", "musl", "central_difference"]
     parser.add_argument("--scheme", choices=schemes, default="usl")
+    parser.add_argument("--search", type=float, default=1e-5, help="how far beyond the faces of a "
+                        "cell a particle still counts as inside; Kratos' default is 1e-5")
     parser.add_argument("--any-law", action="store_true", help="where nothing deforms")
     serve(Kratos(**vars(parser.parse_args())))

@@ -22,14 +22,14 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String
     solver.map(Some).map_err(|reason| format!("error: --solver {command}: the solver {reason}"))
 }
 
-/// The suites with the solver in place of their methods. Those that refine nothing are left out.
+/// The suites with the solver in place of their methods. Those that look inside a method are left out.
 pub(super) fn judged(suites: Vec<Suite>, solver: &SolverProgram, gate: bool) -> Vec<Suite> {
     let mut judged = Vec::new();
     for suite in suites {
         match under(&suite, solver, gate) {
             Some(suite) => judged.push(suite),
             None => output::complain(&format!(
-                "note: {}: left out, since it is no convergence study",
+                "note: {}: left out, since it looks inside the methods of this crate",
                 suite.name
             )),
         }

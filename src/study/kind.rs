@@ -3,7 +3,7 @@
 use super::cache::results::ResultCache;
 use super::describe::profiles::Dispensable;
 use super::describe::statement::{Rows, head};
-use crate::external::SolverFactory;
+use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::Profile;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
@@ -21,6 +21,12 @@ pub type Progress<'a> = &'a (dyn Fn() + Sync);
 pub(crate) trait Study: StudyPlan {
     /// Rows of name and value that state the study.
     fn statement(&self) -> Rows;
+
+    /// Abilities that it asks of a solver that is not of this crate; none where there is no such
+    /// study of one.
+    fn needs(&self) -> Option<ProblemNeeds> {
+        None
+    }
 
     /// Profile of a step of the case with this index on the coarsest level, without one effect if
     /// that is wanted; none of a study without levels, and of a subject that gives none.
@@ -75,7 +81,29 @@ pub(crate) struct RunContext<'a> {
 
 impl RunContext<'_> {
     /// The cached result of `key`, which messages call `name`, or that of `run`, which is cached.
+    /// A result that is `broken` is not, of a solver that is not of this crate: one that breaks, or
+    /// says nothing for too long, may do better the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
+        &self,
+        key: &str,
+        name: &str,
+        broken: impl FnOnce(&T) -> bool,
+        run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
+    ) -> Result<T, String> {
+        let mut left = None;
+        let run = |store: &mut dyn CheckpointStore| {
+            let found = run(store)?;
+            if self.solver.is_none() || !broken(&found) {
+                return Ok(found);
+            }
+            left = Some(found);
+            Err(String::new())
+        };
+        let found = self.stored(key, name, run);
+        left.map_or(found, Ok)
+    }
+
+    fn stored<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
         name: &str,

@@ -63,6 +63,7 @@ pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{CaseOutcome, Convergence, LevelOutcome, StudyResults, SuiteOutcome};
+pub(crate) use stability::is_looked_at;
 pub use stability::{
     Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
     StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,

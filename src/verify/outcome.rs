@@ -168,6 +168,14 @@ impl CaseOutcome {
         }
     }
 
+    /// The outcome of a case that its solver cannot be put to: what it lacks, with a verb.
+    #[must_use]
+    pub(crate) fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
+        let verdict = "not applicable".to_owned();
+        let reason = format!("the solver {verb} {}", lacks.join(", "));
+        Self { verdict, reason, lacks, ..self }
+    }
+
     /// The expectation and its reason, in one line.
     pub fn expectation(&self) -> String {
         match &self.expected {

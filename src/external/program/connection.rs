@@ -20,7 +20,10 @@ use std::time::{Duration, Instant};
 const SHORT: usize = 1 << 20;
 
 /// Bytes of standard error that are kept.
-const LAST_WORDS: usize = 2000;
+const LAST_BYTES: usize = 2000;
+
+/// Lines of it that are told.
+const LAST_LINES: usize = 3;
 
 /// Time that a process has to end by itself.
 const GRACE: Duration = Duration::from_secs(1);
@@ -78,7 +81,7 @@ impl Connection {
             while let Ok(read @ 1..) = errors.read(&mut part) {
                 let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
                 kept.extend_from_slice(&part[..read]);
-                let surplus = kept.len().saturating_sub(LAST_WORDS);
+                let surplus = kept.len().saturating_sub(LAST_BYTES);
                 kept.drain(..surplus);
             }
         });
@@ -148,9 +151,21 @@ impl Connection {
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        match text.lines().rev().map(str::trim).find(|line| !line.is_empty()) {
-            Some(last) => format!("{reason}; its last words: {}", printable(last)),
-            None => reason,
+        // Of a trace of Python, these are the place, the line there and the error.
+        let says = |line: &&str| line.contains(char::is_alphanumeric);
+        let mut last: Vec<String> = text
+            .lines()
+            .rev()
+            .map(str::trim)
+            .filter(says)
+            .take(LAST_LINES)
+            .map(printable)
+            .collect();
+        last.reverse();
+        if last.is_empty() {
+            reason
+        } else {
+            format!("{reason}; its last words: {}", last.join(" | "))
         }
     }
 

@@ -73,6 +73,9 @@ impl ProgramSubject {
             samples.label.clone_from(&particles.reference_position);
             samples.velocity.clone_from(&particles.velocity);
             samples.weight.clone_from(&particles.reference_volume);
+            if hello.capabilities.columns.iter().any(|column| column == "stress") {
+                samples.stress.clone_from(&particles.stress);
+            }
             mass.clone_from(&particles.mass);
             bodies = Some(particles.body.iter().map(|body| *body as usize).collect());
         }

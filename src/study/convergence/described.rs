@@ -34,12 +34,7 @@ pub(crate) fn not_applicable(
     lacks: Vec<String>,
     verb: &str,
 ) -> CaseOutcome {
-    CaseOutcome {
-        verdict: "not applicable".to_owned(),
-        reason: format!("the solver {verb} {}", lacks.join(", ")),
-        lacks,
-        ..described(plan, case, None)
-    }
+    described(plan, case, None).not_applicable(lacks, verb)
 }
 
 /// The outcome of a case that could not be set up.

@@ -9,6 +9,7 @@ use super::small_step_reference::FineSteps;
 use super::stable_step::StableSteps;
 use super::{probe, statement};
 use crate::exact::{Problem, Truth};
+use crate::external::ProblemNeeds;
 use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
@@ -37,6 +38,10 @@ pub(crate) struct ConvergenceRunner<'a> {
 impl Study for ConvergencePlan {
     fn statement(&self) -> Rows {
         statement::rows(self)
+    }
+
+    fn needs(&self) -> Option<ProblemNeeds> {
+        Some(needs(self))
     }
 
     fn profile(&self, case: usize, without: Option<Dispensable>) -> Option<Profile> {
@@ -150,21 +155,12 @@ impl<'a> ConvergenceRunner<'a> {
         let RunContext { suite, fingerprint, .. } = self.context;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
-        // A solver that breaks, or says nothing for too long, may do better the next time.
-        let mut broken = None;
         let run = |store: &mut dyn CheckpointStore| {
             let make = || subject_under(self.context.solver, suite, plan, case, level);
-            let found = run_of(plan, truth, (&clock, store), make)?;
-            match found.failure.clone().filter(|_| self.context.solver.is_some()) {
-                None => Ok(found),
-                Some(reason) => {
-                    broken = Some(found);
-                    Err(reason)
-                }
-            }
+            run_of(plan, truth, (&clock, store), make)
         };
-        let found = self.context.cached(&key, &name, run);
-        let found = broken.map_or(found, Ok)?;
+        let broken = |found: &RunResult| found.failure.is_some();
+        let found = self.context.cached(&key, &name, broken, run)?;
         Ok(level_of(plan, level, clock.dt(), found))
     }
 

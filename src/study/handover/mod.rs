@@ -1,7 +1,8 @@
 //! A level of a study as a problem that any solver can be handed.
 //!
 //! ```text
-//! initial   particles, grid, faces, materials, steps at the start of a level
+//! initial   grid, faces, materials, forces and steps of a level
+//! particles the particles at its start
 //! exact     the exact state at a later time
 //! needs     what a solver must be able to do
 //! under     a suite with a solver in place of its methods
@@ -10,10 +11,14 @@
 mod exact;
 mod initial;
 mod needs;
+mod particles;
 mod under;
 
 pub use exact::exact_state;
 pub use initial::level_problem;
+pub(crate) use initial::{HandedRun, problem};
+pub(crate) use needs::of_scene;
 pub use needs::{lacking, needs};
+pub(crate) use particles::{is_deformed, start, unloaded};
 pub(crate) use under::subject_under;
 pub use under::under;

@@ -1,30 +1,41 @@
 //! Abilities that a suite asks of a solver.
 
-use super::initial::starts_deformed;
+use super::particles::starts_deformed;
 use crate::external::{ProblemNeeds, SolverFactory};
+use crate::study::kind::study;
 use crate::subject::PlaneState;
-use crate::suite::model::{ConvergencePlan, SceneFace, Suite};
+use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 use crate::verify::{Quantity, SumNeed};
 
 /// The needs of a convergence study.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
-    let scene = &plan.scene;
+    let mut needs = ProblemNeeds {
+        column: column(plan.of),
+        manufactured: plan.manufactured().is_some(),
+        initial_deformation: starts_deformed(plan),
+        ..of_scene(&plan.scene)
+    };
+    let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];
+    if plan.of.sum_need().is_some_and(|need| energy_or_wall.contains(&need)) {
+        needs.beyond.push("the judged energy or reaction");
+    }
+    needs
+}
+
+/// The needs of a scene, whatever is asked of it.
+pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
         laws: scene.each().iter().map(|body| body.material.name()).collect(),
         conditions: scene.faces.iter().map(SceneFace::condition).collect(),
         loads: scene.loads.iter().map(|load| load.effect.name()).collect(),
-        column: column(plan.of),
-        manufactured: plan.manufactured().is_some(),
-        initial_deformation: starts_deformed(plan),
         several_bodies: !scene.bodies.is_empty(),
-        beyond: Vec::new(),
+        ..ProblemNeeds::default()
     };
     for names in [&mut needs.laws, &mut needs.conditions, &mut needs.loads] {
         names.sort_unstable();
         names.dedup();
     }
-    let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];
     for (is_needed, what) in [
         (scene.contact.is_some(), "contact of bodies"),
         (scene.plane == PlaneState::Stress, "plane stress"),
@@ -36,10 +47,6 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
             "a body force of the displacement",
         ),
         (scene.loads.iter().any(|load| load.driven().is_some()), "driven sets"),
-        (
-            plan.of.sum_need().is_some_and(|need| energy_or_wall.contains(&need)),
-            "the judged energy or reaction",
-        ),
     ] {
         if is_needed {
             needs.beyond.push(what);
@@ -48,9 +55,9 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// Everything that `suite` needs and `solver` lacks; nothing of a study that refines nothing.
+/// Everything that `suite` needs and `solver` lacks; nothing of a study that is none of a solver.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
-    suite.plan().map_or(Vec::new(), |plan| solver.lacks(&needs(plan)))
+    study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
 /// The column that is judged, if it is none that every solver gives.

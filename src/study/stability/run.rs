@@ -1,5 +1,6 @@
 //! One case of a stability study: runs, predictions and limits, row by row.
 
+use super::handed;
 use crate::exact::Random;
 use crate::study::build::dispatch::{perturbable, stable_time_step_of};
 use crate::study::build::initial_state::Initial;
@@ -8,6 +9,8 @@ use crate::study::convergence::stable_step::ROUNDS;
 use crate::study::kind::RunContext;
 use crate::subject::{Perturbable, Subject};
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
+use crate::suite::model::Scene;
+use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::{StabilityCase, StabilityPlan};
 use crate::verify::{
@@ -65,21 +68,25 @@ impl CaseRun<'_> {
             setup.steps = setup.full_steps;
         }
         if let Some(share) = setup.rule {
-            let limit = bodies(&setup).iter().try_fold(f64::INFINITY, |least, body| {
-                Ok::<f64, String>(least.min(stable_time_step_of(
-                    body,
-                    self.case.method,
-                    setup.level,
-                    ROUNDS,
-                )?))
-            })?;
-            setup.dt = vec![share * limit];
+            setup.dt = vec![share * self.stable_time_step(&setup)?];
         }
         Ok(setup)
     }
 
+    /// The stable time step (s); of a solver that is not of this crate, the time that a wave takes
+    /// to cross a cell.
+    fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, String> {
+        let of_body = |body: &Body<'_>| match self.case.method {
+            Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
+            method => stable_time_step_of(body, method, setup.level, ROUNDS),
+        };
+        let all = bodies(setup, setup.scene.each());
+        all.iter().try_fold(f64::INFINITY, |least, body| Ok(least.min(of_body(body)?)))
+    }
+
     fn subject(&self, setup: &RunSetup) -> Result<Box<dyn Perturbable>, String> {
-        let mut subject = perturbable(&bodies(setup), self.case.method, setup.level)?;
+        let all = bodies(setup, setup.scene.each());
+        let mut subject = perturbable(&all, self.case.method, setup.level)?;
         if setup.frozen {
             subject.fix_configuration();
         }
@@ -95,7 +102,8 @@ impl CaseRun<'_> {
             values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         let name = format!("{suite}::{case}, {}", said.join(", "));
         let key = format!("{suite} {fingerprint:016x} {case} {extent:?} {values:?}");
-        self.context.cached(&key, &name, run)
+        let broken = |trial: &Trial| trial.verdict == Stability::Failed;
+        self.context.cached(&key, &name, broken, run)
     }
 
     fn run_keeping(
@@ -105,10 +113,11 @@ impl CaseRun<'_> {
     ) -> Result<Trial, String> {
         let setup = self.setup(values)?;
         let make = || -> Result<Box<dyn Subject>, String> {
-            let mut subject = self.subject(&setup)?;
-            if setup.perturb > 0.0 {
-                perturb(subject.as_mut(), &setup);
+            if let Some(solver) = self.context.solver {
+                return handed::subject(solver, self.context.suite, &setup);
             }
+            let mut subject = self.subject(&setup)?;
+            perturb(subject.as_mut(), &setup);
             Ok(subject)
         };
         resume_trial(make, &setup.dt, setup.steps, &setup.scales, keeper)
@@ -164,8 +173,8 @@ impl CaseRun<'_> {
     }
 }
 
-/// The bodies that a run starts from.
-fn bodies(setup: &RunSetup) -> Vec<Body<'_>> {
+/// The bodies that a run starts from, each in a scene of its own.
+pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
     let body = |own| Body {
         scene: &setup.scene,
         own,
@@ -175,11 +184,15 @@ fn bodies(setup: &RunSetup) -> Vec<Body<'_>> {
         keeps_deformation: false,
         lattice: setup.lattice.clone(),
     };
-    setup.scene.each().iter().map(body).collect()
+    each.iter().map(body).collect()
 }
 
-/// Adds a random number to each number of the state, so that no mode is left out.
-fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
+/// Adds a random number to each number of the state, so that no mode is left out, if the run starts
+/// so.
+pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
+    if !(setup.perturb > 0.0) {
+        return;
+    }
     let (mut state, mut sizes, mut random) = (Vec::new(), Vec::new(), Random::new(SEED));
     subject.state(&mut state);
     subject.sizes(setup.scales.speed, setup.scales.modulus, &mut sizes);

@@ -1,7 +1,8 @@
 //! Running a stability study: every row of every case, and the outcome.
 
 use super::run::CaseRun;
-use super::statement;
+use super::{handed, statement};
+use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::describe::statement::Rows;
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::suite::model::stability::StabilityPlan;
@@ -12,6 +13,11 @@ use std::sync::Arc;
 impl Study for StabilityPlan {
     fn statement(&self) -> Rows {
         statement::rows(self)
+    }
+
+    fn needs(&self) -> Option<ProblemNeeds> {
+        let setup = self.template.setup(&[(&self.swept, *self.values.first()?)]);
+        Some(handed::needs(&setup.ok()?))
     }
 
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
@@ -33,22 +39,54 @@ impl CaseRunner for StabilityRunner<'_> {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
         let run = CaseRun { plan, case, context };
+        let lacks = context.solver.map_or(Vec::new(), |solver| {
+            plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
+        });
+        if !lacks.is_empty() {
+            return described(&run).not_applicable(lacks, "lacks");
+        }
         let row = |value: &f64| {
             let row = run.row(*value);
             progress();
             row
         };
-        outcome(&run, plan.values.par_iter().map(row).collect())
+        let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
+        // What a solver says it cannot do is no fault of it.
+        let refused = rows.iter().find_map(|row| row.refused.clone());
+        match refused.filter(|_| context.solver.is_some()) {
+            Some(reason) => described(&run).not_applicable(vec![reason], "cannot be put to it:"),
+            None => outcome(&run, rows),
+        }
+    }
+}
+
+/// The part of an outcome that is known before the case runs.
+fn described(run: &CaseRun<'_>) -> CaseOutcome {
+    let case = run.case;
+    // Where no face is held, nothing is to be said of walls.
+    let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
+    let mut settings = case.method.settings();
+    settings.retain(|(key, _)| walls || key != "walls");
+    let mut all = run.context.solver.map_or(Vec::new(), SolverFactory::settings);
+    all.extend(settings);
+    CaseOutcome {
+        case: case.name.clone(),
+        subject: case.method.subject(),
+        settings: all,
+        profile: None,
+        expected: case.summary.clone(),
+        because: case.because.clone(),
+        verdict: String::new(),
+        reason: String::new(),
+        unmet: Vec::new(),
+        lacks: Vec::new(),
+        study: None,
     }
 }
 
 /// The outcome of a case, from its rows.
 fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
-    // Where no face is held, nothing is to be said of walls.
-    let mut settings = case.method.settings();
-    let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
-    settings.retain(|(key, _)| walls || key != "walls");
     let unmet: Vec<String> = case
         .expected
         .iter()
@@ -65,16 +103,10 @@ fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
         rows,
     };
     CaseOutcome {
-        case: case.name.clone(),
-        subject: "mpm",
-        settings,
-        profile: None,
-        expected: case.summary.clone(),
-        because: case.because.clone(),
         verdict: study.verdict(),
         reason: study.reason(),
         unmet,
-        lacks: Vec::new(),
         study: Some(Arc::new(study)),
+        ..described(run)
     }
 }

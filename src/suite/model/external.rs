@@ -1,6 +1,8 @@
 //! Suites under a solver that is not of this crate.
 
 use super::method::Method;
+use super::stability::{StabilityCase, StabilityPlan};
+use super::study_plan::StudyPlan;
 use super::{Against, Case, ConvergencePlan, Suite};
 use crate::subject::Precision;
 use crate::verify::{Axis, Expectation};
@@ -18,20 +20,44 @@ pub struct ExternalMethod<'a> {
 }
 
 impl Suite {
-    /// The same convergence study of one solver that is not of this crate; none of another kind of
-    /// study. Where the suite has cases of this solver, it has these only. Otherwise it has a case
-    /// for each of its truths and ends, of which the solver's formal order in h is expected if this
-    /// is a `gate`, and nothing if not.
+    /// The same study of one solver that is not of this crate; none of a study that looks inside a
+    /// method of this crate. Where a convergence study has cases of this solver, it has these only.
+    /// Otherwise it has a case for each of its truths and ends, of which the solver's formal order
+    /// in h is expected if this is a `gate`, and nothing if not. A stability study has one case, of
+    /// which nothing is expected.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
-        let mut plan = self.plan::<ConvergencePlan>()?.clone();
-        let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
-        if plan.cases.iter().any(is_stated) {
-            plan.cases.retain(is_stated);
-        } else {
-            plan.cases = unstated(&plan, solver, gate);
-        }
-        Some(Self { study: Arc::new(plan), ..self.clone() })
+        let study = self.study.of_external(solver, gate)?;
+        Some(Self { study, ..self.clone() })
     }
+}
+
+/// The convergence study `plan` of one solver.
+pub(super) fn convergence(
+    plan: &ConvergencePlan,
+    solver: ExternalMethod<'_>,
+    gate: bool,
+) -> Arc<dyn StudyPlan> {
+    let mut plan = plan.clone();
+    let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
+    if plan.cases.iter().any(is_stated) {
+        plan.cases.retain(is_stated);
+    } else {
+        plan.cases = unstated(&plan, solver, gate);
+    }
+    Arc::new(plan)
+}
+
+/// The stability study `plan` of one solver.
+pub(super) fn stability(plan: &StabilityPlan, solver: ExternalMethod<'_>) -> Arc<dyn StudyPlan> {
+    let ExternalMethod { name, formal_order, precision } = solver;
+    let case = StabilityCase {
+        name: name.to_owned(),
+        method: Method::External { formal_order, precision },
+        expected: Vec::new(),
+        summary: None,
+        because: String::new(),
+    };
+    Arc::new(StabilityPlan { cases: vec![case], ..plan.clone() })
 }
 
 /// A case of the solver for each truth and end.

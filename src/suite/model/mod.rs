@@ -19,6 +19,7 @@ pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use same_method::SameMethod;
 pub use scene::{Scene, SceneFace};
 
+use self::external::ExternalMethod;
 use self::lattice::LatticeOffsets;
 use self::method::Method;
 use self::refine_plan::{LevelPlan, RefinePlan};
@@ -223,6 +224,10 @@ impl StudyPlan for ConvergencePlan {
 
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
         Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    }
+
+    fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Arc<dyn StudyPlan>> {
+        Some(external::convergence(self, solver, gate))
     }
 }
 

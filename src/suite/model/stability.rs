@@ -1,5 +1,6 @@
 //! A stability study whose every word has been checked.
 
+use super::external::{self, ExternalMethod};
 use super::lattice::LatticeOffsets;
 use super::method::Method;
 use super::study_plan::{StudyPlan, kept};
@@ -72,5 +73,9 @@ impl StudyPlan for StabilityPlan {
 
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
         Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    }
+
+    fn of_external(&self, solver: ExternalMethod<'_>, _gate: bool) -> Option<Arc<dyn StudyPlan>> {
+        Some(external::stability(self, solver))
     }
 }

@@ -1,5 +1,6 @@
 //! Plan of a study, of any kind.
 
+use super::external::ExternalMethod;
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -18,6 +19,12 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
 
     /// The same study of those cases only whose index `keep` holds for.
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
+
+    /// The same study of one solver that is not of this crate; none of a study that looks inside a
+    /// method of this crate.
+    fn of_external(&self, _solver: ExternalMethod<'_>, _gate: bool) -> Option<Arc<dyn StudyPlan>> {
+        None
+    }
 }
 
 /// The members of a list whose index `keep` holds for.

@@ -69,7 +69,7 @@ impl Gate {
 /// # Errors
 /// One line that says why the solver cannot be put to it.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
-    let suite = under(suite, solver, true).ok_or("it is no convergence study")?;
+    let suite = under(suite, solver, true).ok_or("it looks inside the methods of this crate")?;
     match lacking(&suite, solver) {
         lacks if lacks.is_empty() => Ok(suite),
         lacks => Err(format!("the solver lacks {}", lacks.join(", "))),

@@ -27,6 +27,7 @@ pub use figure::RunFigure;
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
 pub use radius::{Radius, spectral_radius};
+pub(crate) use trial::is_looked_at;
 pub use trial::{resume_trial, trial};
 pub use trial_result::{Scales, Trial};
 pub use verdict::Stability;

@@ -20,6 +20,11 @@ use crate::verify::error::norm::larger;
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
+/// Whether the state after a step is looked at.
+pub(crate) fn is_looked_at(step: u64, steps: u64) -> bool {
+    step <= FIRST || step.is_multiple_of(EVERY) || step == steps
+}
+
 /// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
 /// unstable or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
@@ -59,7 +64,7 @@ fn go(
         if let Err(failure) = subject.step(dt) {
             return monitor.failed(subject, step, &failure);
         }
-        if step <= FIRST || step % EVERY == 0 || step == steps {
+        if is_looked_at(step, steps) {
             monitor.look(subject);
             if !(monitor.energy <= scales.unstable_above) {
                 return monitor.grown(subject, step);

@@ -32,6 +32,10 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
     "echo 'out of cheese' >&2; echo 'first'",
     "`first`; its last words: out of cheese"
 )]
+#[case::a_trace(
+    "printf 'Trace:\\n  File \"a.py\", line 7, in step\\n    x / y\\n    ~~^~~\\nZeroDivisionError: zero\\n' >&2; exit 1",
+    "; its last words: File \"a.py\", line 7, in step | x / y | ZeroDivisionError: zero"
+)]
 #[case::garbage(
     "echo hello there",
     "answered with what is no message (what else it prints belongs on its standard error): `hello"

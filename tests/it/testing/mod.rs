@@ -3,5 +3,6 @@
 mod conformance;
 mod harness;
 mod own_solver;
+mod stability;
 
 pub(crate) use own_solver::OwnSolver;

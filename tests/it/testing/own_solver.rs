@@ -1,7 +1,7 @@
 //! The solver of `examples/own_solver`, held to ours: its algorithm is the same.
 
 #[path = "../../../examples/own_solver/solver.rs"]
-mod solver;
+pub(crate) mod solver;
 #[path = "../../../examples/own_solver/subject.rs"]
 mod subject;
 

@@ -1,0 +1,94 @@
+//! Particles at the start of a run.
+
+use crate::dimension::with_dimension;
+use crate::external::ProblemParticles;
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector};
+use crate::study::build::setup::{Body, setup};
+use crate::subject::{Perturbable, Start};
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{ConvergencePlan, Scene};
+
+/// The particles of a level at the start.
+pub(super) fn particles(
+    plan: &ConvergencePlan,
+    level: LevelPlan,
+) -> Result<ProblemParticles, String> {
+    let bare = unloaded(&plan.scene);
+    let body = |own| Body { manufactured: None, keeps_deformation: true, ..Body::of(plan, own) };
+    let bodies: Vec<Body<'_>> = bare.iter().map(body).collect();
+    start(&bodies, level, &mut |_| ())
+}
+
+/// The bodies of a scene without their loads, which do not change an initial state.
+pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
+    scene.each().iter().map(|own| Scene { loads: Vec::new(), ..own.clone() }).collect()
+}
+
+/// The particles of all bodies, with the stress that each law gives the deformation at the start,
+/// as `disturb` leaves them.
+///
+/// # Errors
+/// One line that says why there is no such start.
+pub(crate) fn start(
+    bodies: &[Body<'_>],
+    level: LevelPlan,
+    disturb: &mut dyn FnMut(&mut dyn Perturbable),
+) -> Result<ProblemParticles, String> {
+    let dimension = bodies.first().map_or(1, |body| body.scene.dimension());
+    with_dimension!(dimension, D => started::<D>(bodies, level, disturb))
+}
+
+fn started<const D: usize>(
+    bodies: &[Body<'_>],
+    level: LevelPlan,
+    disturb: &mut dyn FnMut(&mut dyn Perturbable),
+) -> Result<ProblemParticles, String> {
+    // Of a method that keeps nothing to itself.
+    let method = Method::Mpm {
+        basis: BasisName::Linear,
+        transfer: TransferName::Flip.into(),
+        scheme: SchemeName::Usl,
+        start: Start::AtZero,
+        mass: MassName::Lumped,
+        frame: FrameName::Updated,
+    };
+    let mut all = ProblemParticles::default();
+    for (number, body) in bodies.iter().enumerate() {
+        let solver = Solver::<D>::new(setup(body, method, level)?);
+        let mut solver = solver.map_err(|failure| failure.to_string())?;
+        disturb(&mut solver);
+        let particles = solver.particles();
+        let flat = |vectors: &[Vector<D>]| vectors.iter().flatten().copied().collect::<Vec<_>>();
+        all.reference_position.extend(flat(&particles.x0));
+        all.position.extend(flat(&particles.x));
+        all.velocity.extend(flat(&particles.v));
+        all.mass.extend(&particles.mass);
+        all.reference_volume.extend(&particles.vol0);
+        all.volume.extend(&particles.vol);
+        for (into, tensors) in [
+            (&mut all.deformation_gradient, &particles.def_grad),
+            (&mut all.stress, &particles.sigma),
+        ] {
+            // Algebra stores columns.
+            into.extend(tensors.iter().flat_map(|tensor| tensor.transpose().data.0).flatten());
+        }
+        all.body.extend(vec![number as f64; particles.x0.len()]);
+    }
+    Ok(all)
+}
+
+/// Whether a particle of the coarsest level starts displaced, or with another F than I.
+pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
+    let level = plan.refine.levels.first();
+    // A level that cannot be handed over says so where that is tried.
+    let start = level.and_then(|level| particles(plan, *level).ok());
+    start.is_some_and(|start| is_deformed(&start, plan.scene.dimension()))
+}
+
+/// Whether a particle is displaced, or has another F than I.
+pub(crate) fn is_deformed(start: &ProblemParticles, d: usize) -> bool {
+    let identity = |k: usize| f64::from(u8::from(k / d == k % d));
+    let mut f = start.deformation_gradient.iter().enumerate();
+    start.position != start.reference_position || f.any(|(k, f)| *f != identity(k % (d * d)))
+}

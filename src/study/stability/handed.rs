@@ -1,0 +1,66 @@
+//! A run of a stability study, handed to a solver that is not of this crate.
+
+use super::run::{bodies, perturb};
+use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
+use crate::study::handover::{HandedRun, is_deformed, of_scene, problem, start, unloaded};
+use crate::subject::{Perturbable, Samples, Subject};
+use crate::suite::compile::stability::setup::RunSetup;
+use crate::verify::is_looked_at;
+
+/// The needs of a run.
+pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
+    let start = handed("", setup).map(|problem| problem.particles);
+    let mut needs = ProblemNeeds {
+        // The energy that a trial watches is partly stored.
+        column: Some("stress"),
+        // A run that cannot be handed over says so where that is tried.
+        initial_deformation: start.is_ok_and(|start| is_deformed(&start, setup.scene.dimension())),
+        ..of_scene(&setup.scene)
+    };
+    for (is_needed, what) in [
+        (setup.frozen, "a configuration that no step changes"),
+        (setup.dt.len() > 1, "steps of two lengths"),
+        (setup.scales.null_space, "the energy in the null space"),
+    ] {
+        if is_needed {
+            needs.beyond.push(what);
+        }
+    }
+    needs
+}
+
+/// The solver at the start of a run of the suite called `suite`.
+///
+/// # Errors
+/// One line that says why it cannot be watched.
+pub(super) fn subject(
+    solver: &dyn SolverFactory,
+    suite: &str,
+    setup: &RunSetup,
+) -> Result<Box<dyn Subject>, String> {
+    let subject = solver.subject(handed(suite, setup)?)?;
+    let mut samples = Samples::default();
+    subject.sample(&mut samples);
+    // Without either, an energy that grows would look like one that does not.
+    match (subject.totals(), samples.stress.is_empty()) {
+        (None, _) => Err("it gives no totals, of which the kinetic energy is watched".to_owned()),
+        (_, true) => Err("it gives no stress at the start, of which energy is watched".to_owned()),
+        _ => Ok(subject),
+    }
+}
+
+/// The problem of a run of the suite called `suite`. Its state is compared where a trial looks at
+/// it.
+///
+/// # Errors
+/// One line that says why there is none.
+fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, String> {
+    let dt = *setup.dt.first().ok_or("the run has no time step")?;
+    let bare = unloaded(&setup.scene);
+    let mut disturb = |subject: &mut dyn Perturbable| perturb(subject, setup);
+    let particles = start(&bodies(setup, &bare), setup.level, &mut disturb)?;
+    let steps = setup.steps;
+    let instants = (1..=steps).filter(|step| is_looked_at(*step, steps)).collect();
+    let run = HandedRun { steps, dt, until: steps as f64 * dt, instants, particles };
+    Ok(problem(suite, &setup.scene, None, setup.level, run))
+}
