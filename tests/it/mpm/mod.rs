@@ -5,5 +5,6 @@ mod heat;
 mod kernel;
 mod null_space;
 mod reaction;
+mod second_opinion;
 mod tls;
 mod traction;
