@@ -95,6 +95,33 @@ fn a_plateau_of_another_axis_is_a_floor_and_the_order_before_is_kept() {
     assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.03);
 }
 
+/// Levels whose spacings have this ratio, from 1 on, with errors of order 2.
+fn levels_by(ratio: f64, levels: usize) -> Vec<Level> {
+    let spacing = |k: usize| libm::pow(ratio, -(k as f64));
+    (0..levels).map(|k| Level::new(spacing(k), spacing(k) * spacing(k))).collect()
+}
+
+#[rstest]
+#[case::thirds(3.0, 1e-12)]
+#[case::hardly_finer(1.0001, 1e-9)]
+fn any_ratio_of_spacings_has_its_order(#[case] ratio: f64, #[case] rounding: f64) {
+    let judgement = judge(&levels_by(ratio, 6), &OrderHypothesis::formal(2.0));
+    assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    let order = judgement.order.unwrap();
+    assert!((order.low - 2.0).abs().max((order.high - 2.0).abs()) <= rounding, "{order:?}");
+}
+
+/// A percent of noise is an order of a hundred where a level is finer by a ten-thousandth.
+#[test]
+fn noise_on_levels_that_are_hardly_finer_does_not_pass() {
+    for seed in 1..1000 {
+        let mut series = levels_by(1.0001, 6);
+        Random(seed).disturb(&mut series, 0.01);
+        let judgement = judge(&series, &OrderHypothesis::formal(2.0));
+        assert_ne!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
+    }
+}
+
 #[test]
 fn a_superconvergent_first_pair_is_left_out_of_the_window() {
     let judgement = judged(&[16.0, 1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25], 2.0);
