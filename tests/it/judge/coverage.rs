@@ -12,6 +12,9 @@ use mpm_verify::verify::{Level, OrderHypothesis, judge, two_sided_95};
 const SOME: usize = 5_000;
 const MANY: usize = 100_000;
 
+/// Points of the midpoint rule for Imhof's integral over u, with u = s/(1 - s).
+const POINTS: usize = 100_000;
+
 /// Cells along a bar of length 25, in two plans of refinement.
 const HALVINGS: [f64; 8] = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
 const UNEQUAL: [f64; 8] = [5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 120.0, 160.0];
@@ -148,8 +151,6 @@ fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
         DMatrix::from_fn(levels, levels, |i, k| libm::pow(correlation, i.abs_diff(k) as f64));
     let root = covariance.cholesky().expect("positive definite").unpack();
     let eigenvalues = (root.transpose() * form * &root).symmetric_eigenvalues();
-    // u = s/(1 - s), by the midpoint rule.
-    const POINTS: usize = 100_000;
     let integrand = |k: usize| {
         let s = (k as f64 + 0.5) / POINTS as f64;
         let u = s / (1.0 - s);
