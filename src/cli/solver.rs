@@ -22,7 +22,8 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String
     solver.map(Some).map_err(|reason| format!("error: --solver {command}: the solver {reason}"))
 }
 
-/// The suites with the solver in place of their methods. Those that look inside a method are left out.
+/// The suites with the solver in place of their methods; those that look inside a method are left
+/// out.
 pub(super) fn judged(suites: Vec<Suite>, solver: &SolverProgram, gate: bool) -> Vec<Suite> {
     let mut judged = Vec::new();
     for suite in suites {

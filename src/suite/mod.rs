@@ -16,7 +16,7 @@ pub(crate) mod model;
 pub mod yaml;
 
 pub use grammar::{CrossingLevels, EquationName, NormName};
-pub use model::external::ExternalMethod;
+pub use model::external_method::ExternalMethod;
 pub use model::heat::SceneHeat;
 pub use model::load::EffectName;
 pub use model::method::Method;

@@ -8,6 +8,7 @@ pub(crate) mod interface;
 pub(crate) mod loading;
 pub(crate) mod pointwise;
 pub(crate) mod rims;
+pub(crate) mod space_time_patch;
 pub(crate) mod weak;
 
 use super::linearised::Linearised;

@@ -7,6 +7,7 @@
 //! `R dX` in the place of dX, and less `P_tT phi` in the radial component.
 
 use super::distinct::DistinctPlaces;
+use super::space_time_patch::{Raster, SpaceTimePatch, bump, labels};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -31,143 +32,23 @@ const TOLERANCE: f64 = 0.005;
 /// Longest patch, in times that a wave takes through the body: the points below must resolve it.
 const WAVES: f64 = 4.0;
 
-/// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
-/// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten
-/// points on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07
-/// %.
-pub(crate) struct SpaceTimePatch {
-    pub(crate) centre: Vec<f64>,
-    half: Vec<f64>,
-}
-
-impl SpaceTimePatch {
-    fn draw(random: &mut Random, problem: &Problem) -> Self {
-        let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
-        match &problem.outline {
-            None => Self::in_box(random, ends, problem.until, longest),
-            Some(outline) => {
-                let place = outline.patch(random);
-                Self::over(random, place, problem.until, longest)
-            }
-        }
-    }
-
-    /// A patch in a box, of a run until `until` (s), none longer than `longest` (s).
-    pub(crate) fn in_box(
-        random: &mut Random,
-        (from, to): (&[f64], &[f64]),
-        until: f64,
-        longest: f64,
-    ) -> Self {
-        let ends = from.iter().zip(to);
-        let place = ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
-        Self::over(random, place, until, longest)
-    }
-
-    fn over(
-        random: &mut Random,
-        (mut centre, mut half): (Vec<f64>, Vec<f64>),
-        until: f64,
-        longest: f64,
-    ) -> Self {
-        let (middle, duration) = interval(random, 0.0, until, longest);
-        centre.push(middle);
-        half.push(duration);
-        Self { centre, half }
-    }
-
-    /// Sums of the terms, by the midpoint rule. Where they balance closely on half of the points on
-    /// each axis, these do; they are the fourth to the sixteenth part.
-    pub(crate) fn integrate<const N: usize>(
-        &self,
-        sums_on: impl Fn(Raster) -> [Sums; N],
-    ) -> [Sums; N] {
-        let d = self.centre.len() - 1;
-        let per_axis = [0, 64, 20, 10][d];
-        let coarse = sums_on(self.raster(per_axis / 2));
-        if coarse.iter().all(|sums| sums.imbalance_within(TOLERANCE / 2.0)) {
-            return coarse;
-        }
-        sums_on(self.raster(per_axis))
-    }
-
-    fn raster(&self, per_axis: usize) -> Raster {
-        let d = self.centre.len() - 1;
-        let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
-        let point = |k: usize| {
-            let of_axes = axes.iter().scan(k, |k, axis| {
-                let point = axis[*k % per_axis];
-                *k /= per_axis;
-                Some(point)
-            });
-            of_axes.collect()
-        };
-        let points = (0..per_axis.pow(d as u32)).map(point).collect();
-        Raster { points, times: self.axis(d, per_axis) }
-    }
-
-    /// Equally spaced points on the axis `a`, time being the last one.
-    fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
-        let point = |index: usize| {
-            let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
-            let inside = 1.0 - xi * xi;
-            AxisPoint {
-                at: self.centre[a] + self.half[a] * xi,
-                factor: inside * inside * inside,
-                slope: -6.0 * xi * inside * inside / self.half[a],
-            }
-        };
-        (0..points).map(point).collect()
-    }
-}
-
-/// Points of the midpoint rule on a patch.
-pub(crate) struct Raster {
-    /// Those in space, the first axis running fastest.
-    pub(crate) points: Vec<Vec<AxisPoint>>,
-    /// Those in time, for each of them.
-    pub(crate) times: Vec<AxisPoint>,
-}
-
-/// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
-/// derivative.
-#[derive(Clone, Copy)]
-pub(crate) struct AxisPoint {
-    pub(crate) at: f64,
-    factor: f64,
-    slope: f64,
-}
-
-/// The places of the points of a raster (m).
-pub(crate) fn labels(points: &[Vec<AxisPoint>]) -> Vec<Vec<f64>> {
-    points.iter().map(|point| point.iter().map(|on_axis| on_axis.at).collect()).collect()
-}
-
-/// phi and its derivatives along every axis, where the points of all axes meet.
-pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
-    let factors = |except: usize| {
-        let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
-        others.map(|(_, point)| point.factor).product::<f64>()
-    };
-    let mut slope = [0.0; 4];
-    for (a, point) in points.iter().enumerate() {
-        slope[a] = point.slope * factors(a);
-    }
-    (factors(points.len()), slope)
-}
-
-/// Middle and half-length of a random part of an interval, none longer than `longest`.
-fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
-    let width = (high - low).min(longest) * random.between(0.2, 1.0);
-    let start = low + (high - low - width) * random.unit();
-    (start + 0.5 * width, 0.5 * width)
-}
-
 /// Time that a wave takes through the body, on its longest axis.
 fn crossing(problem: &Problem) -> f64 {
     let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
     let longest = lengths.fold(0.0, f64::max);
     longest / problem.wave_speed()
+}
+
+/// A random patch of the body.
+fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
+    let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+    match &problem.outline {
+        None => SpaceTimePatch::in_box(random, ends, problem.until, longest),
+        Some(outline) => {
+            let place = outline.patch(random);
+            SpaceTimePatch::over(random, place, problem.until, longest)
+        }
+    }
 }
 
 /// Checks the balance of momentum on random patches.
@@ -176,9 +57,23 @@ pub(crate) fn momentum(problem: &Problem) -> Result<(), Violation> {
     let heat = problem.heat.as_ref();
     let smooth = problem.motion.is_smooth() && heat.is_none_or(|heat| heat.temperature.is_smooth());
     for _ in 0..patches(smooth) {
-        balance(problem, &SpaceTimePatch::draw(&mut random, problem))?;
+        balance(problem, &draw(&mut random, problem))?;
     }
     Ok(())
+}
+
+/// Sums of the terms over a patch, by the midpoint rule. Where they balance closely on half of the
+/// points on each axis, these do; they are the fourth to the sixteenth part.
+pub(crate) fn integrate<const N: usize>(
+    patch: &SpaceTimePatch,
+    sums_on: impl Fn(&Raster) -> [Sums; N],
+) -> [Sums; N] {
+    let per_axis = [0, 64, 20, 10][patch.dimension()];
+    let coarse = sums_on(&patch.raster(per_axis / 2));
+    if coarse.iter().all(|sums| sums.imbalance_within(TOLERANCE / 2.0)) {
+        return coarse;
+    }
+    sums_on(&patch.raster(per_axis))
 }
 
 /// The sums of one component over a patch.
@@ -220,10 +115,10 @@ fn balance(problem: &Problem, patch: &SpaceTimePatch) -> Result<(), Violation> {
     let condition = "momentum balance across wave fronts (the equation of motion";
     let centre = (&patch.centre[..d], problem.loaded(patch.centre[d]));
     let only_first = !problem.force_is_of_second_order();
-    let mut balances = patch.integrate(|raster| sums(problem, &raster, only_first));
+    let mut balances = integrate(patch, |raster| sums(problem, raster, only_first));
     // What is constant where a root has an infinite slope has a derivative in jets only.
     if balances.iter().any(|sums| !sums.size.is_finite()) {
-        balances = patch.integrate(|raster| sums(problem, &raster, false));
+        balances = integrate(patch, |raster| sums(problem, raster, false));
     }
     balances[..d].iter().try_for_each(|sums| sums.judge(condition, centre))
 }

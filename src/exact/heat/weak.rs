@@ -5,7 +5,8 @@
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
 
 use super::problem::Conduction;
-use crate::exact::check::weak::{Raster, SpaceTimePatch, Sums, bump, labels, patches};
+use crate::exact::check::space_time_patch::{Raster, SpaceTimePatch, bump, labels};
+use crate::exact::check::weak::{Sums, integrate, patches};
 use crate::exact::motion::{Derivatives, Motion};
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
@@ -28,7 +29,7 @@ fn on_patch(problem: &Conduction, patch: &SpaceTimePatch) -> Result<(), Violatio
     let centre = (&patch.centre[..d], patch.centre[d]);
     // A constant temperature stores nothing: without it the terms are those that matter.
     let middle = problem.temperature.at(centre.0, centre.1);
-    let [sums] = patch.integrate(|raster| [sums(problem, &raster, middle)]);
+    let [sums] = integrate(patch, |raster| [sums(problem, raster, middle)]);
     sums.judge("heat balance across kinks (the heat equation", centre)
 }
 

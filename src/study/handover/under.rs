@@ -4,7 +4,7 @@ use super::level_problem;
 use crate::external::SolverFactory;
 use crate::study::build::dispatch::subject;
 use crate::subject::Subject;
-use crate::suite::model::external::ExternalMethod;
+use crate::suite::model::external_method::ExternalMethod;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 

@@ -1,6 +1,6 @@
 //! A run of a stability study, handed to a solver that is not of this crate.
 
-use super::run::{bodies, perturb};
+use super::start::{bodies, perturb};
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use crate::study::handover::{HandedRun, is_deformed, of_scene, problem, start, unloaded};
 use crate::subject::{Perturbable, Samples, Subject};

@@ -3,4 +3,5 @@
 mod handed;
 pub(crate) mod run;
 pub(crate) mod runner;
+mod start;
 pub(crate) mod statement;

@@ -1,15 +1,13 @@
 //! One case of a stability study: runs, predictions and limits, row by row.
 
 use super::handed;
-use crate::exact::Random;
+use super::start::{bodies, perturb};
 use crate::study::build::dispatch::{perturbable, stable_time_step_of};
-use crate::study::build::initial_state::Initial;
 use crate::study::build::setup::Body;
 use crate::study::convergence::stable_step::ROUNDS;
 use crate::study::kind::RunContext;
 use crate::subject::{Perturbable, Subject};
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
-use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::{StabilityCase, StabilityPlan};
@@ -34,9 +32,6 @@ const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
 /// Effect of rounding on an eigenvalue of one with too few eigenvectors (rigid motion has one).
 const DEFECT: f64 = 1e-5;
-
-/// Seed of the perturbations at the start.
-const SEED: u64 = 8;
 
 /// One case of a study.
 pub(super) struct CaseRun<'a> {
@@ -171,33 +166,4 @@ impl CaseRun<'_> {
         let confirmed = shares.into_iter().map(confirm).collect::<Result<_, String>>()?;
         Ok(Critical { predicted: Some(Prediction { limit, leaves }), confirmed, observed: None })
     }
-}
-
-/// The bodies that a run starts from, each in a scene of its own.
-pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
-    let body = |own| Body {
-        scene: &setup.scene,
-        own,
-        initial: Initial::stated(own),
-        manufactured: None,
-        heat: None,
-        keeps_deformation: false,
-        lattice: setup.lattice.clone(),
-    };
-    each.iter().map(body).collect()
-}
-
-/// Adds a random number to each number of the state, so that no mode is left out, if the run starts
-/// so.
-pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
-    if !(setup.perturb > 0.0) {
-        return;
-    }
-    let (mut state, mut sizes, mut random) = (Vec::new(), Vec::new(), Random::new(SEED));
-    subject.state(&mut state);
-    subject.sizes(setup.scales.speed, setup.scales.modulus, &mut sizes);
-    for (number, size) in state.iter_mut().zip(&sizes) {
-        *number += setup.perturb * size * random.between(-1.0, 1.0);
-    }
-    subject.set_state(&state);
 }

@@ -1,23 +1,9 @@
 //! Suites under a solver that is not of this crate.
 
+use super::external_method::ExternalMethod;
 use super::method::Method;
-use super::stability::{StabilityCase, StabilityPlan};
-use super::study_plan::StudyPlan;
 use super::{Against, Case, ConvergencePlan, Suite};
-use crate::subject::Precision;
 use crate::verify::{Axis, Expectation};
-use std::sync::Arc;
-
-/// A solver that is not of this crate, by its own account.
-#[derive(Debug, Clone, Copy)]
-pub struct ExternalMethod<'a> {
-    /// Its name, which becomes that of its cases.
-    pub name: &'a str,
-    /// Order in h that theory gives its displacements.
-    pub formal_order: f64,
-    /// Precision of its numbers.
-    pub precision: Precision,
-}
 
 impl Suite {
     /// The same study of one solver that is not of this crate; none of a study that looks inside a
@@ -31,33 +17,18 @@ impl Suite {
     }
 }
 
-/// The convergence study `plan` of one solver.
-pub(super) fn convergence(
-    plan: &ConvergencePlan,
-    solver: ExternalMethod<'_>,
-    gate: bool,
-) -> Arc<dyn StudyPlan> {
-    let mut plan = plan.clone();
-    let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
-    if plan.cases.iter().any(is_stated) {
-        plan.cases.retain(is_stated);
-    } else {
-        plan.cases = unstated(&plan, solver, gate);
+impl ConvergencePlan {
+    /// The study of one solver.
+    pub(super) fn under(&self, solver: ExternalMethod<'_>, gate: bool) -> Self {
+        let mut plan = self.clone();
+        let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
+        if plan.cases.iter().any(is_stated) {
+            plan.cases.retain(is_stated);
+        } else {
+            plan.cases = unstated(&plan, solver, gate);
+        }
+        plan
     }
-    Arc::new(plan)
-}
-
-/// The stability study `plan` of one solver.
-pub(super) fn stability(plan: &StabilityPlan, solver: ExternalMethod<'_>) -> Arc<dyn StudyPlan> {
-    let ExternalMethod { name, formal_order, precision } = solver;
-    let case = StabilityCase {
-        name: name.to_owned(),
-        method: Method::External { formal_order, precision },
-        expected: Vec::new(),
-        summary: None,
-        because: String::new(),
-    };
-    Arc::new(StabilityPlan { cases: vec![case], ..plan.clone() })
 }
 
 /// A case of the solver for each truth and end.

@@ -2,6 +2,7 @@
 
 pub(crate) mod boundary;
 pub(crate) mod external;
+pub(crate) mod external_method;
 pub(crate) mod fingerprint;
 pub(crate) mod grid_size;
 pub(crate) mod heat;
@@ -19,7 +20,7 @@ pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use same_method::SameMethod;
 pub use scene::{Scene, SceneFace};
 
-use self::external::ExternalMethod;
+use self::external_method::ExternalMethod;
 use self::lattice::LatticeOffsets;
 use self::method::Method;
 use self::refine_plan::{LevelPlan, RefinePlan};
@@ -227,7 +228,7 @@ impl StudyPlan for ConvergencePlan {
     }
 
     fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Arc<dyn StudyPlan>> {
-        Some(external::convergence(self, solver, gate))
+        Some(Arc::new(self.under(solver, gate)))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Plan of a study, of any kind.
 
-use super::external::ExternalMethod;
+use super::external_method::ExternalMethod;
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;

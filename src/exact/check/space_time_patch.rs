@@ -1,0 +1,117 @@
+//! Patches of space and time with a bump on each, and the points of the midpoint rule on them.
+
+use crate::exact::random::Random;
+
+/// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
+/// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten
+/// points on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07
+/// %.
+pub(crate) struct SpaceTimePatch {
+    pub(crate) centre: Vec<f64>,
+    half: Vec<f64>,
+}
+
+impl SpaceTimePatch {
+    /// Number of dimensions of space.
+    pub(super) fn dimension(&self) -> usize {
+        self.centre.len() - 1
+    }
+
+    /// A patch in a box, of a run until `until` (s), none longer than `longest` (s).
+    pub(crate) fn in_box(
+        random: &mut Random,
+        (from, to): (&[f64], &[f64]),
+        until: f64,
+        longest: f64,
+    ) -> Self {
+        let ends = from.iter().zip(to);
+        let place = ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
+        Self::over(random, place, until, longest)
+    }
+
+    /// A patch over a place, its middle and its half-lengths (m), of a run until `until` (s), none
+    /// longer than `longest` (s).
+    pub(super) fn over(
+        random: &mut Random,
+        (mut centre, mut half): (Vec<f64>, Vec<f64>),
+        until: f64,
+        longest: f64,
+    ) -> Self {
+        let (middle, duration) = interval(random, 0.0, until, longest);
+        centre.push(middle);
+        half.push(duration);
+        Self { centre, half }
+    }
+
+    /// Points of the midpoint rule, `per_axis` of them on each axis.
+    pub(super) fn raster(&self, per_axis: usize) -> Raster {
+        let d = self.dimension();
+        let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
+        let point = |k: usize| {
+            let of_axes = axes.iter().scan(k, |k, axis| {
+                let point = axis[*k % per_axis];
+                *k /= per_axis;
+                Some(point)
+            });
+            of_axes.collect()
+        };
+        let points = (0..per_axis.pow(d as u32)).map(point).collect();
+        Raster { points, times: self.axis(d, per_axis) }
+    }
+
+    /// Equally spaced points on the axis `a`, time being the last one.
+    fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
+        let point = |index: usize| {
+            let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
+            let inside = 1.0 - xi * xi;
+            AxisPoint {
+                at: self.centre[a] + self.half[a] * xi,
+                factor: inside * inside * inside,
+                slope: -6.0 * xi * inside * inside / self.half[a],
+            }
+        };
+        (0..points).map(point).collect()
+    }
+}
+
+/// Points of the midpoint rule on a patch.
+pub(crate) struct Raster {
+    /// Those in space, the first axis running fastest.
+    pub(crate) points: Vec<Vec<AxisPoint>>,
+    /// Those in time, for each of them.
+    pub(crate) times: Vec<AxisPoint>,
+}
+
+/// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
+/// derivative.
+#[derive(Clone, Copy)]
+pub(crate) struct AxisPoint {
+    pub(crate) at: f64,
+    factor: f64,
+    slope: f64,
+}
+
+/// The places of the points of a raster (m).
+pub(crate) fn labels(points: &[Vec<AxisPoint>]) -> Vec<Vec<f64>> {
+    points.iter().map(|point| point.iter().map(|on_axis| on_axis.at).collect()).collect()
+}
+
+/// phi and its derivatives along every axis, where the points of all axes meet.
+pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
+    let factors = |except: usize| {
+        let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
+        others.map(|(_, point)| point.factor).product::<f64>()
+    };
+    let mut slope = [0.0; 4];
+    for (a, point) in points.iter().enumerate() {
+        slope[a] = point.slope * factors(a);
+    }
+    (factors(points.len()), slope)
+}
+
+/// Middle and half-length of a random part of an interval, none longer than `longest`.
+fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
+    let width = (high - low).min(longest) * random.between(0.2, 1.0);
+    let start = low + (high - low - width) * random.unit();
+    (start + 0.5 * width, 0.5 * width)
+}
