@@ -5,29 +5,16 @@
 //! `{"suite": "oedometer", "load": null, "cases": [["mpm-linear-flip-musl", "order", "expected ..."]],
 //! "drift": false}`.
 
+mod gate;
+
+use gate::gate;
 use mpm_verify::report;
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::verify::{CaseOutcome, InternalForce, StabilityStudy, SuiteOutcome};
+use mpm_verify::verify::SuiteOutcome;
 use std::path::Path;
 use std::{env, fs};
-
-/// Gates of convergence studies by the first words of what they say; the first that fits.
-const GATES: [(&str, &str); 12] = [
-    ("expected the order within", "order"),
-    ("expected the finest pair's order", "order"),
-    ("expected the verdict", "verdict"),
-    ("expected every level to run", "verdict"),
-    ("expected the floor", "verdict"),
-    ("expected some crossings", "bound"),
-    ("expected no crossings", "bound"),
-    ("expected drift of energy", "energy"),
-    ("expected drift of kinetic energy", "energy"),
-    ("expected rate of energy", "energy"),
-    ("expected drift", "conservation"),
-    ("expected ", "bound"),
-];
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -50,26 +37,6 @@ fn main() {
         }
     };
     println!("{found}");
-}
-
-/// The gate that says `line`. A wrong order is a gate of its own, whatever the verdict is called.
-fn gate(case: &CaseOutcome, line: &str) -> &'static str {
-    if case.study.is_none() {
-        return "verdict";
-    }
-    if case.results::<StabilityStudy>().is_some() {
-        return "stability";
-    }
-    if case.results::<InternalForce>().is_some() {
-        return "force";
-    }
-    let of_order = ["got `too low`", "got `too good`", "got `converging`"];
-    let should_converge = line.starts_with("expected the verdict `converging`");
-    if should_converge && of_order.iter().any(|got| line.contains(got)) {
-        return "order";
-    }
-    let known = GATES.iter().find(|(words, _)| line.starts_with(words));
-    known.unwrap_or_else(|| panic!("no gate is known to say: {line}")).1
 }
 
 /// Whether the report differs from its snapshot, below whose head it stands.

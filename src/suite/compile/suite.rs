@@ -37,6 +37,17 @@ impl Suite {
         };
         Ok(Self { fingerprint: fingerprint(source.text().as_bytes()), ..suite? })
     }
+
+    /// The scene of the convergence study that `source` holds, compared with no truth: what a
+    /// solver gets that is to be found wrong.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] with the place of the first thing that is wrong.
+    pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
+        let spec: ConvergenceSpec = read(source, "convergence")?;
+        let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
+        whole::scene(&evaluator, &SceneWords::read(source, &spec.scene)?)
+    }
 }
 
 /// The kind of study, which decides what other keys are known.

@@ -4,6 +4,7 @@ mod diagnosis;
 mod fine_grid;
 mod foundation;
 mod interrupted;
+mod keys;
 mod polygons;
 mod predicted_error;
 mod preflight;

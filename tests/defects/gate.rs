@@ -1,0 +1,39 @@
+//! Which gate says that an expectation is not met.
+
+use mpm_verify::verify::{CaseOutcome, InternalForce, StabilityStudy};
+
+/// Gates of convergence studies by the first words of what they say; the first that fits.
+const GATES: [(&str, &str); 12] = [
+    ("expected the order within", "order"),
+    ("expected the finest pair's order", "order"),
+    ("expected the verdict", "verdict"),
+    ("expected every level to run", "verdict"),
+    ("expected the floor", "verdict"),
+    ("expected some crossings", "bound"),
+    ("expected no crossings", "bound"),
+    ("expected drift of energy", "energy"),
+    ("expected drift of kinetic energy", "energy"),
+    ("expected rate of energy", "energy"),
+    ("expected drift", "conservation"),
+    ("expected ", "bound"),
+];
+
+/// The gate that says `line`. A wrong order is a gate of its own, whatever the verdict is called.
+pub(crate) fn gate(case: &CaseOutcome, line: &str) -> &'static str {
+    if case.study.is_none() {
+        return "verdict";
+    }
+    if case.results::<StabilityStudy>().is_some() {
+        return "stability";
+    }
+    if case.results::<InternalForce>().is_some() {
+        return "force";
+    }
+    let of_order = ["got `too low`", "got `too good`", "got `converging`"];
+    let should_converge = line.starts_with("expected the verdict `converging`");
+    if should_converge && of_order.iter().any(|got| line.contains(got)) {
+        return "order";
+    }
+    let known = GATES.iter().find(|(words, _)| line.starts_with(words));
+    known.unwrap_or_else(|| panic!("no gate is known to say: {line}")).1
+}

@@ -1,0 +1,186 @@
+//! The grammar of a suite as its own error messages tell it: a value that can stand nowhere is put at
+//! a place, and the answer lists what may stand there. So every word comes from its registration.
+
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::{Diagnostic, Source};
+use serde_yaml::Value;
+
+/// Names that no registration has, nor one near to them.
+const STRANGE: &str = "qqqqqqqq";
+const STRANGER: &str = "jjjjjjjj";
+
+/// Kinds of study.
+pub(super) const STUDIES: [&str; 3] = ["convergence", "stability", "internal_force"];
+
+/// Keys of the whole file that hold what the author names.
+const OF_AUTHORS: [&str; 2] = ["parameters", "functions"];
+
+/// All that may stand at one place.
+#[derive(Debug, Default)]
+pub(super) struct Node {
+    /// Whether it may be a number.
+    pub(super) is_number: bool,
+    /// Keys of a map, or names that have settings, and what stands under them.
+    pub(super) keys: Vec<(String, Node)>,
+    /// Whether the keys are names to choose from.
+    pub(super) is_choice: bool,
+    /// Names that may stand alone.
+    pub(super) names: Vec<String>,
+    /// Value of a map whose keys the author invents.
+    pub(super) named: Option<Box<Node>>,
+    /// Member of a list.
+    pub(super) member: Option<Box<Node>>,
+}
+
+/// A step to a place: a key, or the only member of a list.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Step<'a> {
+    Key(&'a str),
+    Member,
+}
+
+impl Node {
+    /// The grammar of a kind of study.
+    pub(super) fn of_study(study: &str) -> Self {
+        let (text, top) = (base(study), format!("study: {study}\n{STRANGE}: 1\n"));
+        let keys = listed(&refusal(&top), "possible keys: ").expect("the keys of a suite");
+        let node = |key: String| {
+            let known = OF_AUTHORS.contains(&key.as_str()).then(Self::default);
+            let node = known.unwrap_or_else(|| Self::at(&text, &[Step::Key(&key)]));
+            (key, node)
+        };
+        Self { keys: keys.into_iter().map(node).collect(), ..Self::default() }
+    }
+
+    /// What may stand at `path` of a suite that is `base` elsewhere.
+    fn at(base: &Value, path: &[Step<'_>]) -> Self {
+        let answer = |text: &str| {
+            let value = serde_yaml::from_str(text).expect("YAML");
+            let text = serde_yaml::to_string(&put(base.clone(), path, value)).expect("YAML");
+            refusal(&text)
+        };
+        let then = |step: Step<'_>| Self::at(base, &[path, &[step]].concat());
+        let map = answer(&format!("{{{STRANGE}: {{{STRANGER}: 0}}}}"));
+        let about = |name: &str| map.message().contains(&format!("`{name}`"));
+        let word = answer(STRANGE);
+        // A bare name is refused as such, unless it is the formula of a number.
+        let is_refused = word.message().contains(STRANGE);
+        let names = listed(&word, "possible names: ").filter(|_| is_refused);
+        let mut names = names.unwrap_or_default();
+        let is_number = |found: &Diagnostic| {
+            let message = found.message();
+            ["a finite number", "a number, a formula", "a time step", "a whole number"]
+                .iter()
+                .any(|known| message.starts_with(&format!("expected {known}")))
+        };
+        let mut node = Self::default();
+        if about(STRANGER) {
+            node.named = Some(Box::new(then(Step::Key(STRANGE))));
+        } else if is_number(&map) {
+            let flat = answer(&format!("{{{STRANGE}: 0}}"));
+            node.is_number = is_number(&flat);
+            if !node.is_number {
+                node.named = Some(Box::new(Self { is_number: true, ..Self::default() }));
+            }
+        } else if map.message() == "expected a list, found a map (`key: value`)" {
+            node.member = Some(Box::new(then(Step::Member)));
+        } else if !about(STRANGE) {
+            // Neither a map nor a name with settings.
+        } else if let Some(keys) = listed(&map, "possible keys: ") {
+            // A map that may be a number too takes the word for a formula.
+            node.is_number = !word.message().starts_with("expected a map");
+            // The expectation of a full run is one more of the same.
+            let keys = keys.into_iter().filter(|key| key != "full");
+            node.keys = keys.map(|key| (key.clone(), then(Step::Key(&key)))).collect();
+        } else if let Some(with_settings) = listed(&map, "possible names: ") {
+            names.extend(with_settings);
+            names.sort();
+            names.dedup();
+            for name in std::mem::take(&mut names) {
+                match then(Step::Key(&name)) {
+                    Self {
+                        is_number: false,
+                        member: None,
+                        named: None,
+                        keys,
+                        names: alone,
+                        ..
+                    } if keys.is_empty() && alone.is_empty() => {
+                        names.push(name);
+                    }
+                    settings => node.keys.push((name, settings)),
+                }
+            }
+            node.is_choice = true;
+        }
+        node.is_choice |= !names.is_empty();
+        Self { names, ..node }
+    }
+
+    /// Calls `visit` with every place below that takes a number or one of several names.
+    pub(super) fn visit(&self, path: &str, visit: &mut dyn FnMut(&str, &Self)) {
+        if self.is_number || self.is_choice {
+            visit(path, self);
+        }
+        for (key, node) in &self.keys {
+            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            node.visit(&path, visit);
+        }
+        for node in self.named.iter().chain(&self.member) {
+            node.visit(path, visit);
+        }
+    }
+}
+
+/// A sound suite of the kind; what stands beside it in the scene is read after the rest.
+fn base(study: &str) -> Value {
+    let scene = "scene: {dimension: 1, body: {box: {from: [0], to: [1]}}, material: \
+                 {linear_elastic: {young: 100, poisson: 0, density: 1}}}\n";
+    let methods = "methods: [{mpm: {basis: linear, transfer: flip, scheme: musl}}]\n";
+    let rest = match study {
+        "convergence" => {
+            format!(
+                "{scene}{methods}run: {{until: 1, dt: 1e-3}}\nrefine: {{cells: [8, 16], ppc: 4}}\n"
+            )
+        }
+        "stability" => format!(
+            "{scene}{methods}parameters: {{C: 1}}\nparticles: {{cells: 4, ppc: 4}}\n\
+             run: {{dt: C, steps: 9}}\nsweep: {{C: [1]}}\n"
+        ),
+        _ => "internal_force: {cell: 1, ppc: 4, volume: 0.25, stress: 1, positions: 16, \
+              prediction: n_left}\nmethods: [{mpm: {basis: linear}}]\n"
+            .to_owned(),
+    };
+    let text = format!("suite: a\nstudy: {study}\ntitle: t\nsource: s\n{rest}");
+    serde_yaml::from_str(&text).expect("YAML")
+}
+
+/// `whole` with `value` at `path`. Only what stands beside a key of the file or of its scene stays.
+fn put(whole: Value, path: &[Step<'_>], value: Value) -> Value {
+    let Some((first, rest)) = path.split_first() else { return value };
+    match first {
+        Step::Member => Value::Sequence(vec![put(Value::Null, rest, value)]),
+        Step::Key(key) => {
+            let mut map = match whole {
+                Value::Mapping(map) => map,
+                _ => serde_yaml::Mapping::new(),
+            };
+            let below = map.remove(*key).filter(|_| *key == "scene").unwrap_or(Value::Null);
+            map.insert((*key).into(), put(below, rest, value));
+            Value::Mapping(map)
+        }
+    }
+}
+
+/// The complaint about a suite.
+fn refusal(text: &str) -> Diagnostic {
+    let source = Source::from_text("keys.yaml", text).unwrap_or_else(|found| panic!("{found}"));
+    let found = Suite::load(&source).err();
+    found.unwrap_or_else(|| Diagnostic::about("keys.yaml", "nothing is wrong"))
+}
+
+/// The names of a list in the help of a complaint.
+fn listed(found: &Diagnostic, before: &str) -> Option<Vec<String>> {
+    let list = found.help()?.strip_prefix(before)?;
+    Some(list.split('`').skip(1).step_by(2).map(str::to_owned).collect())
+}

@@ -1,0 +1,133 @@
+//! Where a suite has its words.
+
+use super::grammar::Node;
+use serde_yaml::Value;
+
+/// A word of a suite: a key, or a key and a name that stands there.
+pub(super) struct Word {
+    pub(super) key: String,
+    /// The name, where it is one of several.
+    pub(super) name: Option<String>,
+    /// The place of the number, where it is one.
+    pub(super) number: Option<Place>,
+}
+
+/// Keys and numbers of members of lists, from the whole file on.
+pub(super) type Place = Vec<Value>;
+
+/// Every word of a suite.
+pub(super) fn words(grammar: &Node, study: &str, suite: &Value) -> Vec<Word> {
+    let mut words = Vec::new();
+    walk(grammar, suite, (study, ""), &mut Vec::new(), &mut words);
+    words
+}
+
+fn walk(
+    node: &Node,
+    value: &Value,
+    (study, key): (&str, &str),
+    place: &mut Place,
+    words: &mut Vec<Word>,
+) {
+    let choice =
+        |name: &str| Word { key: shared(study, key), name: Some(name.to_owned()), number: None };
+    match value {
+        Value::Mapping(map) => {
+            for (name, value) in map {
+                let text = name.as_str().unwrap_or_default();
+                let known = node.keys.iter().find(|(known, _)| known == text);
+                if known.is_some() && node.is_choice {
+                    words.push(choice(text));
+                }
+                let (below, key) = match (known, &node.named) {
+                    (Some((_, below)), _) => (below, joined(key, text)),
+                    (None, Some(below)) => (below.as_ref(), key.to_owned()),
+                    // One more expectation, of a full run.
+                    (None, None) if text == "full" => (node, key.to_owned()),
+                    (None, None) => continue,
+                };
+                place.push(name.clone());
+                walk(below, value, (study, &key), place, words);
+                place.pop();
+            }
+        }
+        Value::Sequence(list) => {
+            for (i, value) in list.iter().enumerate() {
+                place.push(Value::from(i));
+                // What is not itself a list may be one of alternatives.
+                let below = node.member.as_deref().unwrap_or(node);
+                walk(below, value, (study, key), place, words);
+                place.pop();
+            }
+        }
+        _ => match value.as_str().filter(|text| node.names.iter().any(|name| name == text)) {
+            Some(name) => words.push(choice(name)),
+            None if node.is_number => {
+                let number = Some(place.clone());
+                words.push(Word { key: shared(study, key), name: None, number });
+            }
+            None => {}
+        },
+    }
+}
+
+/// The way to a key below another.
+pub(super) fn joined(key: &str, name: &str) -> String {
+    if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
+}
+
+/// The name of a key that several kinds of study share, or several bodies.
+pub(super) fn shared(study: &str, key: &str) -> String {
+    let key = key.replace("scene.bodies.", "scene.");
+    let is_of_all = ["scene", "methods", "study"].contains(&key.split('.').next().unwrap_or(&key));
+    if study == "convergence" || is_of_all || key.starts_with(study) {
+        return key;
+    }
+    format!("{study}.{key}")
+}
+
+/// A change of a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Change {
+    Times(f64),
+    /// Of a count.
+    PlusOne,
+}
+
+impl Change {
+    /// As the table says it: `1 %`, `x 2`, `+ 1`.
+    pub(super) fn shown(self) -> String {
+        match self {
+            Self::PlusOne => "+ 1".to_owned(),
+            Self::Times(factor) if (factor - 1.0).abs() < 0.2 => {
+                let share = (1e6 * (factor - 1.0)).round() / 1e4;
+                format!("{share} %")
+            }
+            Self::Times(factor) => format!("x {factor}"),
+        }
+    }
+
+    fn of(self, value: &Value) -> Value {
+        let text = serde_yaml::to_string(value).expect("YAML");
+        let text = value.as_str().map_or(text.trim(), |formula| formula);
+        match self {
+            Self::Times(factor) => format!("{factor}*({text})").into(),
+            // Some counts are no formulas.
+            Self::PlusOne => {
+                value.as_u64().map_or_else(|| format!("1 + ({text})").into(), |n| (n + 1).into())
+            }
+        }
+    }
+}
+
+/// The text of a suite with the number at `place` changed.
+pub(super) fn changed(suite: &Value, place: &Place, change: Change) -> String {
+    let mut whole = suite.clone();
+    let value = place.iter().fold(&mut whole, |value, step| match value {
+        Value::Sequence(list) => &mut list[step.as_u64().expect("a number") as usize],
+        Value::Mapping(map) => map.get_mut(step).expect("a key"),
+        _ => panic!("no way through {value:?}"),
+    });
+    *value = change.of(value);
+    serde_yaml::to_string(&whole).expect("YAML")
+}

@@ -1,0 +1,87 @@
+//! Every word of the grammar is held by a gate (docs/keys.md).
+
+#[path = "../../../defects/gate.rs"]
+mod gate;
+mod grammar;
+mod leaf;
+mod page;
+mod reasons;
+mod search;
+mod solver;
+
+use grammar::{Node, STUDIES};
+use leaf::shared;
+use mpm_verify::suite::yaml::Source;
+use rayon::prelude::*;
+use solver::Known;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// A word of the grammar: its key, whether it is a number, and the names that may stand there.
+type Keys = BTreeMap<String, (bool, Vec<String>)>;
+
+/// Every key that takes a number or one of several names, in all kinds of study.
+fn keys(grammars: &[(&str, Node)]) -> Keys {
+    let mut keys = Keys::new();
+    for (study, grammar) in grammars {
+        grammar.visit("", &mut |key, node| {
+            let (is_number, names) = keys.entry(shared(study, key)).or_default();
+            *is_number |= node.is_number;
+            let with_settings = node.keys.iter().filter(|_| node.is_choice).map(|(name, _)| name);
+            names.extend(node.names.iter().chain(with_settings).cloned());
+            names.sort();
+            names.dedup();
+        });
+    }
+    keys
+}
+
+fn grammars() -> Vec<(&'static str, Node)> {
+    STUDIES.map(|study| (study, Node::of_study(study))).into()
+}
+
+/// The suites of the repository, cheap ones first.
+fn suites() -> Vec<Known> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("verification");
+    let files = Source::files_in(&folder).expect("suites");
+    let mut suites: Vec<Known> = files.par_iter().map(|file| Known::read(file)).collect();
+    suites.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    suites
+}
+
+/// Holds the words of docs/keys.md to those of the grammar.
+fn same<T: Ord + std::fmt::Debug>(grammar: &BTreeSet<T>, page: &BTreeSet<T>) {
+    let missing: Vec<&T> = grammar.difference(page).collect();
+    assert!(missing.is_empty(), "not in docs/keys.md; run ci/keys: {missing:?}");
+    let gone: Vec<&T> = page.difference(grammar).collect();
+    assert!(gone.is_empty(), "in docs/keys.md, and no words: {gone:?}");
+}
+
+#[test]
+fn every_word_has_its_row() {
+    let keys = keys(&grammars());
+    let (rows, names) = (page::numbers(), page::names());
+    let numbers = keys.iter().filter(|(_, (is_number, _))| *is_number).map(|(key, _)| key);
+    same(&numbers.collect(), &rows.keys().collect());
+    let known = keys.iter().flat_map(|(key, (_, names))| names.iter().map(move |name| (key, name)));
+    same(&known.collect(), &names.keys().map(|(key, name)| (key, name)).collect());
+    let wrong = reasons::wrong(&rows, &names);
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_sample_is_still_noticed() {
+    let (grammars, suites, sample) = (grammars(), suites(), page::sample());
+    assert!(sample.len() >= 5, "only {} rows", sample.len());
+    sample.par_iter().for_each(|row| search::still_noticed(row, &grammars, &suites));
+}
+
+#[test]
+#[ignore = "ci/keys runs it"]
+fn every_key_is_noticed() {
+    let (grammars, suites) = (grammars(), suites());
+    let part = std::env::var("KEYS").unwrap_or_default();
+    page::write(&search::search(&keys(&grammars), &part, &grammars, &suites));
+    let wrong = reasons::wrong(&page::numbers(), &page::names());
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
