@@ -11,6 +11,7 @@ mod determinism;
 mod documents;
 mod effects;
 mod external;
+mod false_alarms;
 mod figure;
 mod formula;
 mod judge;
