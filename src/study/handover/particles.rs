@@ -15,7 +15,7 @@ pub(super) fn particles(
     level: LevelPlan,
 ) -> Result<ProblemParticles, String> {
     let bare = unloaded(&plan.scene);
-    let body = |own| Body { manufactured: None, keeps_deformation: true, ..Body::of(plan, own) };
+    let body = |own| Body { manufactured: None, ..Body::of(plan, own) };
     let bodies: Vec<Body<'_>> = bare.iter().map(body).collect();
     start(&bodies, level, &mut |_| ())
 }
@@ -58,7 +58,9 @@ fn started<const D: usize>(
         let solver = Solver::<D>::new(setup(body, method, level)?);
         let mut solver = solver.map_err(|failure| failure.to_string())?;
         disturb(&mut solver);
-        let particles = solver.particles();
+        let mut particles = solver.particles().clone();
+        // F is handed over whether the law reads it or not.
+        particles.track_deformation();
         let flat = |vectors: &[Vector<D>]| vectors.iter().flatten().copied().collect::<Vec<_>>();
         all.reference_position.extend(flat(&particles.x0));
         all.position.extend(flat(&particles.x));

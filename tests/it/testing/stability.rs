@@ -73,6 +73,9 @@ impl SolverFactory for WatchedSolver {
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
         let (grid, start) = (problem.grid, problem.particles);
+        for (name, column) in start.columns() {
+            assert_eq!(column.len(), start.len(), "{name}");
+        }
         let bar = Bar {
             grid: (grid.origin[0], grid.h, grid.cells[0] as usize),
             held: [true, false],
