@@ -1,6 +1,7 @@
-//! Build script: embeds every suite beside it, so that an installed binary needs no checkout.
+//! Build script: embeds every suite of the folders beside it, so that an installed binary needs no checkout.
 
 use std::{
+    collections::BTreeMap,
     env,
     fmt::Write as _,
     fs,
@@ -8,27 +9,38 @@ use std::{
 };
 
 fn main() {
-    let folder = path("CARGO_MANIFEST_DIR").join("verification");
-    println!("cargo:rerun-if-changed={}", folder.display());
+    let root = path("CARGO_MANIFEST_DIR");
+    println!("cargo:rerun-if-changed={}", root.join("verification").display());
     let mut rows = String::new();
-    for name in suites(&folder) {
-        let file = folder.join(&name);
+    for (name, path) in suites(&root) {
+        let file = root.join(&path);
         let file = file.to_str().expect("the path of the checkout is valid UTF-8");
-        writeln!(rows, "    ({name:?}, include_str!({file:?})),").expect("a String takes any text");
+        writeln!(rows, "    ({name:?}, {path:?}, include_str!({file:?})),")
+            .expect("a String takes any text");
     }
-    fs::write(path("OUT_DIR").join("suites.rs"), format!("&[\n{rows}]\n"))
+    fs::write(self::path("OUT_DIR").join("suites.rs"), format!("&[\n{rows}]\n"))
         .expect("the output folder is writable");
 }
 
-/// File names of the suites in `folder`, sorted.
-fn suites(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .expect("the folder of suites is part of the crate")
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| Path::new(name).extension().is_some_and(|end| end == "yaml"))
-        .collect();
-    names.sort();
-    names
+/// Names and paths, from the root, of the suites of every folder of `verification/`, by name.
+fn suites(root: &Path) -> BTreeMap<String, String> {
+    let mut found = BTreeMap::new();
+    for folder in names(&root.join("verification")).filter(|name| !name.contains('.')) {
+        for file in names(&root.join("verification").join(&folder)) {
+            if let Some(name) = file.strip_suffix(".yaml") {
+                let path = format!("verification/{folder}/{file}");
+                let other = found.insert(name.to_owned(), path);
+                assert_eq!(other, None, "two suites are called {name}");
+            }
+        }
+    }
+    found
+}
+
+/// Names of what a folder holds.
+fn names(folder: &Path) -> impl Iterator<Item = String> {
+    let entries = fs::read_dir(folder).expect("the folder of suites is part of the crate");
+    entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok())
 }
 
 /// The path that cargo gives in the environment variable `name`.

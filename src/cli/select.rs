@@ -73,7 +73,8 @@ fn place(target: &Path) -> Option<PathBuf> {
     if target.exists() || looks_like_a_path {
         return Some(target.to_path_buf());
     }
-    Some(Path::new(FOLDER).join(format!("{name}.yaml"))).filter(|local| local.is_file())
+    let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
+    local.into_iter().find(|file| file.file_stem() == Some(target.as_os_str()))
 }
 
 fn sources(target: &Path) -> Sources {
@@ -94,13 +95,12 @@ fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));
     let here = if folder == Path::new("") { Path::new(".") } else { folder };
-    let beside: Vec<String> = Source::files_in(here)
-        .unwrap_or_default()
-        .iter()
-        .map(|path| text(path.file_name()))
-        .collect();
-    if let Some(file) = nearest(&text(target.file_name()), beside.iter().map(String::as_str)) {
-        return format!("did you mean `{}`?", folder.join(file).display());
+    let beside = Source::files_in(here).unwrap_or_default();
+    let names: Vec<String> = beside.iter().map(|path| text(path.file_name())).collect();
+    let near = nearest(&text(target.file_name()), names.iter().map(String::as_str));
+    if let Some(path) = near.and_then(|file| beside.iter().find(|path| path.ends_with(file))) {
+        let path = if folder == here { path } else { path.strip_prefix(here).unwrap_or(path) };
+        return format!("did you mean `{}`?", path.display());
     }
     let suites = suite_names();
     nearest(&text(target.file_stem()), suites.iter().map(String::as_str))
@@ -128,10 +128,7 @@ fn unknown(name: &str) -> Diagnostic {
 /// Names by which suites can be asked for: those of the default folder, and the embedded ones.
 fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
-    let name = |path: &PathBuf| {
-        let file = path.file_name()?.to_string_lossy();
-        file.strip_suffix(".yaml").map(ToOwned::to_owned)
-    };
+    let name = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
     local.iter().filter_map(name).chain(embedded::names().map(ToOwned::to_owned)).collect()
 }
 

@@ -73,6 +73,7 @@ impl<'a> Runner<'a> {
     pub fn outcome(&self, cases: Vec<CaseOutcome>) -> SuiteOutcome {
         SuiteOutcome {
             suite: self.suite.name.clone(),
+            group: self.suite.group.clone(),
             title: self.suite.title.clone(),
             source: self.suite.source.clone(),
             about: self.suite.about.trim().to_owned(),

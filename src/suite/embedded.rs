@@ -2,17 +2,17 @@
 
 use super::yaml::{Diagnostic, Source};
 
-/// File name and text of every file under `verification/`, sorted by name.
-const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/suites.rs"));
+/// Name, path from the root of the repository and text of every suite under `verification/`, sorted
+/// by name.
+const FILES: &[(&str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/suites.rs"));
 
 /// Names of the embedded suites, sorted.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    FILES.iter().filter_map(|(file, _)| file.strip_suffix(".yaml"))
+    FILES.iter().map(|(name, ..)| *name)
 }
 
 /// The embedded suite called `name`, if there is one.
 pub fn source(name: &str) -> Option<Result<Source, Diagnostic>> {
-    let file = format!("{name}.yaml");
-    let (file, text) = FILES.iter().find(|(found, _)| *found == file)?;
-    Some(Source::from_text(format!("verification/{file}"), *text))
+    let (_, path, text) = FILES.iter().find(|(found, ..)| *found == name)?;
+    Some(Source::from_text(*path, *text))
 }

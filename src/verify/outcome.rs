@@ -23,6 +23,8 @@ use std::sync::Arc;
 pub struct SuiteOutcome {
     /// Name of the suite.
     pub suite: String,
+    /// Name of the folder of its file.
+    pub group: String,
     /// Headline.
     pub title: String,
     /// Where the problem comes from.

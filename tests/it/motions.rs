@@ -146,9 +146,10 @@ fn a_simple_wave_keeps_f_along_its_characteristics(#[values(0.05, 0.4, 0.77)] pl
 /// Whoever starts without the stress, the volume or the domains of that has no order at all.
 #[test]
 fn a_bar_that_starts_deformed_keeps_to_its_motion() {
-    let (scene, _) = include_str!("../../verification/mms-fixed-bar-small.yaml")
-        .split_once("methods:")
-        .expect("methods");
+    let (scene, _) =
+        include_str!("../../verification/bars-at-large-strain/mms-fixed-bar-small.yaml")
+            .split_once("methods:")
+            .expect("methods");
     let scene = scene.replace("sin(c*pi*t)", "cos(c*pi*t)").replace("G: 1e-4", "G: 0.02");
     let text = scene
         + r"methods:

@@ -21,7 +21,7 @@ fn power(order: f64) -> Vec<f64> {
 
 /// A quick suite with the given expectation and body force sign.
 fn suite(expect: &str) -> Result<Suite, String> {
-    let text = include_str!("../../verification/vibrating-bar-small-amplitude.yaml");
+    let text = include_str!("../../verification/the-talk/vibrating-bar-small-amplitude.yaml");
     let (head, _) = text.split_once("expect:").expect("a suite expects something");
     let head = head.replace("80, 120, 160]", "80]").replace("[musl, usl]", "musl");
     load(&format!("{head}expect:\n  - {expect}\n"))
@@ -93,7 +93,7 @@ fn p06_an_expectation_that_cannot_fail_does_not_pass(#[case] expect: &str) {
 
 #[test]
 fn p06_an_all_zero_field_does_not_pass() {
-    let text = include_str!("../../verification/vibrating-bar-small-amplitude.yaml");
+    let text = include_str!("../../verification/the-talk/vibrating-bar-small-amplitude.yaml");
     let zero = text
         .replace(r#"["v0/omega*sin(pi*X/(2*L))*sin(omega*t)"]"#, r#"["0*v0*omega"]"#)
         .replace(r#"["v0*sin(pi*X/(2*L))"]"#, "[0]");
@@ -139,9 +139,8 @@ fn p10_the_confidence_interval_follows_the_scatter() {
 #[test]
 fn p11_every_suite_of_the_repository_is_sound_and_runs() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("verification");
-    let files = std::fs::read_dir(folder).unwrap().filter_map(Result::ok);
-    let yaml = files.filter(|file| file.path().extension().is_some_and(|e| e == "yaml")).count();
-    assert_eq!(embedded::names().count(), yaml, "what is built in is what is in the folder");
+    let files = Source::files_in(&folder).unwrap();
+    assert_eq!(embedded::names().count(), files.len(), "what is built in is what is in the folder");
     for name in embedded::names() {
         let source = embedded::source(name).unwrap().unwrap();
         let suite = Suite::load(&source).unwrap();
@@ -151,7 +150,7 @@ fn p11_every_suite_of_the_repository_is_sound_and_runs() {
 
 #[test]
 fn p12_a_method_that_does_not_exist_is_refused() {
-    let text = include_str!("../../verification/vibrating-bar-small-amplitude.yaml");
+    let text = include_str!("../../verification/the-talk/vibrating-bar-small-amplitude.yaml");
     let diagnostic = load(&text.replace("basis: linear", "basis: quintic")).unwrap_err();
     assert!(diagnostic.contains("quintic"), "{diagnostic}");
 }
@@ -163,7 +162,7 @@ fn p13_a_force_that_is_missing_or_has_the_wrong_sign_is_found(
     #[case] right: &str,
     #[case] wrong: &str,
 ) {
-    let text = include_str!("../../verification/fem-oedometer.yaml");
+    let text = include_str!("../../verification/the-talk/fem-oedometer.yaml");
     assert!(text.contains(right));
     let diagnostic = load(&text.replace(right, wrong)).unwrap_err();
     assert!(diagnostic.contains("equation of motion"), "{diagnostic}");

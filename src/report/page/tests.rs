@@ -24,6 +24,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     };
     SuiteOutcome {
         suite: suite.to_owned(),
+        group: word(),
         title: word(),
         source: word(),
         about: format!("{words}\n\n{words}"),

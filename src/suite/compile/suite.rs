@@ -35,7 +35,8 @@ impl Suite {
             StudyName::InternalForce => internal_force(source),
             StudyName::Stability => stability(source),
         };
-        Ok(Self { fingerprint: fingerprint(source.text().as_bytes()), ..suite? })
+        let fingerprint = fingerprint(source.text().as_bytes());
+        Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
     /// The scene of the convergence study that `source` holds, compared with no truth: what a
@@ -185,7 +186,8 @@ fn assemble(
     plan: impl StudyPlan,
 ) -> Suite {
     let (functions, study) = (functions.as_slice().to_vec(), Arc::new(plan));
-    Suite { name, title, source, about, parameters, functions, study, fingerprint: 0 }
+    let group = String::new();
+    Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 
 /// A name becomes part of test and file names.

@@ -39,6 +39,8 @@ use std::sync::Arc;
 pub struct Suite {
     /// Its name, unique among suites.
     pub name: String,
+    /// Name of the folder that its file is in.
+    pub group: String,
     /// Headline.
     pub title: String,
     /// Where the problem comes from.

@@ -54,16 +54,28 @@ impl Source {
         Ok(Self { name, text, scalars })
     }
 
-    /// Paths of the suites of a folder (`.yaml` and `.yml`), sorted.
+    /// Paths of the suites (`.yaml` and `.yml`) of a folder and of the folders in it, sorted by
+    /// file name.
     ///
     /// # Errors
-    /// If the folder cannot be read.
+    /// If a folder cannot be read.
     pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
-        let paths = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
         let is_suite = |path: &PathBuf| path.extension().is_some_and(|e| e == "yaml" || e == "yml");
-        let mut files: Vec<PathBuf> = paths.filter(is_suite).collect();
-        files.sort();
-        Ok(files)
+        let is_hidden =
+            |path: &Path| path.file_name().is_some_and(|name| name.as_encoded_bytes()[0] == b'.');
+        let mut paths = entries(folder)?;
+        for group in paths.clone().iter().filter(|path| path.is_dir() && !is_hidden(path)) {
+            paths.extend(entries(group)?);
+        }
+        paths.retain(is_suite);
+        paths.sort_by(|a, b| a.file_name().cmp(&b.file_name()).then_with(|| a.cmp(b)));
+        Ok(paths)
+    }
+
+    /// Name of the folder that holds the file: of suites of one folder, what they have in common.
+    pub(crate) fn group(&self) -> String {
+        let folder = Path::new(&self.name).parent().and_then(Path::file_name);
+        folder.unwrap_or_default().to_string_lossy().into_owned()
     }
 
     /// The file as the user named it.
@@ -173,4 +185,8 @@ fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
     Err(Diagnostic::at(name, text, at..at + c.len_utf8(), &message)
         .with_label("an invisible character")
         .with_help("delete it"))
+}
+
+fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
 }

@@ -45,18 +45,24 @@ impl Gate {
                 file.display(),
                 suite.name
             )),
-            Ok(suite) => self.of_suite(suite),
+            Ok(suite) => self.of_suite(suite, &self.snapshots_of(file)),
             Err(diagnostic) => unusable(diagnostic.to_string()),
         }
     }
 
-    fn of_suite(&self, suite: Suite) -> Vec<Trial> {
+    /// The folder of a suite's snapshot: where its file lies among the suites.
+    fn snapshots_of(&self, file: &Path) -> PathBuf {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
+    }
+
+    fn of_suite(&self, suite: Suite, snapshots: &Path) -> Vec<Trial> {
         let Some(solver) = self.solver else {
-            return trials(suite, &self.snapshots, None);
+            return trials(suite, snapshots, None);
         };
         let name = format!("{}::{}", suite.name, solver.name());
         match judged(&suite, solver) {
-            Ok(suite) => trials(suite, &self.snapshots, Some(solver)),
+            Ok(suite) => trials(suite, snapshots, Some(solver)),
             Err(why) => {
                 vec![Trial::ignorable_test(name, move || Ok(Completion::ignored_with(&why)))]
             }

@@ -4,12 +4,14 @@
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const IMPACT: &str = include_str!("../../../verification/two-bar-impact.yaml");
-const DISKS: &str = include_str!("../../../verification/two-disks.yaml");
-const HALVES: &str = include_str!("../../../verification/vibrating-bar-of-two.yaml");
+const IMPACT: &str = include_str!("../../../verification/contact-and-friction/two-bar-impact.yaml");
+const DISKS: &str = include_str!("../../../verification/contact-and-friction/two-disks.yaml");
+const HALVES: &str =
+    include_str!("../../../verification/contact-and-friction/vibrating-bar-of-two.yaml");
 
-const JOINED: &str = include_str!("../../../verification/bar-of-two-materials.yaml");
-const VISCOUS: &str = include_str!("../../../verification/artificial-viscosity-linear.yaml");
+const JOINED: &str = include_str!("../../../verification/waves/bar-of-two-materials.yaml");
+const VISCOUS: &str =
+    include_str!("../../../verification/damping/artificial-viscosity-linear.yaml");
 
 #[test]
 fn sound() {

@@ -33,7 +33,7 @@ expect:
 "#;
 
 /// A block that slides down a slope.
-const SLOPE: &str = include_str!("../../../verification/sliding-block.yaml");
+const SLOPE: &str = include_str!("../../../verification/contact-and-friction/sliding-block.yaml");
 
 /// A square between rollers, with a driven set.
 const SQUARE: &str = r#"suite: square
@@ -264,7 +264,7 @@ fn a_driven_end_has_the_velocity_of_the_motion() {
 /// another problem.
 #[test]
 fn a_force_on_a_set_enters_the_equation_of_motion() {
-    let column = include_str!("../../../verification/fem-oedometer.yaml");
+    let column = include_str!("../../../verification/the-talk/fem-oedometer.yaml");
     let right = edited(column, PUSHED);
     if let Err(diagnostic) = load(&right) {
         panic!("{diagnostic}");

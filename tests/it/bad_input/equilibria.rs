@@ -4,7 +4,8 @@ use super::{Edits, load, refused};
 use rstest::rstest;
 
 /// A column that settles under its weight.
-const SETTLED: &str = include_str!("../../../verification/column-hencky-small-load.yaml");
+const SETTLED: &str =
+    include_str!("../../../verification/equilibrium/column-hencky-small-load.yaml");
 
 const MPM: &str = "methods:\n";
 const FEM: &str = "methods:\n  - ▸fem: {element: linear, mass: lumped}\n";
@@ -102,7 +103,7 @@ fn local_damping(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 
 #[test]
 fn local_damping_of_finite_elements() {
-    let bar = include_str!("../../../verification/local-damping-bar.yaml");
+    let bar = include_str!("../../../verification/damping/local-damping-bar.yaml");
     refused(bar, &[(MPM, FEM)], &["the reference FEM has no damping"]);
 }
 

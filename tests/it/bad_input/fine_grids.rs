@@ -4,7 +4,8 @@ use super::samples::{BAR, CUBE, PLATE};
 use super::{Edits, refused};
 use rstest::rstest;
 
-const HALVES: &str = include_str!("../../../verification/vibrating-bar-of-two.yaml");
+const HALVES: &str =
+    include_str!("../../../verification/contact-and-friction/vibrating-bar-of-two.yaml");
 
 const EXACT: (&str, &str) = (
     "exact:\n  equation: small_strain\n  displacement: [\"sin(pi*X/2)*sin(omega*t)/omega\", 0]\n",

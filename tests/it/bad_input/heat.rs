@@ -4,19 +4,19 @@ use super::{Edits, load, refused};
 use rstest::rstest;
 
 /// A bar at rest that cools through one end.
-const COOLED: &str = include_str!("../../../verification/heat-convection.yaml");
+const COOLED: &str = include_str!("../../../verification/heat/heat-convection.yaml");
 
 /// A fin at rest, whose source depends on the temperature.
-const FIN: &str = include_str!("../../../verification/thermal-fin.yaml");
+const FIN: &str = include_str!("../../../verification/heat/thermal-fin.yaml");
 
 /// A plate at rest, manufactured.
-const PLATE: &str = include_str!("../../../verification/heat-2d.yaml");
+const PLATE: &str = include_str!("../../../verification/heat/heat-2d.yaml");
 
 /// A bar that moves and is heated.
-const MOVING: &str = include_str!("../../../verification/thermal-expansion-mms.yaml");
+const MOVING: &str = include_str!("../../../verification/heat/thermal-expansion-mms.yaml");
 
 /// A plate that is held and heated.
-const HELD: &str = include_str!("../../../verification/thermal-expansion-clamped.yaml");
+const HELD: &str = include_str!("../../../verification/heat/thermal-expansion-clamped.yaml");
 
 const MODE: &str = "  temperature: \"Ta + 5*cos";
 const RIGHT: &str = "boundary: {right: {convection: {coefficient: b, ambient: Ta}}}";

@@ -4,14 +4,14 @@
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const BAR: &str = include_str!("../../../verification/prestressed-bar.yaml");
-const SLOPE: &str = include_str!("../../../verification/geostatic-slope.yaml");
-const COLUMN: &str = include_str!("../../../verification/geostatic-column-moving.yaml");
-const RATE: &str = include_str!("../../../verification/released-bar.yaml");
-const LONG: &str = include_str!("../../../verification/vibrating-bar-long.yaml");
-const HEATED: &str = include_str!("../../../verification/thermal-expansion-clamped.yaml");
-const RIGID: &str = include_str!("../../../verification/heat-2d.yaml");
-const FROZEN: &str = include_str!("../../../verification/courant-limit.yaml");
+const BAR: &str = include_str!("../../../verification/equilibrium/prestressed-bar.yaml");
+const SLOPE: &str = include_str!("../../../verification/equilibrium/geostatic-slope.yaml");
+const COLUMN: &str = include_str!("../../../verification/equilibrium/geostatic-column-moving.yaml");
+const RATE: &str = include_str!("../../../verification/equilibrium/released-bar.yaml");
+const LONG: &str = include_str!("../../../verification/conservation/vibrating-bar-long.yaml");
+const HEATED: &str = include_str!("../../../verification/heat/thermal-expansion-clamped.yaml");
+const RIGID: &str = include_str!("../../../verification/heat/heat-2d.yaml");
+const FROZEN: &str = include_str!("../../../verification/stability/courant-limit.yaml");
 
 #[test]
 fn sound() {

@@ -3,9 +3,9 @@
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const YIELDING: &str = include_str!("../../../verification/plastic-bar.yaml");
-const WAVE: &str = include_str!("../../../verification/plastic-wave.yaml");
-const FLUID: &str = include_str!("../../../verification/fluid-column.yaml");
+const YIELDING: &str = include_str!("../../../verification/plasticity-and-fluids/plastic-bar.yaml");
+const WAVE: &str = include_str!("../../../verification/plasticity-and-fluids/plastic-wave.yaml");
+const FLUID: &str = include_str!("../../../verification/plasticity-and-fluids/fluid-column.yaml");
 
 #[rstest]
 #[case(YIELDING)]
@@ -79,6 +79,6 @@ fn a_fluid(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[case(&[("np: \"nu/(1 - nu)\"", "np: nu"), ("- \"(1 + s(X, Y))*(cos", "- ▸\"(1 + s(X, Y))*(cos")])]
 #[case(&[("Ep: \"E/(1 - nu^2)\"", "Ep: E"), ("- \"(1 + s(X, Y))*(cos", "- ▸\"(1 + s(X, Y))*(cos")])]
 fn a_disk_that_spins_in_plane_stress(#[case] edits: Edits<'_>) {
-    let disk = include_str!("../../../verification/spinning-disk.yaml");
+    let disk = include_str!("../../../verification/conservation/spinning-disk.yaml");
     refused(disk, edits, &["is violated at X", "this is not a solution"]);
 }

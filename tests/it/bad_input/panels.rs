@@ -5,7 +5,7 @@ use super::samples::PLATE;
 use super::{Edits, refused};
 use rstest::rstest;
 
-const COOK: &str = include_str!("../../../verification/cooks-membrane.yaml");
+const COOK: &str = include_str!("../../../verification/equilibrium/cooks-membrane.yaml");
 
 #[rstest]
 #[case::of_three_corners(

@@ -4,8 +4,10 @@ use super::samples::{BAR, CUBE};
 use super::{Edits, refused};
 use rstest::rstest;
 
-const WAVE: &str = include_str!("../../../verification/plane-stress-wave.yaml");
-const PULL: &str = include_str!("../../../verification/plane-stress-pull.yaml");
+const WAVE: &str =
+    include_str!("../../../verification/axisymmetry-and-plane-stress/plane-stress-wave.yaml");
+const PULL: &str =
+    include_str!("../../../verification/axisymmetry-and-plane-stress/plane-stress-pull.yaml");
 
 const LAW: &str = "linear_elastic: {young: E, poisson: nu,";
 const FACES: &str = "  boundary: {left: roller, right: roller, bottom: roller, top: roller}\n";
@@ -46,8 +48,10 @@ fn a_plate_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(WAVE, edits, words);
 }
 
-const TUBE: &str = include_str!("../../../verification/pressurised-cylinder.yaml");
-const ROD: &str = include_str!("../../../verification/axisymmetric-wave.yaml");
+const TUBE: &str =
+    include_str!("../../../verification/axisymmetry-and-plane-stress/pressurised-cylinder.yaml");
+const ROD: &str =
+    include_str!("../../../verification/axisymmetry-and-plane-stress/axisymmetric-wave.yaml");
 
 #[rstest]
 #[case::a_negative_radius(

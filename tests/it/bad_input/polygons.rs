@@ -5,7 +5,8 @@ use super::samples::PLATE;
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const TRIANGLE: &str = include_str!("../../../verification/mms-polygon.yaml");
+const TRIANGLE: &str =
+    include_str!("../../../verification/bodies-at-large-strain/mms-polygon.yaml");
 const CORNERS: &str = "[[0.1, 0.15], [0.95, 0.25], [0.4, 0.9]]";
 
 #[rstest]
@@ -98,7 +99,7 @@ fn no_heat_flows_in_a_polygon() {
     refused(PLATE, &edits, &["heat flows in a `box`, and the body is of kind `polygon`"]);
 }
 
-const DISKS: &str = include_str!("../../../verification/two-disks.yaml");
+const DISKS: &str = include_str!("../../../verification/contact-and-friction/two-disks.yaml");
 const SECOND: &str = "- body: {disk: {centre: [0.8, 0.8], radius: R}}";
 
 #[test]

@@ -130,7 +130,7 @@ fn a_bound_with(#[case] bound: &str, #[case] words: &[&str]) {
 
 #[test]
 fn an_energy_beside_an_initial_stress() {
-    let bar = include_str!("../../../verification/prestressed-bar.yaml");
+    let bar = include_str!("../../../verification/equilibrium/prestressed-bar.yaml");
     let edits = [("{norm: max_rms}", "{of: ▸energy}")];
     refused(bar, &edits, &["the truth knows no stored energy beside an initial stress"]);
 }

@@ -105,13 +105,13 @@ expect:
 "#;
 
 /// A column under gravity; the wave has a kink in its strain.
-pub(super) const COLUMN: &str = include_str!("../../../verification/oedometer.yaml");
+pub(super) const COLUMN: &str = include_str!("../../../verification/the-talk/oedometer.yaml");
 
 /// A bar under an end load; the wave has a jump in its strain.
-pub(super) const PULLED: &str = include_str!("../../../verification/steffen-bar.yaml");
+pub(super) const PULLED: &str = include_str!("../../../verification/the-talk/steffen-bar.yaml");
 
 /// A particle that moves through a node.
-pub(super) const FORCE: &str = include_str!("../../../verification/grid-crossing.yaml");
+pub(super) const FORCE: &str = include_str!("../../../verification/the-talk/grid-crossing.yaml");
 
 /// A bar whose Courant limit is sought.
-pub(super) const SWEPT: &str = include_str!("../../../verification/tiny-nodal-mass.yaml");
+pub(super) const SWEPT: &str = include_str!("../../../verification/stability/tiny-nodal-mass.yaml");

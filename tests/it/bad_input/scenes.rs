@@ -111,7 +111,7 @@ fn two_tractions_on_one_face() {
     refused(PULLED, &[(load, &twice)], &["the face `right` has a traction already"]);
 }
 
-const BENT: &str = include_str!("../../../verification/bending-bar.yaml");
+const BENT: &str = include_str!("../../../verification/loads/bending-bar.yaml");
 
 #[rstest]
 #[case::at_nowhere(

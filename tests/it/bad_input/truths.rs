@@ -111,7 +111,8 @@ fn a_bar_that_swings_a_hundred_times_is_sound() {
     }
 }
 
-const FORCED: &str = include_str!("../../../verification/mms-fixed-bar-small.yaml");
+const FORCED: &str =
+    include_str!("../../../verification/bars-at-large-strain/mms-fixed-bar-small.yaml");
 
 #[rstest]
 #[case::a_motion_that_moves_a_fixed_end(

@@ -9,9 +9,9 @@ use rstest::rstest;
 /// Mass and centre of mass are those of the body, by the theorem of Green; of a body of revolution
 /// the mass is that of one radian, density times the first moment of its section.
 #[rstest]
-#[case::convex(include_str!("../../../verification/mms-polygon.yaml"))]
-#[case::not_convex(include_str!("../../../verification/mms-polygon-angle.yaml"))]
-#[case::of_revolution(include_str!("../../../verification/mms-polygon-axisymmetric.yaml"))]
+#[case::convex(include_str!("../../../verification/bodies-at-large-strain/mms-polygon.yaml"))]
+#[case::not_convex(include_str!("../../../verification/bodies-at-large-strain/mms-polygon-angle.yaml"))]
+#[case::of_revolution(include_str!("../../../verification/axisymmetry-and-plane-stress/mms-polygon-axisymmetric.yaml"))]
 fn mass_and_centre_of_mass_are_exact(#[case] text: &str) {
     let suite = Suite::load(&Source::from_text("suite.yaml", text).unwrap());
     let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));

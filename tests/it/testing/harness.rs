@@ -126,7 +126,7 @@ fn nothing_applicable_is_no_pass() {
     assert!(!passes(&tests(&alone), None), "nothing at all");
     alone.write(
         "suites/courant-limit.yaml",
-        include_str!("../../../verification/courant-limit.yaml"),
+        include_str!("../../../verification/stability/courant-limit.yaml"),
     );
     assert!(!passes(&tests(&alone), None), "a study of another kind");
 }
