@@ -23,7 +23,7 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
         (Ok(old), Ok(new)) => (old, new),
         (old, new) => {
             for diagnostic in [old.err(), new.err()].into_iter().flatten() {
-                output::complain(&diagnostic.to_string());
+                output::diagnose(&diagnostic);
             }
             return BAD_INPUT;
         }

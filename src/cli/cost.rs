@@ -38,7 +38,7 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
         None => prices(&suites, solver.as_ref(), args),
     };
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
-        output::complain(&diagnostic.to_string());
+        output::diagnose(diagnostic);
     }
     if refused.is_empty() { found } else { BAD_INPUT }
 }

@@ -13,7 +13,7 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {
         let (source, suite) = match found {
             Ok(found) => found,
             Err(diagnostic) => {
-                output::complain(&diagnostic.to_string());
+                output::diagnose(&diagnostic);
                 code = BAD_INPUT;
                 continue;
             }

@@ -39,7 +39,7 @@ fn draw(args: &ExplainArgs, file: &Path) -> u8 {
                 let failed = |error| format!("error: --sketch {}: {error}", file.display());
                 fs::write(file, svg).map_err(failed)
             }),
-        (Some(Err(diagnostic)), true) => Err(diagnostic.to_string()),
+        (Some(Err(diagnostic)), true) => Err(diagnostic.styled()),
         _ => Err("error: --sketch: name one suite".to_owned()),
     };
     match drawn {

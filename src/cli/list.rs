@@ -28,7 +28,7 @@ fn as_json(targets: &[PathBuf]) -> u8 {
         match found {
             Ok((source, suite)) => suites.push(listed(&source, &suite)),
             Err(diagnostic) => {
-                output::complain(&diagnostic.to_string());
+                output::diagnose(&diagnostic);
                 code = BAD_INPUT;
             }
         }

@@ -2,6 +2,7 @@
 //! and what accuracy costs.
 
 mod args;
+mod command_line;
 mod compare;
 mod cost;
 mod diagnose;
@@ -10,8 +11,6 @@ mod explain;
 mod list;
 mod merge;
 mod new;
-mod output;
-mod page;
 mod problem;
 mod propose;
 mod run;
@@ -21,31 +20,61 @@ mod show;
 mod solver;
 mod status;
 mod steps;
+mod terminal;
 mod watch;
 
 use args::{Cli, Command};
 use clap::Parser;
+use status::{BAD_INPUT, PASSED};
+use std::ffi::OsString;
 use std::process::ExitCode;
+use terminal::output;
 
-/// Parses the command line and does what it says.
+/// Parses the command line and does what it says. What could not be printed is an error.
 pub(crate) fn main() -> ExitCode {
-    let cli = Cli::parse();
-    let code = match cli.command {
-        None => run::run(&cli.run),
-        Some(Command::Run(args)) => run::run(&args),
-        Some(Command::New(args)) => new::new(&args),
-        Some(Command::Merge(args)) => merge::merge(&args),
-        Some(Command::List(args)) => list::list(&args),
-        Some(Command::Check(args)) => show::check(&args),
-        Some(Command::Explain(args)) => explain::explain(&args),
-        Some(Command::Diagnose(args)) => diagnose::diagnose(&args),
-        Some(Command::Doctor(args)) => doctor::doctor(&args),
-        Some(Command::Propose(targets)) => propose::propose(&targets.targets),
-        Some(Command::Schema(args)) => schema::schema(&args),
-        Some(Command::Steps(args)) => steps::steps(&args),
-        Some(Command::Problem(args)) => problem::problem(&args),
-        Some(Command::Cost(args)) => cost::cost(&args),
-        Some(Command::Compare(args)) => compare::compare(&args),
+    let mut code = match command_line::with_command(std::env::args_os().collect()) {
+        Ok(words) => parsed(words),
+        Err(message) => {
+            output::complain(&message);
+            BAD_INPUT
+        }
     };
+    if let Some(message) = output::failure() {
+        output::complain(message);
+        code = BAD_INPUT;
+    }
     ExitCode::from(code)
+}
+
+fn parsed(words: Vec<OsString>) -> u8 {
+    match Cli::try_parse_from(words) {
+        Ok(cli) => {
+            cli.color.write_global();
+            done(cli.command)
+        }
+        // Help and the version too, which are printed to standard output.
+        Err(answer) => {
+            output::keep(answer.print());
+            if answer.use_stderr() { BAD_INPUT } else { PASSED }
+        }
+    }
+}
+
+fn done(command: Command) -> u8 {
+    match command {
+        Command::Run(args) => run::run(&args),
+        Command::New(args) => new::new(&args),
+        Command::Merge(args) => merge::merge(&args),
+        Command::List(args) => list::list(&args),
+        Command::Check(args) => show::check(&args),
+        Command::Explain(args) => explain::explain(&args),
+        Command::Diagnose(args) => diagnose::diagnose(&args),
+        Command::Doctor(args) => doctor::doctor(&args),
+        Command::Propose(targets) => propose::propose(&targets.targets),
+        Command::Schema(args) => schema::schema(&args),
+        Command::Steps(args) => steps::steps(&args),
+        Command::Problem(args) => problem::problem(&args),
+        Command::Cost(args) => cost::cost(&args),
+        Command::Compare(args) => compare::compare(&args),
+    }
 }

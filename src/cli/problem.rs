@@ -16,7 +16,7 @@ pub(super) fn problem(args: &ProblemArgs) -> u8 {
     }
     let suites = select::suites(std::slice::from_ref(&args.suite));
     let written = suites.into_iter().map(|suite| {
-        let suite = suite.map_err(|diagnostic| diagnostic.to_string())?;
+        let suite = suite.map_err(|diagnostic| diagnostic.styled())?;
         of_suite(&suite, args).map_err(|why| format!("error: {}: {why}", suite.name))
     });
     match written.collect::<Result<Vec<Vec<u8>>, String>>() {

@@ -1,16 +1,18 @@
 //! Suites that the user names.
 
-use super::args::Cli;
-use clap::CommandFactory;
 use mpm_verify::nearest;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
-use mpm_verify::suite::{Suite, embedded};
+use mpm_verify::suite::{Suite, embedded, pattern};
 use rayon::prelude::*;
 use std::ffi::OsStr;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Where suites are looked for by default.
 const FOLDER: &str = "verification";
+
+/// The target that is standard input.
+const STDIN: &str = "-";
 
 /// The suites that `targets` name, each loaded or with the complaint that says why not.
 ///
@@ -59,26 +61,48 @@ pub(super) fn places(targets: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostic> {
 
 fn no_file(target: &Path) -> Diagnostic {
     let name = target.to_string_lossy();
-    if embedded::source(&name).is_none() {
-        return unknown(&name);
-    }
-    let message = format!("`{name}` is built in: there is no file to watch");
+    let message = match &*name {
+        STDIN => "standard input does not change".to_owned(),
+        _ if is_pattern(target) => format!("`{name}` is a pattern of names, and none of a file"),
+        _ if named(&name).is_none() => return unknown(&name),
+        _ => format!("`{name}` is built in: there is no file to watch"),
+    };
     Diagnostic::about("--watch", &message).with_help("name a file or a folder")
+}
+
+/// Whether `target` names suites that are there, or should be.
+pub(super) fn is_known(target: &str) -> bool {
+    let path = Path::new(target);
+    target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
+}
+
+/// Whether it is a pattern of names, and no file that is called so.
+fn is_pattern(target: &Path) -> bool {
+    target.to_string_lossy().contains('*') && !target.exists()
 }
 
 /// File or folder that `target` names, there or not; none for a name alone.
 fn place(target: &Path) -> Option<PathBuf> {
     let name = target.to_string_lossy();
+    if name == STDIN || is_pattern(target) {
+        return None;
+    }
     let looks_like_a_path = target.extension().is_some() || name.contains(['/', '\\']);
     if target.exists() || looks_like_a_path {
         return Some(target.to_path_buf());
     }
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
-    local.into_iter().find(|file| file.file_stem() == Some(target.as_os_str()))
+    let of_name = local.into_iter().find(|file| file.file_stem() == Some(target.as_os_str()));
+    // A built-in suite goes before a group of local ones.
+    let group = || Some(Path::new(FOLDER).join(target)).filter(|group| group.is_dir());
+    of_name.or_else(|| if embedded::source(&name).is_none() { group() } else { None })
 }
 
 fn sources(target: &Path) -> Sources {
     let name = target.to_string_lossy();
+    if name == STDIN {
+        return vec![Source::from_reader("<stdin>", io::stdin().lock())];
+    }
     match place(target) {
         Some(folder) if folder.is_dir() => files_in(&folder),
         Some(file) if file.exists() => vec![Source::read(file)],
@@ -86,8 +110,38 @@ fn sources(target: &Path) -> Sources {
             let help = meant_by_path(&file);
             vec![Source::read(file).map_err(|diagnostic| diagnostic.with_help(&help))]
         }
-        None => vec![embedded::source(&name).unwrap_or_else(|| Err(unknown(&name)))],
+        None if is_pattern(target) => fitting(&name),
+        None => named(&name).unwrap_or_else(|| vec![Err(unknown(&name))]),
     }
+}
+
+/// The built-in suite of this name, or else those of this group.
+fn named(name: &str) -> Option<Sources> {
+    if let Some(suite) = embedded::source(name) {
+        return Some(vec![suite]);
+    }
+    let of_group = |source: &Result<Source, Diagnostic>| {
+        source.as_ref().is_ok_and(|source| source.group() == name)
+    };
+    let group: Sources = embedded::names().filter_map(embedded::source).filter(of_group).collect();
+    Some(group).filter(|group| !group.is_empty())
+}
+
+/// The suites whose name, or group and name, fit a pattern.
+fn fitting(glob: &str) -> Sources {
+    let fits = |source: &Result<Source, Diagnostic>| {
+        let source = source.as_ref().map_or_else(Diagnostic::file, Source::name);
+        let path = Path::new(source).with_extension("");
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let group = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
+        pattern::fits(glob, &name) || pattern::fits(glob, &format!("{group}/{name}"))
+    };
+    let found: Sources = everything().into_iter().filter(fits).collect();
+    if !found.is_empty() {
+        return found;
+    }
+    let diagnostic = Diagnostic::about(glob, &format!("no suite has a name like `{glob}`"));
+    vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
 /// Meaning of the path of a file that is not there: a file beside it, or a suite by its name.
@@ -110,26 +164,26 @@ fn meant_by_path(target: &Path) -> String {
 fn unknown(name: &str) -> Diagnostic {
     let diagnostic = Diagnostic::about(name, &format!("there is no suite called `{name}`"));
     let suites = suite_names();
-    let cli = Cli::command();
-    // Behind a command, another one makes no sense.
-    let first = std::env::args_os().nth(1).is_some_and(|first| first == name);
-    let commands = cli.get_subcommands().filter(|_| first).map(clap::Command::get_name);
-    let help = match nearest(name, suites.iter().map(String::as_str).chain(commands)) {
-        Some(near) if suites.iter().any(|suite| suite == near) => format!("did you mean `{near}`?"),
-        Some(command) => format!("did you mean the command `{command}`?"),
-        None => {
-            let known = embedded::names().count();
-            format!("`mpm-verify list` shows the {known} that are built in")
-        }
-    };
+    let near = nearest(name, suites.iter().map(String::as_str));
+    let help = near.map_or_else(
+        || format!("`mpm-verify list` shows the {} that are built in", embedded::names().count()),
+        |near| format!("did you mean `{near}`?"),
+    );
     diagnostic.with_help(&help)
 }
 
-/// Names by which suites can be asked for: those of the default folder, and the embedded ones.
-fn suite_names() -> Vec<String> {
+/// Names by which suites can be asked for, and those of their groups: of the default folder, and
+/// the embedded ones.
+pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
-    let name = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
-    local.iter().filter_map(name).chain(embedded::names().map(ToOwned::to_owned)).collect()
+    let text = |part: Option<&OsStr>| Some(part?.to_string_lossy().into_owned());
+    let groups = local.iter().filter_map(|path| text(path.parent()?.file_name()));
+    let mut names: Vec<String> = local.iter().filter_map(|path| text(path.file_stem())).collect();
+    names.extend(embedded::names().map(ToOwned::to_owned));
+    names.extend(groups.filter(|group| group != FOLDER));
+    let embedded = embedded::names().filter_map(|name| embedded::source(name)?.ok());
+    names.extend(embedded.map(|source| source.group()));
+    names
 }
 
 /// The suites of a folder.

@@ -45,7 +45,7 @@ fn all(args: &CheckArgs) -> u8 {
         let (source, suite, lacks, mut diagnostics) = match found {
             Ok(found) => found,
             Err(diagnostic) => {
-                output::complain(&diagnostic.to_string());
+                output::diagnose(&diagnostic);
                 counts.add(Severity::Error);
                 continue;
             }
@@ -59,7 +59,7 @@ fn all(args: &CheckArgs) -> u8 {
         let earlier = names.insert(suite.name.clone(), source.name().to_owned());
         diagnostics.extend(earlier.map(|earlier| named_twice(&suite, &source, &earlier)));
         for diagnostic in diagnostics {
-            output::complain(&diagnostic.to_string());
+            output::diagnose(&diagnostic);
             counts.add(diagnostic.severity());
         }
     }
@@ -141,7 +141,7 @@ pub(super) fn try_each(
 ) -> u8 {
     let mut code = PASSED;
     for found in select::with_sources(targets) {
-        let found = found.map_err(|diagnostic| diagnostic.to_string());
+        let found = found.map_err(|diagnostic| diagnostic.styled());
         match found.and_then(|(source, suite)| page(&source, &suite)) {
             Ok(page) => output::print(&page),
             Err(message) => {

@@ -16,19 +16,22 @@ const INTERVAL: Duration = Duration::from_millis(300);
 type FileStates = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
 
 /// Calls `run`, and again after every change of what `targets` name, until the program is ended.
-/// Returns only if there is no file to watch.
+/// Returns only if there is no file to watch, or nothing can be printed.
 pub(super) fn repeat(targets: &[PathBuf], mut run: impl FnMut() -> u8) -> u8 {
     let places = match select::places(targets) {
         Ok(places) => places,
         Err(diagnostic) => {
-            output::complain(&diagnostic.to_string());
+            output::diagnose(&diagnostic);
             return BAD_INPUT;
         }
     };
     // Looked at before the run: a change during it counts.
     let mut states = look(&places);
     loop {
-        run();
+        let code = run();
+        if output::failure().is_some() {
+            return code;
+        }
         output::complain(&format!("watching {}; Ctrl-C ends it", listed(&places)));
         let (now, changed) = wait_for_change(&places, &states, INTERVAL);
         output::complain(&format!("changed: {}", listed(&changed)));

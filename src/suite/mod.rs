@@ -13,6 +13,7 @@ pub(crate) mod compile;
 pub mod embedded;
 pub(crate) mod grammar;
 pub(crate) mod model;
+pub mod pattern;
 pub mod yaml;
 
 pub use grammar::{CrossingLevels, EquationName, NormName};

@@ -10,7 +10,7 @@ pub(super) use cost::{CostArgs, Vary};
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
 pub(super) use report::{ListArgs, MergeArgs, ReportArgs, RunArgs};
-pub(super) use shared::{Format, SolverArgs, Targets};
+pub(super) use shared::{ColorArgs, Format, SolverArgs, Targets};
 
 use super::new::args::NewArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -19,12 +19,17 @@ use std::path::PathBuf;
 
 /// Verifies Material Point Method solvers: suites of benchmarks, observed orders, verdicts.
 #[derive(Debug, Parser)]
-#[command(version, about, args_conflicts_with_subcommands = true)]
+#[command(
+    version,
+    about,
+    override_usage = "mpm-verify [OPTIONS] [SUITE]...\n       mpm-verify <COMMAND>",
+    after_help = "Without a command: `run`, whose options `mpm-verify run --help` lists."
+)]
 pub(super) struct Cli {
     #[command(subcommand)]
-    pub(super) command: Option<Command>,
+    pub(super) command: Command,
     #[command(flatten)]
-    pub(super) run: RunArgs,
+    pub(super) color: ColorArgs,
 }
 
 #[derive(Debug, Subcommand)]

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ProblemArgs {
-    /// Suite: a file, or a name
-    #[arg(value_name = "FILE|NAME")]
+    /// Suite: a file, a name, or `-` for standard input
+    #[arg(value_name = "SUITE")]
     pub(in crate::cli) suite: PathBuf,
     /// Level, the coarsest being 1 [default: the finest that the gate runs]
     #[arg(long, value_name = "N")]

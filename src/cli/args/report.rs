@@ -13,9 +13,8 @@ pub(in crate::cli) struct ReportArgs {
     /// Format of the output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(in crate::cli) format: Format,
-    /// Print the table of verdicts only, not the reports
-    #[arg(long)]
-    pub(in crate::cli) brief: bool,
+    #[command(flatten)]
+    pub(in crate::cli) print: PrintArgs,
     /// Run the finer levels too that suites list under `full`: takes hours where the others take
     /// seconds
     #[arg(long)]
@@ -30,6 +29,21 @@ pub(in crate::cli) struct ReportArgs {
     /// Threads to use; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N")]
     pub(in crate::cli) jobs: Option<usize>,
+}
+
+/// Words for the extent of what is printed.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PrintArgs {
+    /// Print every report. Without this: the reports of up to five suites that are named; of more,
+    /// or of all, an overview and the cases that did not come as expected
+    #[arg(long, conflicts_with_all = ["brief", "quiet"])]
+    pub(in crate::cli) reports: bool,
+    /// Print one line for each case only, not the reports
+    #[arg(long, conflicts_with = "quiet")]
+    pub(in crate::cli) brief: bool,
+    /// Print only the cases that did not come as expected, and no progress
+    #[arg(long, short)]
+    pub(in crate::cli) quiet: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,13 +1,15 @@
 //! Words that several commands have.
 
+use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Targets {
-    /// Suites: a file, a folder of files, or a name; default: all of verification/, or the
-    /// built-in suites where there is no such folder
-    #[arg(value_name = "FILE|FOLDER|NAME")]
+    /// Suites: a file, a folder of files, a name, a group (a folder of verification/, such as
+    /// `heat`), a pattern (`mms-*`), or `-` for standard input; default: all of verification/, or
+    /// the built-in suites where there is no such folder
+    #[arg(value_name = "SUITE")]
     pub(in crate::cli) targets: Vec<PathBuf>,
 }
 
@@ -42,4 +44,30 @@ pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
     });
     let usable = known.filter(|time| *time > 0.0 && time.is_finite());
     usable.ok_or_else(|| "expected a time with its unit, such as `10s` or `500ms`".to_owned())
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ColorArgs {
+    /// Colour of verdicts and complaints; `auto` is that of a terminal, unless NO_COLOR is set
+    #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = Color::Auto)]
+    color: Color,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+impl ColorArgs {
+    /// Tells both streams.
+    pub(in crate::cli) fn write_global(&self) {
+        match self.color {
+            Color::Auto => ColorChoice::Auto,
+            Color::Always => ColorChoice::Always,
+            Color::Never => ColorChoice::Never,
+        }
+        .write_global();
+    }
 }

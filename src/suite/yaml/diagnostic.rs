@@ -131,6 +131,11 @@ impl Diagnostic {
         }
     }
 
+    /// The same as `Display`, in the colours of a terminal.
+    pub fn styled(&self) -> String {
+        Renderer::styled().render(&[self.group()])
+    }
+
     fn group(&self) -> Group<'_> {
         let level = match self.severity() {
             Severity::Note => Level::NOTE,

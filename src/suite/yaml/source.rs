@@ -28,9 +28,22 @@ impl Source {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
         let name = path.as_ref().display().to_string();
         let bytes = bytes_of(path.as_ref(), &name)?;
+        Self::from_bytes(&name, bytes)
+    }
+
+    /// Reads what a program sends, no more of it than a suite may hold.
+    ///
+    /// # Errors
+    /// If it cannot be read, is too large or not UTF-8, and for all that [`Source::from_text`]
+    /// refuses.
+    pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
+        Self::from_bytes(name, limited(name, reader)?)
+    }
+
+    fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, Diagnostic> {
         match String::from_utf8(bytes) {
             Ok(text) => Self::from_text(name, text),
-            Err(error) => Err(not_utf8(&name, error.as_bytes(), error.utf8_error().valid_up_to())),
+            Err(error) => Err(not_utf8(name, error.as_bytes(), error.utf8_error().valid_up_to())),
         }
     }
 
@@ -73,7 +86,7 @@ impl Source {
     }
 
     /// Name of the folder that holds the file: of suites of one folder, what they have in common.
-    pub(crate) fn group(&self) -> String {
+    pub fn group(&self) -> String {
         let folder = Path::new(&self.name).parent().and_then(Path::file_name);
         folder.unwrap_or_default().to_string_lossy().into_owned()
     }
@@ -125,11 +138,14 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     if metadata.len() > MAX_BYTES as u64 {
         return Err(too_large(name, Some(metadata.len())));
     }
-    // A device or a pipe does not tell its length, and a file may grow meanwhile.
+    limited(name, File::open(path).map_err(|error| unreadable(&error))?)
+}
+
+/// All bytes of a reader: a device or a pipe does not tell their number, and a file may grow.
+fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(&error))?;
+    let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
+    read.map_err(|error| Diagnostic::about(name, &unreadable(&error)))?;
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 

@@ -10,6 +10,7 @@ mod json;
 mod new;
 mod page;
 mod plans;
+mod printed;
 mod problem;
 mod run;
 mod shards;
@@ -171,9 +172,12 @@ fn suites_at_hand_are_suggested(#[case] name: &str, #[case] help: &str) {
 #[case("lst", "did you mean the command `list`?")]
 #[case("odometer", "did you mean `oedometer`?")]
 fn a_misspelt_command_is_answered_with_the_right_one(#[case] word: &str, #[case] help: &str) {
-    let found = Folder::new().call(&[word]);
-    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
-    assert!(found.errors.contains(help), "{}", found.errors);
+    for words in [&[word][..], &[word, "--strict", "bar.yaml"], &["--color", "never", word]] {
+        let found = Folder::new().call(words);
+        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        let understood = help.contains("command") || !words.contains(&"--strict");
+        assert_eq!(found.errors.contains(help), understood, "{}", found.errors);
+    }
     let behind_a_command = Folder::new().call(&["check", "chek"]);
     assert!(!behind_a_command.errors.contains("command"), "{}", behind_a_command.errors);
 }

@@ -9,6 +9,7 @@ use crate::suite::compile::wording::suggestion;
 use crate::suite::grammar::{CrossingsName, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
+use crate::suite::pattern;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::{Expectation, OrderHypothesis, Verdict};
 use std::str::FromStr;
@@ -54,11 +55,12 @@ pub(crate) fn assign(
     }
     let path = Path::top("expect");
     let speaks = |i: usize, name: &str| {
-        selectors[i].is_none_or(|globs| globs.as_slice().iter().any(|glob| matches(glob, name)))
+        selectors[i]
+            .is_none_or(|globs| globs.as_slice().iter().any(|glob| pattern::fits(glob, name)))
     };
     for (i, selector) in selectors.iter().enumerate() {
         let Some(globs) = selector else { continue };
-        let idle = |glob: &String| !names.iter().any(|name| matches(glob, name));
+        let idle = |glob: &String| !names.iter().any(|name| pattern::fits(glob, name));
         if let Some(k) = globs.as_slice().iter().position(idle) {
             let at = path.then(i).then("case").alternative(globs, k);
             let message = format!("`{}` fits no case", globs.as_slice()[k]);
@@ -81,20 +83,6 @@ pub(crate) fn assign(
         }
     };
     names.iter().map(owner).collect()
-}
-
-/// Whether `glob`, in which `*` stands for any text, fits `name`.
-fn matches(glob: &str, name: &str) -> bool {
-    let mut parts = glob.split('*');
-    let Some(rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };
-    let parts: Vec<&str> = parts.collect();
-    let Some((last, middle)) = parts.split_last() else { return rest.is_empty() };
-    let mut rest = rest;
-    for part in middle {
-        let Some(at) = rest.find(part) else { return false };
-        rest = &rest[at + part.len()..];
-    }
-    rest.ends_with(last)
 }
 
 /// Expectation of a full run, where an entry states that it differs.
@@ -180,25 +168,4 @@ fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict
         let diagnostic = evaluator.diagnostic(path, &format!("`{word}` is not a verdict"));
         diagnostic.with_help(&suggestion("verdicts", word, &known))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::matches;
-    use rstest::rstest;
-
-    #[rstest]
-    #[case("fem-linear-lumped", "fem-linear-lumped", true)]
-    #[case("fem-linear-lumped", "fem-linear-lumped-x", false)]
-    #[case("*", "anything", true)]
-    #[case("fem-*", "fem-linear-lumped", true)]
-    #[case("fem-*", "mpm-linear", false)]
-    #[case("*-lumped", "fem-linear-lumped", true)]
-    #[case("fem-*-nodes", "fem-linear-lumped-nodes", true)]
-    #[case("fem-*-*-nodes", "fem-linear-nodes", false)]
-    #[case("*usl*usl", "a-usl", false)]
-    #[case("", "x", false)]
-    fn globs(#[case] glob: &str, #[case] name: &str, #[case] fits: bool) {
-        assert_eq!(matches(glob, name), fits);
-    }
 }

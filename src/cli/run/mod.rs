@@ -1,18 +1,21 @@
 //! `mpm-verify run`.
 
-use super::args::{Format, ReportArgs, RunArgs};
+mod files;
+mod page;
+mod printing;
+
+use super::args::{ReportArgs, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, page, select, solver, watch};
+use super::{output, select, solver, watch};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::SolverProgram;
-use mpm_verify::report;
 use mpm_verify::study::{ResultCache, Runner};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
+use printing::Printing;
 use std::path::Path;
 use std::time::Duration;
-use std::{fs, io};
 
 /// Runs suites, once or whenever their files change.
 pub(super) fn run(args: &RunArgs) -> u8 {
@@ -64,7 +67,7 @@ pub(super) fn report(
     args: &ReportArgs,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<Suite>, Judging), String>,
 ) -> u8 {
-    if let Err(message) = args.out.as_deref().map_or(Ok(()), prepare) {
+    if let Err(message) = args.out.as_deref().map_or(Ok(()), files::prepare) {
         output::complain(&message);
         return BAD_INPUT;
     }
@@ -94,21 +97,21 @@ pub(super) fn report(
             return BAD_INPUT;
         }
     }
-    let bar = progress_bar(&suites, extent(args));
-    let outcomes: Vec<SuiteOutcome> =
-        suites.iter().map(|suite| one(suite, args, &judging, &bar)).collect();
+    let printing = Printing::of(args, suites.len());
+    let bar = progress_bar(&suites, args);
+    let run = |suite| {
+        let outcome = one(suite, args, &judging, &bar);
+        bar.suspend(|| printing.of_suite(&outcome));
+        outcome
+    };
+    let outcomes: Vec<SuiteOutcome> = suites.iter().map(run).collect();
     bar.finish_and_clear();
-    match args.format {
-        Format::Json => output::print(&report::json(&outcomes)),
-        Format::Text if !outcomes.is_empty() => output::print(&report::summary(&outcomes)),
-        Format::Text => {}
-    }
-    let written = args.out.as_deref().map_or(Ok(()), |folder| write(folder, &outcomes));
-    let show = |file| page::write(file, &sources, &outcomes, refused.len());
-    let shown = args.html.as_deref().map_or(Ok(()), show);
-    let written = written.and(shown);
+    printing.of_all(args, &sources, &outcomes);
+    let written = args.out.as_deref().map_or(Ok(()), |folder| files::write(folder, &outcomes));
+    let page = |file| page::write(file, &sources, &outcomes, refused.len());
+    let written = written.and(args.html.as_deref().map_or(Ok(()), page));
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
-        output::complain(&diagnostic.to_string());
+        output::diagnose(diagnostic);
     }
     if let Err(message) = &written {
         output::complain(message);
@@ -145,9 +148,11 @@ fn extent(args: &ReportArgs) -> Extent {
 }
 
 /// A bar on standard error, shown only where that is a terminal.
-fn progress_bar(suites: &[Suite], extent: Extent) -> ProgressBar {
-    let units = suites.iter().map(|suite| Runner::over(suite, extent).units()).sum();
-    let bar = ProgressBar::with_draw_target(Some(units), ProgressDrawTarget::stderr());
+fn progress_bar(suites: &[Suite], args: &ReportArgs) -> ProgressBar {
+    let units = suites.iter().map(|suite| Runner::over(suite, extent(args)).units()).sum();
+    let target =
+        if args.print.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(units), target);
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
         bar.set_style(style);
     }
@@ -179,7 +184,7 @@ fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &ProgressBar) -
         bar.suspend(|| output::complain(&format!("warning: {warning}")));
     }
     let outcome = runner.run(&|| bar.inc(1));
-    if suite.explores() && solver.is_none() {
+    if suite.explores() && solver.is_none() && !args.print.quiet {
         let name = &suite.name;
         let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
         bar.suspend(|| output::complain(&format!("note: {name} {note}")));
@@ -187,15 +192,7 @@ fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &ProgressBar) -
     for line in kept.map(ResultCache::take_lines).unwrap_or_default() {
         bar.suspend(|| output::complain(&format!("note: {line}")));
     }
-    if args.format == Format::Text && !args.brief {
-        bar.suspend(|| output::print(&format!("{}\n", report::text(&outcome))));
-    }
     outcome
-}
-
-/// Makes the folder of `--out`, before hours are spent on what cannot be written.
-fn prepare(folder: &Path) -> Result<(), String> {
-    fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))
 }
 
 /// Opens the folder of `--resume`.
@@ -212,24 +209,4 @@ fn open(folder: &Path, args: &RunArgs) -> Result<ResultCache, String> {
 fn twice(suites: &[Suite]) -> Option<&str> {
     let names: Vec<&str> = suites.iter().map(|suite| suite.name.as_str()).collect();
     names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)).map(|(_, name)| *name)
-}
-
-fn unwritable(folder: &Path, error: &io::Error) -> String {
-    format!("error: --out {}: {error}", folder.display())
-}
-
-/// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
-fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
-    let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
-    let every_file = || -> io::Result<()> {
-        save("report.json", &report::json(outcomes))?;
-        for outcome in outcomes {
-            save(&format!("{}.txt", outcome.suite), &report::text(outcome))?;
-            for figure in report::svg(outcome) {
-                save(&figure.file, &figure.svg)?;
-            }
-        }
-        Ok(())
-    };
-    every_file().map_err(|error| unwritable(folder, &error))
 }

@@ -1,0 +1,109 @@
+//! Printed text of a run, and when it is printed.
+
+use crate::cli::args::{Format, ReportArgs};
+use crate::cli::output;
+use mpm_verify::report;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::SuiteOutcome;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Most suites that are named of which the reports are printed.
+const FEW: usize = 5;
+
+/// Extent of the printed text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Printing {
+    /// One JSON document.
+    Json,
+    /// Every report, then one line for each case.
+    Reports,
+    /// One line for each case.
+    Verdicts,
+    /// The overview, and the cases that did not come as expected.
+    Overview,
+    /// The cases that did not come as expected.
+    Unexpected,
+}
+
+impl Printing {
+    /// The extent that the options ask for, of so many suites.
+    pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
+        let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
+        match args.format {
+            Format::Json => Self::Json,
+            Format::Text if args.print.quiet => Self::Unexpected,
+            Format::Text if args.print.brief => Self::Verdicts,
+            Format::Text if args.print.reports || few_are_named => Self::Reports,
+            Format::Text => Self::Overview,
+        }
+    }
+
+    /// Prints what there is to say of a suite as soon as it has ended.
+    pub(super) fn of_suite(self, outcome: &SuiteOutcome) {
+        if self == Self::Reports {
+            output::print(&format!("{}\n", report::text(outcome)));
+        }
+    }
+
+    /// Prints what there is to say in the end.
+    pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
+        match self {
+            Self::Json => output::print(&report::json(outcomes)),
+            _ if outcomes.is_empty() => {}
+            Self::Reports | Self::Verdicts => output::print(&report::summary(outcomes)),
+            Self::Overview => {
+                output::print(&overview(outcomes));
+                output::print(&format!("\n{}{}\n", unexpected(outcomes), place(args, sources)));
+            }
+            Self::Unexpected => output::print(&unexpected(outcomes)),
+        }
+    }
+}
+
+/// One line for each suite, below the names of their groups: its cases by verdict.
+fn overview(outcomes: &[SuiteOutcome]) -> String {
+    let mut suites: Vec<&SuiteOutcome> = outcomes.iter().collect();
+    suites.sort_by_key(|outcome| &outcome.group);
+    let mut lines = Vec::new();
+    for group in suites.chunk_by(|a, b| a.group == b.group) {
+        lines.push(group[0].group.clone());
+        for outcome in group {
+            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+            for case in &outcome.cases {
+                *counts.entry(&case.verdict).or_default() += 1;
+            }
+            let counts: Vec<String> =
+                counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
+            let result = if outcome.passed() { "pass" } else { "FAIL" };
+            lines.push(format!("  {result}  {}: {}", outcome.suite, counts.join(", ")));
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The cases that did not come as expected, in full, below the names of their suites.
+fn unexpected(outcomes: &[SuiteOutcome]) -> String {
+    let mut text = String::new();
+    for outcome in outcomes.iter().filter(|outcome| !outcome.passed()) {
+        text += &format!("{}: {}\n\n", outcome.suite, outcome.title);
+        for case in outcome.cases.iter().filter(|case| !case.passed()) {
+            text += &format!("{}\n", report::case(case));
+        }
+    }
+    text
+}
+
+/// One line that says where the reports are.
+fn place(args: &ReportArgs, sources: &[Source]) -> String {
+    if let Some(folder) = &args.out {
+        return format!("reports: {}", folder.join("SUITE.txt").display());
+    }
+    let accepted = |source: &Source| Path::new(source.name()).with_extension("snap").is_file();
+    let accepted = if sources.iter().any(accepted) {
+        "verification/GROUP/SUITE.snap, as they were accepted; of this run: "
+    } else {
+        ""
+    };
+    format!("reports: {accepted}`--reports` prints them, `--out DIR` writes them")
+}

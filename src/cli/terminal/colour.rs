@@ -1,0 +1,64 @@
+//! Colours of verdicts and complaints. What is not a terminal gets none: the streams strip them.
+
+use anstyle::{AnsiColor, Style};
+
+const BAD: Style = AnsiColor::Red.on_default().bold();
+const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
+const GOOD: Style = AnsiColor::Green.on_default();
+const REMARK: Style = AnsiColor::Cyan.on_default().bold();
+
+/// Words by which a line begins, apart from spaces.
+const FIRST: [(&str, Style); 7] = [
+    ("error:", BAD),
+    ("warning:", DOUBTFUL),
+    ("note:", REMARK),
+    ("help:", REMARK),
+    ("FAIL ", BAD),
+    ("pass ", GOOD),
+    ("n/a ", DOUBTFUL),
+];
+
+/// Words of a row that says what came of a case.
+const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
+
+/// The text with its verdicts in colour.
+pub(super) fn painted(text: &str) -> String {
+    text.split_inclusive('\n').map(line).collect()
+}
+
+fn line(line: &str) -> String {
+    let start = line.len() - line.trim_start().len();
+    let (space, rest) = line.split_at(start);
+    for (word, style) in FIRST {
+        if let Some(after) = rest.strip_prefix(word) {
+            return format!("{space}{style}{word}{style:#}{after}");
+        }
+    }
+    if let Some(value) = rest.strip_prefix("result ") {
+        for (words, style) in RESULTS {
+            if let Some((before, after)) = value.split_once(words) {
+                return format!("{space}result {before}{style}{words}{style:#}{after}");
+            }
+        }
+    }
+    line.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("error: no\n", "\u{1b}[1m\u{1b}[31merror:\u{1b}[0m no\n")]
+    #[case("  pass  a::b  1.98\n", "  \u{1b}[32mpass \u{1b}[0m a::b  1.98\n")]
+    #[case(
+        "  result            as expected\n",
+        "  result            \u{1b}[32mas expected\u{1b}[0m\n"
+    )]
+    #[case("  about      what is as expected\n", "  about      what is as expected\n")]
+    #[case("passing\n", "passing\n")]
+    fn verdicts_are_painted_and_nothing_else(#[case] text: &str, #[case] wanted: &str) {
+        assert_eq!(painted(text), wanted);
+    }
+}

@@ -1,0 +1,4 @@
+//! Standard output, standard error, and their colours.
+
+mod colour;
+pub(super) mod output;

@@ -1,0 +1,180 @@
+//! What a run prints of itself, how much, in which colours, and what happens if it cannot.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
+use rstest::rstest;
+use std::io::Write;
+use std::process::Stdio;
+
+/// Six suites, so many that not every report is printed; the last expects too much.
+fn six() -> Folder {
+    let folder = Folder::new();
+    for number in 1..6 {
+        let suite = BAR.replace("short-bar", &format!("bar-{number}"));
+        folder.write(&format!("verification/bars/bar-{number}.yaml"), suite);
+    }
+    folder.write("verification/proud/ambitious-bar.yaml", ambitious());
+    folder
+}
+
+#[test]
+fn the_bare_command_prints_an_overview_and_in_full_only_what_did_not_come_as_expected() {
+    let folder = six();
+    let found = folder.call(&[]);
+    assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
+    let headings = found.out.lines().filter(|line| line.starts_with("== ")).count();
+    assert_eq!(headings, 2, "two cases of one suite\n{}", found.out);
+    for words in ["bars\n", "bar-1", "ambitious-bar: Short bar\n", "NOT AS EXPECTED", "`--reports`"]
+    {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    assert_eq!(folder.call(&["run"]).out, found.out);
+    folder.write("verification/bars/bar-1.snap", "accepted");
+    let accepted = folder.call(&[]).out;
+    assert!(accepted.contains("reports: verification/GROUP/SUITE.snap, "), "{accepted}");
+    let written = folder.call(&["--out", "results"]).out;
+    assert!(written.ends_with("reports: results/SUITE.txt\n"), "{written}");
+}
+
+#[test]
+fn every_report_is_printed_where_few_suites_are_named_or_all_are_asked_for() {
+    let folder = six();
+    let reports = |words: &[&str]| {
+        let out = folder.call(words).out;
+        ["== mpm-", "== fem-"]
+            .map(|start| out.lines().filter(|line| line.starts_with(start)).count())
+            .iter()
+            .sum::<usize>()
+    };
+    assert_eq!(reports(&["--reports"]), 12);
+    assert_eq!(reports(&["bar-1", "bar-2"]), 4);
+    assert_eq!(reports(&["bars"]), 10);
+    assert_eq!(reports(&["bars", "ambitious-bar"]), 2);
+    assert_eq!(reports(&["--brief"]), 0);
+}
+
+#[test]
+fn a_quiet_run_speaks_only_of_what_did_not_come_as_expected() {
+    let folder = six();
+    let found = folder.call(&["run", "--quiet", "bars"]);
+    assert_eq!((found.code, found.out.as_str(), found.errors.as_str()), (SOUND, "", ""));
+    let found = folder.call(&["-q"]);
+    assert_eq!(found.code, FAILED);
+    assert!(found.out.starts_with("ambitious-bar: Short bar\n\n== mpm-"), "{}", found.out);
+    assert!(!found.out.contains("bar-1"), "{}", found.out);
+}
+
+#[rstest]
+#[case::pattern("bar-*", 5)]
+#[case::pattern_of_the_end("*-bar", 1)]
+#[case::group("bars", 5)]
+#[case::pattern_in_a_group("proud/*", 1)]
+#[case::name("bar-3", 1)]
+fn suites_are_chosen_by_pattern_and_group(#[case] target: &str, #[case] count: usize) {
+    let found = six().call(&["check", target]);
+    assert_eq!((found.code, found.out.lines().count()), (SOUND, count), "{}", found.out);
+}
+
+#[test]
+fn a_pattern_that_fits_nothing_is_an_error() {
+    let found = six().call(&["check", "bear-*"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.contains("no suite has a name like `bear-*`"), "{}", found.errors);
+}
+
+#[test]
+fn groups_and_patterns_are_those_of_the_built_in_suites_where_there_is_no_folder() {
+    let folder = Folder::new();
+    let group = folder.call(&["list", "the-talk"]);
+    assert!(group.code == SOUND && group.out.contains("\nvibrating-bar: "), "{}", group.out);
+    let fitting = folder.call(&["list", "heat-m*"]);
+    assert!(fitting.code == SOUND && fitting.out.starts_with("heat-mms: "), "{}", fitting.out);
+}
+
+/// Standard output and standard error of the program that reads `input`.
+fn fed(folder: &Folder, arguments: &[&str], input: &str) -> (Option<i32>, String, String) {
+    let mut command = folder.command(arguments);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the program starts");
+    let mut pipe = child.stdin.take().expect("a pipe");
+    pipe.write_all(input.as_bytes()).expect("a reader");
+    drop(pipe);
+    let output = child.wait_with_output().expect("an end");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+#[rstest]
+#[case(&["run", "-"], "== fem-linear-lumped ==")]
+#[case(&["-"], "== fem-linear-lumped ==")]
+#[case(&["check", "-"], "short-bar: sound, 2 cases")]
+#[case(&["explain", "-"], "short-bar: Short bar")]
+#[case(&["propose", "-"], "# short-bar")]
+#[case(&["problem", "-"], "\n")]
+fn a_suite_comes_by_standard_input(#[case] arguments: &[&str], #[case] words: &str) {
+    let (code, out, errors) = fed(&Folder::new(), arguments, BAR);
+    assert_eq!(code, Some(SOUND), "{errors}");
+    assert!(out.contains(words), "no `{words}` in\n{out}");
+}
+
+#[test]
+fn standard_input_has_a_name_and_a_limit() {
+    let folder = Folder::new();
+    let (code, _, errors) = fed(&folder, &["check", "-"], &super::mistaken());
+    assert!(code == Some(BAD_INPUT) && errors.contains("<stdin>:9:3"), "{errors}");
+    // Short enough for a pipe that nobody reads to its end.
+    let (code, _, errors) = fed(&folder, &["check", "-"], &"a".repeat(65 * 1024));
+    assert!(code == Some(BAD_INPUT) && errors.contains("too large"), "{errors}");
+    let watched = folder.call(&["check", "--watch", "-"]);
+    assert!(watched.errors.contains("standard input does not change"), "{}", watched.errors);
+}
+
+#[test]
+fn colours_are_for_terminals_or_on_request() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", ambitious());
+    let escape = |answer: &crate::common::folder::Answer| {
+        (answer.out.contains('\u{1b}'), answer.errors.contains('\u{1b}'))
+    };
+    let words = ["run", "bar.yaml", "odometer"];
+    assert_eq!(escape(&folder.call(&words)), (false, false));
+    let painted = folder.call(&[&words[..], &["--color", "always", "--out", "results"]].concat());
+    assert_eq!(escape(&painted), (true, true));
+    assert!(painted.out.contains("\u{1b}[31mNOT AS EXPECTED"), "{}", painted.out);
+    for file in folder.files("results") {
+        assert!(!folder.read(&format!("results/{file}")).contains('\u{1b}'), "{file}");
+    }
+    assert_eq!(escape(&folder.call(&["--color=never", "run", "bar.yaml"])), (false, false));
+    assert_eq!(folder.call(&["--color", "blue"]).code, BAD_INPUT);
+}
+
+/// `/dev/full` refuses every byte.
+#[cfg(target_os = "linux")]
+#[rstest]
+#[case(&["--help"])]
+#[case(&["--version"])]
+#[case(&["run", "bar.yaml"])]
+#[case(&["run", "--format", "json", "bar.yaml"])]
+#[case(&["merge", "--from", ".", "bar.yaml"])]
+#[case(&["new", "another"])]
+#[case(&["list", "bar.yaml"])]
+#[case(&["check", "bar.yaml"])]
+#[case(&["explain", "bar.yaml"])]
+#[case(&["propose", "bar.yaml"])]
+#[case(&["diagnose", "bar.yaml", "--case", "mpm", "--budget", "1s"])]
+#[case(&["schema", "protocol"])]
+#[case(&["steps", "bar.yaml"])]
+#[case(&["problem", "bar.yaml"])]
+#[case(&["cost", "bar.yaml"])]
+#[case(&["compare", "report.json", "report.json"])]
+fn an_output_that_cannot_be_written_is_an_error(#[case] arguments: &[&str]) {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.write("report.json", r#"{"suites": []}"#);
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device");
+    let mut command = folder.command(arguments);
+    let output = command.stdout(full).output().expect("the program starts");
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(BAD_INPUT), "{errors}");
+    let message = "error: standard output cannot be written: No space left on device";
+    assert!(errors.contains(message), "{errors}");
+}
