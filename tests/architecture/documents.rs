@@ -291,7 +291,7 @@ const CARGO: &str = "run test bench build check doc fmt clippy install insta fuz
 
 /// Flags of `cargo run`, `test`, `bench` and `check` that documents may name.
 const CARGO_FLAGS: &str = "--release --lib --bench --test --locked --all-targets --all --no-deps \
-    --document-private-items --fuzz-dir --no-run --features --no-default-features --quiet --dev";
+    --document-private-items --fuzz-dir --no-run --features --no-default-features --quiet --dev --path";
 
 fn cargo(words: &[&str], has: &Repository) -> Option<String> {
     let words: Vec<&str> = words.iter().copied().filter(|word| !word.starts_with('+')).collect();

@@ -10,6 +10,7 @@
 //!
 //! markdown   text -> headings, links, spans of code, fenced blocks
 //! documents  what they say that the repository does not have
+//! pages      tables of documents that follow from the suites
 //! exercises  pages that add a member to a family, and how they are applied
 //! defects    seeded defects: what they change is still there
 //! ```
@@ -22,6 +23,7 @@ mod exercises;
 mod graph;
 mod import;
 mod markdown;
+mod pages;
 mod planted;
 mod rules;
 mod source;
@@ -252,6 +254,40 @@ fn documents_speak_of_what_is_there() {
         "a document that says what is no longer there costs its reader more than none",
         &stale.collect::<Vec<_>>(),
     );
+}
+
+/// The page of suites as it is, and as it should be.
+fn page_of_suites() -> (String, String) {
+    let page = std::fs::read_to_string(source::root().join(pages::SUITES)).expect("a page");
+    let (anew, missing) = pages::with_tables(&page, &pages::suites());
+    assert!(missing.is_empty(), "{} has no table of {missing:?}", pages::SUITES);
+    (page, anew)
+}
+
+#[test]
+fn the_page_of_suites_is_that_of_the_files() {
+    let (page, anew) = page_of_suites();
+    assert!(page == anew, "{} is stale: run ci/pages", pages::SUITES);
+}
+
+#[test]
+#[ignore = "ci/pages runs it"]
+fn the_page_of_suites_is_written() {
+    let (_, anew) = page_of_suites();
+    std::fs::write(source::root().join(pages::SUITES), anew).expect("a page is written");
+}
+
+#[test]
+fn every_folder_of_suites_tells_what_each_found() {
+    let texts: std::collections::BTreeMap<_, _> =
+        source::texts("verification", "README.md").into_iter().collect();
+    let told = |row: &&pages::Row| {
+        let page = texts.get(&format!("verification/{}/README.md", row.folder));
+        page.is_some_and(|page| page.contains(&format!("[`{0}`]({0}.snap)", row.name)))
+    };
+    let suites = pages::suites();
+    let untold: Vec<_> = suites.iter().filter(|row| !told(row)).map(|row| &row.name).collect();
+    assert!(untold.is_empty(), "not in the README.md of their folder: {untold:?}");
 }
 
 /// The pages of exercises that are there, with the most files that each may touch.

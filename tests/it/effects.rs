@@ -1,5 +1,5 @@
 //! Only the effects that a scene lists are simulated: what is not listed is not computed and not
-//! stored, and what is listed adds what the README says, verified by the suites that it names.
+//! stored, and what is listed adds what docs/effects.md says, verified by the suites that it names.
 
 use crate::common::columns::columns;
 use crate::common::effect::add;
@@ -139,8 +139,7 @@ fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
     }
 }
 
-/// The row of the README for a member of a scene, but for the suites that verify it.
-/// Row of an effect whose requirements are in `before`.
+/// Row of docs/effects.md for an effect whose requirements are in `before`.
 fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Setup<2>)) -> String {
     row_of(name, &taken(before), &taken(with))
 }
@@ -194,25 +193,25 @@ fn has_wall(suite: &str, name: &str) -> bool {
     plan.scene.faces.iter().any(|face| face.condition() == name)
 }
 
-/// The README's rows begin as `rows` say, and end with suites of which each `verifies`.
-fn are_in_the_readme(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> bool) {
-    let readme = include_str!("../../README.md");
+/// The rows of docs/effects.md begin as `rows` say, and end with suites of which each `verifies`.
+fn are_on_the_page(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> bool) {
+    let page = include_str!("../../docs/effects.md");
     for (name, row) in rows {
-        let found = readme.lines().find_map(|line| line.strip_prefix(row.as_str()));
+        let found = page.lines().find_map(|line| line.strip_prefix(row.as_str()));
         let suites = found.unwrap_or_else(|| {
             let rows: Vec<&str> = rows.iter().map(|(_, row)| row.as_str()).collect();
-            panic!("README: this table must hold\n{} `suite` |", rows.join(" `suite` |\n"))
+            panic!("docs/effects.md: this table must hold\n{} `suite` |", rows.join(" `suite` |\n"))
         });
         let suites: Vec<&str> = suites.split('`').skip(1).step_by(2).collect();
-        assert!(!suites.is_empty(), "README: no suite verifies `{name}`");
+        assert!(!suites.is_empty(), "docs/effects.md: no suite verifies `{name}`");
         for suite in suites {
-            assert!(verifies(suite, name), "README: `{suite}` has no `{name}`");
+            assert!(verifies(suite, name), "docs/effects.md: `{suite}` has no `{name}`");
         }
     }
 }
 
 #[test]
-fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
+fn the_page_says_what_each_effect_adds_and_which_suites_verify_it() {
     let row = |&name: &EffectName| {
         let needed = |setup: &mut Setup<2>| {
             name.needs().iter().for_each(|needed| add(*needed, setup, BasisName::Linear, 0.1));
@@ -222,7 +221,7 @@ fn the_readme_says_what_each_effect_adds_and_which_suites_verify_it() {
     };
     let rows: Vec<(&str, String)> = EffectName::ALL.iter().map(row).collect();
     let named = |name: &str| *EffectName::ALL.iter().find(|one| one.name() == name).unwrap();
-    are_in_the_readme(&rows, |suite, name| lists(suite, named(name)));
+    are_on_the_page(&rows, |suite, name| lists(suite, named(name)));
 }
 
 /// Profile of the second step of two bodies that overlap.
@@ -241,21 +240,21 @@ fn taken_by_two(friction: Option<f64>) -> Profile {
 }
 
 #[test]
-fn the_readme_says_what_contact_adds_and_which_suites_verify_it() {
+fn the_page_says_what_contact_adds_and_which_suites_verify_it() {
     let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
     let has_contact = |suite: &str, _: &str| {
         load(suite).plan::<ConvergencePlan>().is_some_and(|plan| plan.scene.contact.is_some())
     };
-    are_in_the_readme(&[("contact", row)], has_contact);
+    are_on_the_page(&[("contact", row)], has_contact);
 }
 
 #[test]
-fn the_readme_says_what_each_wall_adds_and_which_suites_verify_it() {
+fn the_page_says_what_each_wall_adds_and_which_suites_verify_it() {
     let rows = WALLS.map(|name| {
         let key = format!("{name} wall");
         (name, row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
     });
-    are_in_the_readme(&rows, has_wall);
+    are_on_the_page(&rows, has_wall);
 }
 
 fn every_effect_goes_on<const D: usize>(scheme: SchemeName) {

@@ -77,7 +77,7 @@ fn the_right_force_is_taken(#[case] force: &str) {
     }
 }
 
-/// README.md quotes the message.
+/// docs/wrong-force.md quotes the message.
 #[test]
 fn the_published_force_is_refused() {
     let wrong = PUBLISHED.replace("- centripetal(r, s)*sin", "+ centripetal(r, s)*sin");
@@ -93,8 +93,8 @@ fn the_published_force_is_refused() {
     let shown = load(&text).expect_err("a wrong sign").to_string();
     let message = shown.lines().next().expect("a message");
     assert!(
-        include_str!("../../../README.md").contains(message),
-        "README.md quotes another message than\n{message}"
+        include_str!("../../../docs/wrong-force.md").contains(message),
+        "docs/wrong-force.md quotes another message than\n{message}"
     );
 }
 

@@ -1,11 +1,15 @@
 //! The documents, held to the program: it understands the command lines that they show, and loads
 //! the suites. (`tests/architecture` holds their paths, names and JSON to the repository.)
 
-#[path = "../architecture/markdown.rs"]
+#[path = "../../architecture/markdown.rs"]
 #[allow(dead_code, reason = "links and headings are checked by tests/architecture")]
 mod markdown;
+mod methods;
+#[cfg(unix)]
+mod tour;
 
 use markdown::Document;
+use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use std::fs;
@@ -16,19 +20,23 @@ use std::process::Command;
 fn documents() -> Vec<Document> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut documents = Vec::new();
-    for folder in
-        ["", "docs", "docs/design", "docs/exercises", "examples/solvers", "benches", "tests/fuzz"]
-    {
-        for entry in fs::read_dir(root.join(folder)).expect("a folder of documents") {
-            let path = entry.expect("an entry").path();
-            if path.extension().is_some_and(|end| end == "md") {
-                let text = fs::read_to_string(&path).expect("a readable document");
-                let file = path.strip_prefix(root).unwrap_or(&path).display().to_string();
-                documents.push(Document::new(&file, &text));
-            }
+    read(root, root, &mut documents);
+    documents
+}
+
+/// Adds the documents below a folder, but for what is built.
+fn read(root: &Path, folder: &Path, documents: &mut Vec<Document>) {
+    for entry in fs::read_dir(folder).expect("a folder of documents") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.is_dir() && name != "target" && !name.starts_with('.') {
+            read(root, &path, documents);
+        } else if path.extension().is_some_and(|end| end == "md") {
+            let text = fs::read_to_string(&path).expect("a readable document");
+            let file = path.strip_prefix(root).unwrap_or(&path).display().to_string();
+            documents.push(Document::new(&file, &text));
         }
     }
-    documents
 }
 
 /// The arguments that a line gives to the program, as far as the shell would pass them on. Single
@@ -104,31 +112,41 @@ fn a_command_line_with_a_mistake_is_not_understood() {
     }
 }
 
-/// Suites on the pages of exercises use what the crate does not have: `ci/exercises` runs them.
-#[test]
-fn suites_load_that_documents_show_whole() {
-    let mut count = 0;
-    for document in documents().iter().filter(|d| !d.file.starts_with("docs/exercises/")) {
-        let suites = document.blocks.iter().filter(|block| {
+/// Suites that documents show whole, with their places. Those on the pages of exercises use what the
+/// crate does not have: `ci/exercises` runs them.
+fn whole_suites() -> Vec<(String, String)> {
+    let documents = documents().into_iter().filter(|d| !d.file.starts_with("docs/exercises/"));
+    let suites = documents.flat_map(|document| {
+        let whole = document.blocks.into_iter().filter(|block| {
             block.language == "yaml" && block.text.lines().any(|line| line.starts_with("suite:"))
         });
-        for block in suites {
-            let place = format!("{}:{}", document.file, block.line);
-            let suite =
-                Source::from_text(&*place, &*block.text).and_then(|source| Suite::load(&source));
-            if let Err(diagnostic) = suite {
-                panic!("{place}\n{diagnostic}");
-            }
-            count += 1;
-        }
+        whole.map(move |block| (format!("{}:{}", document.file, block.line), block.text))
+    });
+    suites.collect()
+}
+
+#[test]
+fn suites_load_that_documents_show_whole() {
+    for (place, text) in whole_suites() {
+        let loaded = Source::from_text(&*place, &*text).and_then(|source| Suite::load(&source));
+        assert!(loaded.is_ok(), "{place}\n{}", loaded.unwrap_err());
     }
-    assert!(count > 0, "the README shows a whole suite");
+}
+
+#[test]
+fn the_suites_that_readers_see_first_pass() {
+    for page in ["README.md", "docs/writing-a-suite.md"] {
+        let shown = whole_suites().into_iter().find(|(place, _)| place.starts_with(page));
+        let (place, text) = shown.unwrap_or_else(|| panic!("{page} shows no whole suite"));
+        let suite = Suite::load(&Source::from_text(&*place, &*text).unwrap()).unwrap();
+        assert!(Runner::new(&suite).run(&|| ()).passed(), "{place}: not as it expects");
+    }
 }
 
 /// The document shows the adapter that is compiled and run, not one that resembles it.
 #[test]
 fn the_adapter_that_the_library_page_shows_is_the_example() {
-    let page = include_str!("../../docs/library.md");
-    let adapter = include_str!("../../examples/own_solver/subject.rs");
+    let page = include_str!("../../../docs/library.md");
+    let adapter = include_str!("../../../examples/own_solver/subject.rs");
     assert!(page.contains(&format!("```rust\n{adapter}```")), "examples/own_solver/subject.rs");
 }

@@ -1,0 +1,54 @@
+//! The tour, taken: each block of commands is run, in order and in one folder, and must say what the
+//! block of text behind it shows.
+
+use super::markdown::Document;
+use crate::common::folder::Folder;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const FIGURE: &str = "vibrating-bar.svg";
+
+/// A block of commands, as a shell runs it that finds the program.
+fn run(commands: &str, folder: &Folder) -> Output {
+    let program = Path::new(env!("CARGO_BIN_EXE_mpm-verify"));
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let known = program.parent().map(Path::to_owned).into_iter();
+    let known = known.chain(std::env::split_paths(&folders));
+    let path = std::env::join_paths(known).expect("a path");
+    Command::new("sh")
+        .args(["-e", "-c", commands])
+        .env("PATH", path)
+        .current_dir(folder.path())
+        .stdin(std::process::Stdio::null())
+        .output()
+        .expect("a shell")
+}
+
+#[test]
+fn the_tour_shows_what_its_commands_say() {
+    let page = include_str!("../../../docs/tour.md");
+    let (folder, mut said) = (Folder::new(), String::new());
+    let mut shown = 0;
+    for block in Document::new("docs/tour.md", page).blocks {
+        match &*block.language {
+            "console" => {
+                let output = run(&block.text, &folder);
+                said =
+                    [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap()).concat();
+                assert!(output.status.success(), "docs/tour.md:{}\n{said}", block.line);
+            }
+            "text" => {
+                for line in block.text.lines() {
+                    assert!(said.contains(line), "docs/tour.md:{}: `{line}`\n{said}", block.line);
+                    shown += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    assert!(shown > 10, "the tour shows {shown} lines of answers: are they still found?");
+    let figure = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/figures").join(FIGURE);
+    let figure = std::fs::read_to_string(figure).expect("a figure");
+    let drawn = folder.read(&format!("results/{FIGURE}"));
+    assert!(figure == drawn, "docs/figures/{FIGURE} is stale: run ci/pages");
+}
