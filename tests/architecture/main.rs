@@ -290,6 +290,15 @@ fn every_folder_of_suites_tells_what_each_found() {
     assert!(untold.is_empty(), "not in the README.md of their folder: {untold:?}");
 }
 
+#[test]
+fn reports_are_quoted_as_they_are() {
+    for page in documents().iter().filter(|page| pages::QUOTING.contains(&page.file.as_str())) {
+        let (quoted, wrong) = pages::misquoted(page);
+        assert!(quoted > 0, "{} quotes no report: are they still found?", page.file);
+        assert!(wrong.is_empty(), "{}: no report has what lines {wrong:?} quote", page.file);
+    }
+}
+
 /// The pages of exercises that are there, with the most files that each may touch.
 fn exercises() -> Vec<(markdown::Document, usize)> {
     let documents = documents();

@@ -1,7 +1,9 @@
 //! Tables of documents that follow from the suites: written by `ci/pages`, held by a test.
 //!
-//! A table stands between `<!-- suites of FOLDER -->` and `<!-- end -->`.
+//! A table stands between `<!-- suites of FOLDER -->` and `<!-- end -->`. What a page quotes of a report
+//! is in a snapshot.
 
+use crate::markdown::Document;
 use crate::source::texts;
 use serde_yaml::Value;
 use std::collections::BTreeMap;
@@ -108,4 +110,21 @@ pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
         }
     }
     (page, missing)
+}
+
+/// Pages that quote reports, in blocks of text that are indented as reports are.
+pub(crate) const QUOTING: [&str; 2] = ["docs/judge.md", "docs/cost.md"];
+
+/// Lines at which a page quotes what no snapshot has: the lines of a quotation stand in one of them, in
+/// their order.
+pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
+    let snapshots = texts("verification", ".snap");
+    let is_of = |quoted: &str, (_, report): &(String, String)| {
+        let mut lines = report.lines();
+        quoted.lines().all(|wanted| wanted.is_empty() || lines.any(|line| line == wanted))
+    };
+    let quoting = page.blocks.iter().filter(|b| b.language == "text" && b.text.starts_with("  "));
+    let quoting: Vec<_> = quoting.collect();
+    let wrong = quoting.iter().filter(|block| !snapshots.iter().any(|s| is_of(&block.text, s)));
+    (quoting.len(), wrong.map(|block| block.line).collect())
 }
