@@ -299,6 +299,20 @@ fn reports_are_quoted_as_they_are() {
     }
 }
 
+#[test]
+fn the_book_has_every_document() {
+    let summary = "docs/SUMMARY.md";
+    let documents = documents();
+    let book = documents.iter().find(|page| page.file == summary).expect("a table of contents");
+    let listed: Vec<String> = book.links().into_iter().map(|link| link.text).collect();
+    let link =
+        |file: &str| file.strip_prefix("docs/").map_or_else(|| format!("../{file}"), str::to_owned);
+    let pages = documents.iter().filter(|page| page.file != summary);
+    let missing: Vec<_> = pages.filter(|page| !listed.contains(&link(&page.file))).collect();
+    let missing: Vec<_> = missing.iter().map(|page| &page.file).collect();
+    assert!(missing.is_empty(), "not in {summary}: {missing:?}");
+}
+
 /// The pages of exercises that are there, with the most files that each may touch.
 fn exercises() -> Vec<(markdown::Document, usize)> {
     let documents = documents();
