@@ -12,6 +12,7 @@ macro_rules! named {
         #[derive(
             Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Deserialize, serde::Serialize,
         )]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
         pub enum $names {
             $($(#[$member_meta])* #[serde(rename = $text)] $member,)+
         }

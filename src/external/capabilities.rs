@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Abilities of a solver. What is not named is lacking.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "external-programs", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent abilities, each asked by name")]
 pub struct Capabilities {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// Initial state of one level of a study, with all that its motion depends on.
 #[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "external-programs", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct LevelProblem {
     /// Name of the suite.
@@ -46,7 +46,7 @@ pub struct LevelProblem {
 
 /// Cells of one size along every axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "external-programs", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemGrid {
     /// Lowest corner (m), D numbers.
@@ -61,7 +61,7 @@ pub struct ProblemGrid {
 
 /// One face of the body's box.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "external-programs", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemFace {
     /// Its name, as suites write it.
@@ -78,14 +78,14 @@ pub struct ProblemFace {
 
 /// The material of one body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "external-programs", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemMaterial {
     /// Name of the law, as suites write it.
     pub law: &'static str,
     /// Parameters by their keys, in SI units.
     #[serde(serialize_with = "as_map")]
-    #[cfg_attr(feature = "external-programs", schemars(with = "BTreeMap<String, f64>"))]
+    #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, f64>"))]
     pub parameters: Vec<(&'static str, f64)>,
     /// Reference density (kg/m^D).
     pub density: f64,
@@ -105,7 +105,7 @@ fn as_map<S: Serializer>(all: &[(&'static str, f64)], to: S) -> Result<S::Ok, S:
 
 /// A load or effect of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "external-programs", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemLoad {
     /// Its name, as suites write it.

@@ -16,6 +16,8 @@ pub(crate) mod model;
 pub mod pattern;
 pub mod yaml;
 
+#[cfg(feature = "schemas")]
+pub use compile::schema::suite_schema;
 pub use grammar::{CrossingLevels, EquationName, NormName};
 pub use model::external_method::ExternalMethod;
 pub use model::heat::SceneHeat;

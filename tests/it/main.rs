@@ -18,5 +18,6 @@ mod judge;
 mod motions;
 mod mpm;
 mod pitfalls;
+mod schema;
 mod study;
 mod testing;

@@ -123,6 +123,8 @@ pub(super) struct SchemaArgs {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum SchemaName {
+    /// A suite, for editors that complete and check it while it is written
+    Suite,
     /// Messages between the harness and a solver of another program
     Protocol,
 }

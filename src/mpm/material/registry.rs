@@ -14,6 +14,11 @@ macro_rules! materials {
         /// A material as suites write it: its name, its parameters and its density, each
         /// an `N`, which stands for a number.
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+        #[cfg_attr(
+            feature = "schemas",
+            derive(schemars::JsonSchema),
+            schemars(bound = "N: Default + schemars::JsonSchema")
+        )]
         #[serde(deny_unknown_fields)]
         pub enum MaterialSpec<N> {
             $(

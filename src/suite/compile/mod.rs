@@ -11,6 +11,8 @@ pub(crate) mod load;
 pub(crate) mod path;
 pub(crate) mod run;
 pub(crate) mod scene;
+#[cfg(feature = "schemas")]
+pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod suite;
 pub(crate) mod truth;

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 /// Bounds on the relative drift of sums over the body.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DriftSpec {
     pub(crate) mass: Option<NumberText>,

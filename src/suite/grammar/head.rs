@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 /// Keys that every suite has, whatever it studies.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 pub(crate) struct Head {
     #[serde(default = "StudyName::default_study")]
     pub(crate) study: StudyName,
@@ -11,6 +12,7 @@ pub(crate) struct Head {
 
 /// Kinds of study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StudyName {
     /// Errors over a refinement plan.

@@ -8,40 +8,58 @@ use serde::Deserialize;
 
 /// A study of the internal force.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InternalForceSpec {
+    /// Name of the suite: lower-case letters, digits and hyphens.
     pub(crate) suite: String,
+    /// Kind of study: `internal_force`.
     #[serde(rename = "study")]
     pub(crate) _study: StudyName,
+    /// Headline of the report.
     pub(crate) title: String,
+    /// Where the problem comes from.
     pub(crate) source: String,
+    /// Remarks for a reader of the report.
     #[serde(default)]
     pub(crate) about: String,
+    /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
+    /// Functions for formulas that need something more than once: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
+    /// The set-up.
     pub(crate) internal_force: ForceSpec,
+    /// Basis functions that are compared.
     pub(crate) methods: Vec<ForceMethodSpec>,
-    /// Empty: the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
     #[serde(default)]
     pub(crate) expect: Vec<ForceExpectSpec>,
 }
 
 /// The set-up of an internal-force study.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ForceSpec {
+    /// Cell size (m).
     pub(crate) cell: NumberText,
+    /// Particles per cell.
     pub(crate) ppc: NumberText,
+    /// Volume of a particle (m).
     pub(crate) volume: NumberText,
+    /// Uniform stress (Pa).
     pub(crate) stress: NumberText,
+    /// Number of positions of the particles within a cell.
     pub(crate) positions: NumberText,
+    /// Predicted force, a formula.
     pub(crate) prediction: NumberText,
 }
 
 /// A method of an internal-force study.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum ForceMethodSpec {
     Mpm { basis: OneOrMany<BasisName> },
@@ -49,12 +67,15 @@ pub(crate) enum ForceMethodSpec {
 
 /// An expectation of an internal-force study.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ForceExpectSpec {
+    /// Cases that it speaks of, `*` standing for any text; all unless stated.
     pub(crate) case: Option<OneOrMany<String>>,
     /// Largest deviation from the prediction, relative to the largest prediction.
     pub(crate) agrees_within: Option<NumberText>,
     /// Largest change between neighbouring positions, relative to the largest prediction.
     pub(crate) steps_below: Option<NumberText>,
+    /// The reason for expecting it.
     pub(crate) because: String,
 }

@@ -4,8 +4,10 @@
 //! a method's entries may be lists, whose product gives the cases.
 
 pub(crate) mod drift;
+pub(crate) mod expect;
 pub(crate) mod head;
 pub(crate) mod internal_force;
+pub(crate) mod method;
 pub(crate) mod parameter;
 pub(crate) mod refine;
 pub(crate) mod sample;
@@ -16,8 +18,10 @@ pub(crate) mod transfer;
 pub(crate) mod truth;
 
 pub(crate) use drift::DriftSpec;
+pub(crate) use expect::{CrossingsName, ExpectSpec};
 pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
+pub(crate) use method::MethodSpec;
 pub(crate) use parameter::{ParameterSpec, TableSpec};
 pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
 pub(crate) use sample::read;
@@ -30,42 +34,59 @@ pub(crate) use step::StepSpec;
 pub use truth::EquationName;
 pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
 
-use super::yaml::{NumberText, OneOrMany, Ordered};
-use crate::fem::{Element, Mass, Sampling};
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use super::yaml::{NumberText, Ordered};
+use crate::fem::{Element, Mass};
 use crate::named::named;
-use crate::subject::{Precision, Start};
-use crate::verify::{FloorCause, Quantity};
+use crate::verify::Quantity;
 use serde::Deserialize;
 
 /// A convergence study.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConvergenceSpec {
+    /// Name of the suite: lower-case letters, digits and hyphens.
     pub(crate) suite: String,
+    /// Kind of study; `convergence` unless stated.
     #[serde(rename = "study")]
     pub(crate) _study: Option<StudyName>,
+    /// Headline of the report.
     pub(crate) title: String,
+    /// Where the problem comes from.
     pub(crate) source: String,
+    /// Remarks for a reader of the report.
     #[serde(default)]
     pub(crate) about: String,
+    /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
+    /// Functions for formulas that need something more than once: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
+    /// The body, what holds it and what acts on it.
     pub(crate) scene: SceneSpec,
+    /// The solution as formulas, checked before any solver runs.
     pub(crate) exact: Option<ExactSpec>,
+    /// A motion whose body force follows by differentiation.
     pub(crate) manufactured: Option<ManufacturedSpec>,
+    /// The state in which the body comes to rest, as formulas of the coordinates.
     pub(crate) equilibrium: Option<ExactSpec>,
+    /// A fine computation, where no formula is known.
     pub(crate) reference: Option<ReferenceSpec>,
+    /// End, time step and instants of a run.
     pub(crate) run: RunSpec,
+    /// Levels: what is a list is refined, from coarse to fine.
     pub(crate) refine: RefineSpec,
+    /// Places of particles beside the lattice.
     pub(crate) particles: Option<ScatterSpec>,
+    /// Methods that are judged; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
+    /// The error that is judged.
     #[serde(default)]
     pub(crate) judge: JudgeSpec,
+    /// A place for Richardson's extrapolation and the velocity history.
     pub(crate) observe: Option<ObserveSpec>,
-    /// Empty: the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
     #[serde(default)]
     pub(crate) expect: Vec<ExpectSpec>,
 }
@@ -83,65 +104,57 @@ impl ConvergenceSpec {
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceSpec {
+    /// The equation that the fine computation solves.
     pub(crate) equation: Option<EquationName>,
+    /// A fine FEM computation.
     pub(crate) fem: Option<ReferenceFemSpec>,
+    /// The same method with much shorter steps, or on a much finer grid.
     pub(crate) same_method: Option<SameMethodSpec>,
 }
 
 /// The same method with shorter steps, or on a fine grid.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SameMethodSpec {
+    /// Time step (s), at most 1/8 of the finest.
     pub(crate) dt: Option<NumberText>,
+    /// Cells along the first axis, at least 4 times those of the finest level.
     pub(crate) cells: Option<NumberText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceFemSpec {
+    /// Element.
     pub(crate) element: Element,
+    /// Mass matrix.
     pub(crate) mass: Mass,
+    /// Number of elements.
     pub(crate) cells: NumberText,
+    /// Time step (s).
     pub(crate) dt: NumberText,
 }
 
-#[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum MethodSpec {
-    Mpm {
-        basis: OneOrMany<BasisName>,
-        transfer: OneOrMany<TransferChoice>,
-        scheme: OneOrMany<SchemeName>,
-        start: Option<OneOrMany<Start>>,
-        mass: Option<OneOrMany<MassName>>,
-        frame: Option<OneOrMany<FrameName>>,
-    },
-    Fem {
-        element: OneOrMany<Element>,
-        mass: OneOrMany<Mass>,
-        law: Option<OneOrMany<EquationName>>,
-        start: Option<OneOrMany<Start>>,
-        sampling: Option<OneOrMany<Sampling>>,
-    },
-    /// MPM of a body at rest, in which heat flows.
-    Heat { basis: OneOrMany<BasisName> },
-    /// A solver that is not of this crate, which the command line starts.
-    External { name: String, formal_order: Option<NumberText>, precision: Option<Precision> },
-}
-
 #[derive(Debug, Clone, Default, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct JudgeSpec {
+    /// The judged quantity.
     #[serde(default)]
     pub(crate) of: Quantity,
+    /// Norm of the error.
     #[serde(default)]
     pub(crate) norm: NormName,
     /// Face whose reaction is judged; absent: all walls together.
     pub(crate) face: Option<String>,
     /// Divisor of the error before it is judged.
     pub(crate) scale: Option<NumberText>,
+    /// Whether levels on which particles change their cell count.
     #[serde(default)]
     pub(crate) crossing_levels: CrossingLevels,
 }
@@ -190,41 +203,9 @@ named! {
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObserveSpec {
+    /// Reference position (m).
     pub(crate) at: Vec<NumberText>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ExpectSpec {
-    pub(crate) case: Option<OneOrMany<String>>,
-    pub(crate) verdict: Option<String>,
-    pub(crate) order: Option<Vec<NumberText>>,
-    pub(crate) finest_pair: Option<Vec<NumberText>>,
-    pub(crate) crossings: Option<CrossingsName>,
-    pub(crate) floor: Option<FloorCause>,
-    /// Bounds on the judged error of every level that counts.
-    pub(crate) error_below: Option<NumberText>,
-    pub(crate) error_above: Option<NumberText>,
-    /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
-    pub(crate) observed_within: Option<NumberText>,
-    /// Largest speed towards the end of every level that counts, over the wave speed.
-    pub(crate) rest_below: Option<NumberText>,
-    pub(crate) drift: Option<DriftSpec>,
-    /// Bounds on the rate of the energy (1/s).
-    pub(crate) energy_rate: Option<Vec<NumberText>>,
-    pub(crate) because: String,
-    /// Expectation of a full run, where that differs.
-    pub(crate) full: Option<Box<ExpectSpec>>,
-}
-
-/// Whether particles change their cell on the finest level.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum CrossingsName {
-    /// None does.
-    None,
-    /// At least one does.
-    Some,
 }

@@ -8,8 +8,10 @@ pub(crate) type ParameterSpec = NumberOr<TableSpec>;
 
 /// `{by: t, table: [[0, 0], [0.1, 1]]}`: values by another parameter or by a variable of formulas.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TableSpec {
+    /// A parameter, or a variable of formulas.
     pub(crate) by: String,
     /// Rows of a value of `by` and the parameter's value there.
     pub(crate) table: Vec<Vec<NumberText>>,

@@ -7,42 +7,62 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneSpec {
+    /// 1, 2 or 3.
     pub(crate) dimension: NumberText,
+    /// State across the plane of a scene in two dimensions.
     pub(crate) plane: Option<PlaneState>,
+    /// The body.
     pub(crate) body: Option<BodySpec>,
     /// Several bodies, in place of `body` and `material`.
     pub(crate) bodies: Option<Vec<OneBodySpec>>,
+    /// Contact between the bodies; without it they share one velocity field.
     pub(crate) contact: Option<ContactSpec>,
+    /// Corners of the grid (m); otherwise that of the body, with room beyond free faces.
     pub(crate) grid: Option<BoxSpec>,
+    /// The material.
     pub(crate) material: Option<MaterialSpec<NumberText>>,
     /// The words of boundary conditions stand in their files, and are read there.
     #[serde(rename = "boundary")]
+    #[cfg_attr(feature = "schemas", schemars(skip))]
     pub(crate) _boundary: Option<IgnoredAny>,
+    /// Residual or geostatic stress of the reference body.
     pub(crate) initial_stress: Option<StressSpec>,
+    /// Displacement at the start (m), formulas of the coordinates.
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
+    /// Velocity at the start (m/s), formulas of the coordinates.
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
+    /// Names for the particles in a part of the reference body.
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
     /// As those of loads.
     #[serde(rename = "loads")]
+    #[cfg_attr(feature = "schemas", schemars(skip))]
     pub(crate) _loads: Option<IgnoredAny>,
 }
 
 /// One of several bodies.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OneBodySpec {
+    /// The body.
     pub(crate) body: BodySpec,
+    /// Its material.
     pub(crate) material: MaterialSpec<NumberText>,
+    /// Its residual or geostatic stress.
     pub(crate) initial_stress: Option<StressSpec>,
+    /// Its displacement at the start (m).
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
+    /// Its velocity at the start (m/s).
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 
 /// A symmetric stress (Pa) by its components; those that are not stated are zero.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StressSpec {
     pub(crate) xx: Option<NumberText>,
@@ -55,6 +75,7 @@ pub(crate) struct StressSpec {
 
 /// How bodies push each other where they meet.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactSpec {
     /// Coefficient of friction.
@@ -62,25 +83,35 @@ pub(crate) struct ContactSpec {
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum BodySpec {
+    /// A box along the axes.
     Box(BoxSpec),
+    /// A ring, in two dimensions; its rims are free.
     Annulus(AnnulusSpec),
+    /// A disk, in two dimensions; its rim is free.
     Disk(RoundSpec),
+    /// A ball, in three dimensions; its surface is free.
     Ball(RoundSpec),
     /// Corners, in their order around the body.
     Polygon(Vec<Vec<NumberText>>),
+    /// A bilinear map of a square, in two dimensions.
     Quadrilateral(QuadrilateralSpec),
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxSpec {
+    /// Lowest corner (m).
     pub(crate) from: Vec<NumberText>,
+    /// Highest corner (m).
     pub(crate) to: Vec<NumberText>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct QuadrilateralSpec {
     /// Four, counter-clockwise.
@@ -88,22 +119,30 @@ pub(crate) struct QuadrilateralSpec {
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AnnulusSpec {
+    /// Centre (m).
     pub(crate) centre: Vec<NumberText>,
+    /// Inner radius (m).
     pub(crate) inner: NumberText,
+    /// Outer radius (m).
     pub(crate) outer: NumberText,
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RoundSpec {
+    /// Centre (m).
     pub(crate) centre: Vec<NumberText>,
+    /// Radius (m).
     pub(crate) radius: NumberText,
 }
 
 /// Material points with a name.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum SetSpec {
     /// Those whose reference positions lie in a box.

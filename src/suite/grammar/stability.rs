@@ -8,39 +8,55 @@ use serde::Deserialize;
 
 /// A stability study.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StabilitySpec {
+    /// Name of the suite: lower-case letters, digits and hyphens.
     pub(crate) suite: String,
+    /// Kind of study: `stability`.
     #[serde(rename = "study")]
     pub(crate) _study: StudyName,
+    /// Headline of the report.
     pub(crate) title: String,
+    /// Where the problem comes from.
     pub(crate) source: String,
+    /// Remarks for a reader of the report.
     #[serde(default)]
     pub(crate) about: String,
+    /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
+    /// Functions for formulas that need something more than once: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
+    /// The body, what holds it and what acts on it.
     pub(crate) scene: SceneSpec,
+    /// Cells and particles.
     pub(crate) particles: ParticleSpec,
+    /// Time step and number of steps.
     pub(crate) run: StabilityRunSpec,
     /// One parameter, and the values that it takes.
     pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
+    /// The parameter whose largest stable value is sought for each row.
     pub(crate) critical: Option<CriticalSpec>,
     /// Figures that the report shows.
     #[serde(default)]
     pub(crate) show: Vec<crate::verify::RunFigure>,
+    /// Methods that are put to it; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
-    /// Empty: the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
     #[serde(default)]
     pub(crate) expect: Vec<StabilityExpectSpec>,
 }
 
 /// How the body is filled.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ParticleSpec {
+    /// Cells along the first axis.
     pub(crate) cells: NumberText,
+    /// Particles per cell.
     pub(crate) ppc: NumberText,
     /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
@@ -51,13 +67,16 @@ pub(crate) struct ParticleSpec {
 
 /// How it is run.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StabilityRunSpec {
+    /// Time step (s): a number, `auto`, or `{courant: ...}`.
     pub(crate) dt: StepSpec,
     /// Another length of a step, which takes turns with `dt`.
     pub(crate) alternate: Option<NumberText>,
     /// Steps of one length before it is the turn of the other.
     pub(crate) every: Option<NumberText>,
+    /// Number of steps.
     pub(crate) steps: NumberText,
     /// Steps of a full run, where that takes more.
     pub(crate) full_steps: Option<NumberText>,
@@ -66,41 +85,54 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) frozen: bool,
     /// Size of random perturbations of the state at the start.
     pub(crate) perturb: Option<NumberText>,
+    /// Energy, over that at the start, below which a run is stable.
     pub(crate) stable_below: Option<NumberText>,
+    /// Energy, over that at the start, above which a run is unstable.
     pub(crate) unstable_above: Option<NumberText>,
 }
 
 /// The parameter whose limit is sought, and where.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CriticalSpec {
+    /// Name of the parameter.
     pub(crate) parameter: String,
+    /// Lowest value that is tried.
     pub(crate) from: NumberText,
+    /// Highest value that is tried.
     pub(crate) to: NumberText,
 }
 
 /// An expectation of a stability study.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StabilityExpectSpec {
+    /// Cases that it speaks of, `*` standing for any text; all unless stated.
     pub(crate) case: Option<OneOrMany<String>>,
     /// Of every row, or one for each.
     pub(crate) verdict: Option<OneOrMany<Stability>>,
     /// The limit that is sought.
     pub(crate) critical: Option<FigureSpec>,
+    /// Bounds on figures of the runs.
     #[serde(default)]
     pub(crate) figures: Ordered<FigureSpec>,
+    /// The reason for expecting it.
     pub(crate) because: String,
 }
 
 /// Bounds on a figure.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FigureSpec {
     /// A closed form, of the parameters.
     pub(crate) is: Option<NumberText>,
     /// Largest deviation from it: a share of it, or of one if it is smaller.
     pub(crate) within: Option<NumberText>,
+    /// Lower bound.
     pub(crate) above: Option<NumberText>,
+    /// Upper bound.
     pub(crate) below: Option<NumberText>,
 }

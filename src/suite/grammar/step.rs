@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 /// Length of a step.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(from = "NumberOr<Rule>")]
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
@@ -17,8 +18,10 @@ pub(crate) enum StepSpec {
 
 /// `{courant: 0.5}`.
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct Rule {
+    /// Share of the stable time step.
     courant: NumberText,
 }
 

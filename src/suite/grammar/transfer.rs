@@ -12,6 +12,33 @@ impl<'de> Deserialize<'de> for TransferChoice {
     }
 }
 
+#[cfg(feature = "schemas")]
+impl schemars::JsonSchema for TransferChoice {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "TransferChoice".into()
+    }
+
+    fn json_schema(all: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let series = WithParameter::ALL.iter().map(|name| {
+            let (least, most) = name.parameter().range;
+            let terms = schemars::json_schema!({
+                "type": "integer", "minimum": least, "maximum": most,
+                "description": "Number of terms."
+            });
+            schemars::json_schema!({
+                "type": "object", "properties": {name.name(): terms},
+                "required": [name.name()], "additionalProperties": false
+            })
+        });
+        let name = all.subschema_for::<TransferName>();
+        schemars::json_schema!({"anyOf": std::iter::once(name).chain(series).collect::<Vec<_>>()})
+    }
+}
+
 struct NameOrParameter;
 
 impl<'de> Visitor<'de> for NameOrParameter {

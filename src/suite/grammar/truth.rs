@@ -8,13 +8,16 @@ use serde::{Deserialize, Deserializer};
 
 /// A solution, or the state in which the body comes to rest.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExactSpec {
     /// Both together, of a body that moves.
     pub(crate) equation: Option<EquationName>,
+    /// Displacement (m), formulas of `X`, `Y`, `Z` and `t`.
     pub(crate) displacement: Option<Vec<NumberText>>,
     /// Of a body in which heat flows.
     pub(crate) temperature: Option<NumberText>,
+    /// Share of the terms of a condition that may be left, up to 1e-2; 1e-8 unless stated.
     pub(crate) tolerance: Option<NumberText>,
     /// Of a solution that meets its law to first order only.
     pub(crate) linearised: Option<LinearisedSpec>,
@@ -22,16 +25,22 @@ pub(crate) struct ExactSpec {
 
 /// The share of the equations that a linearised solution may leave, and why.
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinearisedSpec {
+    /// Share of the terms that may be left.
     pub(crate) tolerance: NumberText,
+    /// The reason for accepting it.
     pub(crate) because: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ManufacturedSpec {
+    /// Displacement (m), formulas of `X`, `Y`, `Z` and `t`.
     pub(crate) displacement: Option<Vec<NumberText>>,
+    /// Temperature (K), a formula of the coordinates and `t`.
     pub(crate) temperature: Option<NumberText>,
 }
 
@@ -62,6 +71,22 @@ impl EquationName {
 impl Default for EquationName {
     fn default() -> Self {
         Self(BarLaw::SmallStrain.name())
+    }
+}
+
+#[cfg(feature = "schemas")]
+impl schemars::JsonSchema for EquationName {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "EquationName".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let names: Vec<&str> = Self::all().map(Self::name).collect();
+        schemars::json_schema!({"type": "string", "enum": names})
     }
 }
 

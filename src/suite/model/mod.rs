@@ -3,6 +3,8 @@
 pub(crate) mod boundary;
 pub(crate) mod external;
 pub(crate) mod external_method;
+#[cfg(feature = "schemas")]
+pub(crate) mod face_schema;
 pub(crate) mod fingerprint;
 pub(crate) mod grid_size;
 pub(crate) mod heat;

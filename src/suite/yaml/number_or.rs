@@ -27,6 +27,22 @@ impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Deserialize<'de> for NumberOr<T
     }
 }
 
+#[cfg(feature = "schemas")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for NumberOr<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("NumberOr_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(all: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let (number, map) = (all.subschema_for::<NumberText>(), all.subschema_for::<T>());
+        schemars::json_schema!({"anyOf": [number, map]})
+    }
+}
+
 struct EitherOf<T>(PhantomData<T>);
 
 fn number<'de, T, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<NumberOr<T>, E> {

@@ -42,6 +42,17 @@ impl<'de> Deserialize<'de> for NumberText {
     }
 }
 
+#[cfg(feature = "schemas")]
+impl schemars::JsonSchema for NumberText {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "NumberText".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({"type": ["number", "string"]})
+    }
+}
+
 struct NumberOrFormula;
 
 impl Visitor<'_> for NumberOrFormula {

@@ -46,6 +46,23 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
     }
 }
 
+#[cfg(feature = "schemas")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for OneOrMany<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("OneOrMany_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(all: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let one = all.subschema_for::<T>();
+        let many = schemars::json_schema!({"type": "array", "items": one.clone(), "minItems": 1});
+        schemars::json_schema!({"anyOf": [one, many]})
+    }
+}
+
 struct Alternatives<T>(PhantomData<T>);
 
 fn one<'de, T: Deserialize<'de>, E: de::Error>(

@@ -35,6 +35,7 @@ mod tables;
 mod truths;
 mod vortex;
 
+use crate::schema;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use rstest::rstest;
@@ -62,15 +63,17 @@ fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let text = format!("{before}{after}");
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
-    let shown = match load(&text) {
+    let diagnostic = match load(&text) {
         Ok(_) => panic!("accepted:\n{text}"),
-        Err(diagnostic) => diagnostic.to_string(),
+        Err(diagnostic) => diagnostic,
     };
+    let shown = diagnostic.to_string();
     let excerpt = text.lines().nth(line - 1).expect("a line");
     points(&shown, line, column, excerpt);
     for words in words {
         assert!(shown.contains(words), "no `{words}` in\n{shown}");
     }
+    schema::refuses_too(&text, &diagnostic);
 }
 
 /// Whether the complaint names the place, shows the line and has a caret under the column.

@@ -4,6 +4,7 @@ pub(crate) mod columns;
 pub(crate) mod effect;
 pub(crate) mod folder;
 pub(crate) mod interrupted;
+pub(crate) mod json_schema;
 
 use mpm_verify::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,

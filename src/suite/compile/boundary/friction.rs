@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 /// Coefficient of friction.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct FrictionSpec(NumberText);
 

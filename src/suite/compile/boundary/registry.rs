@@ -17,6 +17,7 @@ macro_rules! conditions {
     ) => {
         $(#[$family])*
         #[derive(Debug, Clone, serde::Deserialize)]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
         pub(crate) enum $spec {
             $($(#[$meta])* #[serde(rename = $text)] $member $(($from::$words))?,)+
         }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 /// Velocity (m/s), formulas of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct VelocitySpec(Vec<NumberText>);
 

@@ -11,9 +11,12 @@ use std::sync::Arc;
 
 /// Coefficients of the artificial viscosity.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ViscositySpec {
+    /// Coefficient c1 of `rho h abs(tr D) c1 c`.
     linear: NumberText,
+    /// Coefficient c2 of `rho h^2 (tr D)^2 c2`.
     quadratic: NumberText,
 }
 

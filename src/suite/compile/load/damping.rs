@@ -14,6 +14,7 @@ const TIMES: u32 = 1000;
 
 /// Rate (1/s) at which velocities decay, a formula of t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct DampingSpec(NumberText);
 

@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 /// Uniform acceleration (m/s2), formulas of t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct GravitySpec(Vec<NumberText>);
 

@@ -10,6 +10,8 @@ use crate::subject::PlaneState;
 use crate::suite::compile::boundary::thermal::ThermalSpec;
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::path::Path;
+#[cfg(feature = "schemas")]
+use crate::suite::model::face_schema::by_face;
 use crate::suite::model::heat::SceneHeat;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
@@ -20,15 +22,20 @@ const TEMPERATURE: &str = "T";
 
 /// Conduction of heat, and the conditions on the faces.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HeatSpec {
+    /// Conductivity (W/(m K)).
     conductivity: NumberText,
+    /// Heat capacity (J/(kg K)).
     capacity: NumberText,
     /// Source (W/kg), a formula of the coordinates, t and T.
     source: Option<NumberText>,
     /// Initial temperature (K), a formula of the coordinates.
     initial: Option<NumberText>,
+    /// Conditions on faces; one that is not named is insulated.
     #[serde(default)]
+    #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<ThermalSpec>"))]
     boundary: Ordered<ThermalSpec>,
 }
 

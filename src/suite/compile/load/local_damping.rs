@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 /// Share of the force out of balance that opposes the motion, node by node.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct LocalDampingSpec(NumberText);
 

@@ -13,6 +13,7 @@ macro_rules! loads {
 
         /// One entry of `loads`.
         #[derive(Debug, Clone, serde::Deserialize)]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
         pub(crate) enum LoadSpec {
             $($(#[$meta])* #[serde(rename = $text)] $member($file::$words),)+
         }

@@ -12,9 +12,12 @@ use std::sync::Arc;
 
 /// Total force on a set (N), formulas of t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SetForceSpec {
+    /// Name of the set.
     on: String,
+    /// Total force (N), formulas of `t`.
     value: Vec<NumberText>,
 }
 

@@ -11,9 +11,12 @@ use std::sync::Arc;
 
 /// Velocity of a set (m/s), formulas of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SetVelocitySpec {
+    /// Name of the set.
     on: String,
+    /// Velocity (m/s), formulas of the coordinates and `t`.
     value: Vec<NumberText>,
 }
 

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 /// Coefficients of the expansion.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpansionSpec {
     /// alpha (1/K).

@@ -6,16 +6,23 @@ use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
 use crate::mpm::{Effect, Placement, Traction};
+#[cfg(feature = "schemas")]
+use crate::suite::model::face_schema::face_name;
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Force per reference area on one face (Pa), formulas of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TractionSpec {
+    /// The face.
+    #[cfg_attr(feature = "schemas", schemars(schema_with = "face_name"))]
     on: String,
+    /// Force per reference area (Pa), formulas of the coordinates and `t`.
     value: Vec<NumberText>,
+    /// Where it acts; at the outermost particles unless stated.
     at: Option<Placement>,
 }
 

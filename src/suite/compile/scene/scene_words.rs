@@ -4,6 +4,8 @@
 use crate::suite::compile::boundary::BoundarySpec;
 use crate::suite::compile::load::LoadSpec;
 use crate::suite::grammar::{SceneSpec, read};
+#[cfg(feature = "schemas")]
+use crate::suite::model::face_schema::by_face;
 use crate::suite::yaml::{Diagnostic, Ordered, Source};
 use serde::Deserialize;
 use std::ops::Deref;
@@ -22,9 +24,13 @@ struct SuiteOfFamilies {
 }
 
 #[derive(Deserialize)]
-struct SceneOfFamilies {
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+pub(crate) struct SceneOfFamilies {
+    /// Conditions on faces; one that is not named is free.
     #[serde(default)]
+    #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<BoundarySpec>"))]
     boundary: Ordered<BoundarySpec>,
+    /// Loads and effects.
     #[serde(default)]
     loads: Vec<LoadSpec>,
 }

@@ -13,9 +13,12 @@ use std::sync::Arc;
 
 /// Heat transfer; the temperature of the surroundings is a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ConvectionSpec {
+    /// Heat transfer coefficient (W/(K m^(D-1))).
     coefficient: NumberText,
+    /// Temperature of the surroundings (K).
     ambient: NumberText,
 }
 

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 /// Heat that enters (W/m^(D-1)), a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct FluxSpec(NumberText);
 

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 /// Temperature (K), a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub(crate) struct TemperatureSpec(NumberText);
 

@@ -1,0 +1,99 @@
+//! JSON Schema of a suite (draft 7, which editors know), made from the types that read it.
+
+use super::scene::scene_words::SceneOfFamilies;
+use crate::suite::grammar::{ConvergenceSpec, InternalForceSpec, StabilitySpec};
+use schemars::generate::SchemaSettings;
+use schemars::transform::{RecursiveTransform, Transform};
+use schemars::{JsonSchema, Schema};
+use serde_json::{Map, Value, json};
+
+/// The schema of a suite, as indented JSON.
+pub fn suite_schema() -> String {
+    let mut all = SchemaSettings::draft07().into_generator();
+    let convergence = all.subschema_for::<ConvergenceSpec>();
+    let stability = all.subschema_for::<StabilitySpec>();
+    let internal_force = all.subschema_for::<InternalForceSpec>();
+    let families = properties(SceneOfFamilies::json_schema(&mut all));
+    let mut definitions = all.take_definitions(true);
+    if let Some(Value::Object(scene)) =
+        definitions.get_mut("SceneSpec").and_then(|scene| scene.get_mut("properties"))
+    {
+        scene.extend(families);
+    }
+    let of_study =
+        |name: &str| json!({"required": ["study"], "properties": {"study": {"const": name}}});
+    let mut schema = schemars::json_schema!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "mpm-verify suite",
+        "description": "A suite of benchmarks: a problem with its truth, methods, and what is expected of them.",
+        "type": "object",
+        "if": of_study("stability"),
+        "then": stability,
+        "else": {"if": of_study("internal_force"), "then": internal_force, "else": convergence},
+        "definitions": definitions,
+    });
+    RecursiveTransform(without_links).transform(&mut schema);
+    RecursiveTransform(without_null).transform(&mut schema);
+    RecursiveTransform(names_in_one_list).transform(&mut schema);
+    // Names and texts only: there is nothing that JSON has no word for.
+    serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
+}
+
+fn properties(schema: Schema) -> Map<String, Value> {
+    match schema.to_value().get_mut("properties") {
+        Some(Value::Object(properties)) => std::mem::take(properties),
+        _ => Map::new(),
+    }
+}
+
+/// Removes a description that speaks of items of the source, which authors of suites do not see.
+fn without_links(schema: &mut Schema) {
+    let speaks_of_source = |text: &Value| text.as_str().is_some_and(|text| text.contains("[`"));
+    if schema.get("description").is_some_and(speaks_of_source) {
+        schema.remove("description");
+    }
+}
+
+/// Writes a choice between bare names, of which there is nothing to say, as a list.
+fn names_in_one_list(schema: &mut Schema) {
+    let bare = |choice: &Value| match choice.as_object() {
+        Some(keys) if keys.len() == 2 && keys.get("type") == Some(&"string".into()) => {
+            keys.get("const").cloned()
+        }
+        _ => None,
+    };
+    let choices = schema.get("oneOf").and_then(Value::as_array);
+    let names = choices.and_then(|all| all.iter().map(bare).collect::<Option<Vec<Value>>>());
+    if let Some(names) = names {
+        schema.remove("oneOf");
+        schema.insert("type".to_owned(), "string".into());
+        schema.insert("enum".to_owned(), names.into());
+    }
+}
+
+/// Removes `null`, which the program takes for a key that is not given, from what is optional: of a
+/// key without a value an editor should speak.
+fn without_null(schema: &mut Schema) {
+    if schema.get("default").is_some_and(Value::is_null) {
+        schema.remove("default");
+    }
+    let is_null = |one: &Value| one.is_null() || *one == "null" || *one == json!({"type": "null"});
+    for keyword in ["type", "enum", "anyOf"] {
+        let Some(Value::Array(all)) = schema.get_mut(keyword) else { continue };
+        all.retain(|one| !is_null(one));
+        let ([only], false) = (&mut all[..], keyword == "enum") else { continue };
+        match only.take() {
+            Value::Object(only) if !only.contains_key("$ref") => {
+                schema.remove(keyword);
+                for (key, value) in only {
+                    schema.ensure_object().entry(key).or_insert(value);
+                }
+            }
+            only @ Value::Object(_) => {
+                schema.remove(keyword);
+                schema.insert("allOf".to_owned(), json!([only]));
+            }
+            only => drop(schema.insert(keyword.to_owned(), only)),
+        }
+    }
+}

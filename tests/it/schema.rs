@@ -1,0 +1,123 @@
+//! The schemas that the program prints, held to suites, good and bad.
+
+use crate::common::json_schema::JsonSchema;
+use mpm_verify::suite::yaml::{self, Diagnostic, Source};
+use mpm_verify::suite::{Suite, embedded, suite_schema};
+use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
+static SUITE: LazyLock<JsonSchema> = LazyLock::new(|| JsonSchema::new(&suite_schema()));
+
+/// Starts of complaints about a matter of shape, keys, types and names, and words of their labels.
+const SHAPE: [(&str, &str); 8] = [
+    ("unknown key `", ""),
+    ("unknown name `", "no name that is known here"),
+    ("missing key `", ""),
+    ("expected ", " is expected here"),
+    ("`", "` takes no settings"),
+    ("`", "` needs settings"),
+    ("one name with its settings is expected here", ""),
+    ("an empty list selects nothing", ""),
+];
+
+/// The values of a text, if it is YAML of one map with no key twice.
+fn values(text: &str) -> Option<Value> {
+    yaml::read(&Source::from_text("suite.yaml", text).ok()?).ok()
+}
+
+fn is_of_shape(complaint: &Diagnostic) -> bool {
+    let (message, label) = (complaint.message(), complaint.label().unwrap_or_default());
+    let both = format!("{message}\n{label}");
+    SHAPE.iter().any(|(start, words)| message.starts_with(start) && both.contains(words))
+}
+
+/// Demands that the schema refuses a suite too whose mistake is one of shape.
+pub(crate) fn refuses_too(text: &str, complaint: &Diagnostic) {
+    let (message, label) = (complaint.message(), complaint.label().unwrap_or_default());
+    let is_shape = |(start, words)| {
+        message.starts_with(start) && format!("{message}\n{label}").contains(words)
+    };
+    let is_shape = SHAPE.into_iter().any(is_shape);
+    let Some(values) = values(text).filter(|_| is_shape) else { return };
+    assert!(SUITE.refusal(&values).is_some(), "the schema accepts: {complaint}");
+}
+
+#[test]
+fn every_suite_is_of_the_schema() {
+    for name in embedded::names() {
+        let source = embedded::source(name).expect("a suite").expect("a text");
+        let refusal = SUITE.refusal(&values(source.text()).expect("YAML"));
+        assert_eq!(refusal, None, "{name}");
+    }
+}
+
+/// Pointers to all maps of a suite, with their keys.
+fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
+    let below: Vec<(String, &Value)> = match value {
+        Value::Object(map) => {
+            found.extend(map.keys().map(|key| (pointer.to_owned(), key.clone())));
+            map.iter().map(|(key, value)| (key.replace('/', "~1"), value)).collect()
+        }
+        Value::Array(list) => {
+            list.iter().enumerate().map(|(i, value)| (i.to_string(), value)).collect()
+        }
+        _ => return,
+    };
+    for (step, value) in below {
+        keys(value, &format!("{pointer}/{step}"), found);
+    }
+}
+
+/// Every key of every suite once: left out, misspelt, and with values of other types. Neither the
+/// schema nor the program is stricter than the other about keys and types.
+#[test]
+fn schema_and_program_agree_about_each_key() {
+    let (mut tried, mut counts) = (HashSet::new(), [0, 0]);
+    for name in embedded::names() {
+        let source = embedded::source(name).expect("a suite").expect("a text");
+        let suite = values(source.text()).expect("YAML");
+        let study = suite.get("study").map(Value::to_string);
+        let mut all = Vec::new();
+        keys(&suite, "", &mut all);
+        for (pointer, key) in all {
+            let place: String = pointer.chars().filter(|c| !c.is_ascii_digit()).collect();
+            if !tried.insert((study.clone(), place, key.clone())) {
+                continue;
+            }
+            let others = [json!(true), json!({}), json!([]), json!("word"), json!(1)].map(Some);
+            for (new_key, value) in others.into_iter().map(|value| (key.clone(), value)).chain([
+                (key.clone(), None),
+                (format!("{key}s"), suite.pointer(&pointer).map(|map| map[&key].clone())),
+            ]) {
+                let mut mutant = suite.clone();
+                let map = mutant.pointer_mut(&pointer).and_then(Value::as_object_mut);
+                let map = map.expect("a map");
+                map.remove(&key);
+                map.extend(value.map(|value| (new_key, value)));
+                let refusal = SUITE.refusal(&mutant);
+                let text = Source::from_text("suite.yaml", mutant.to_string()).expect("JSON");
+                let loaded = Suite::load(&text);
+                counts[usize::from(refusal.is_some())] += 1;
+                // To the program a text is one without quotes too: `title: 1984`.
+                let unquoted = |refusal: &String| refusal.ends_with("against `type: \"string\"`");
+                match (&loaded, &refusal) {
+                    (Ok(_), Some(refusal)) if !unquoted(refusal) => {
+                        panic!("{name}{pointer}: {key}: loads, and {refusal}")
+                    }
+                    (Err(complaint), None) if is_of_shape(complaint) => {
+                        panic!("{name}{pointer}: {key}: the schema accepts\n{complaint}")
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 300), "accepted and refused: {counts:?}");
+}
+
+#[test]
+fn the_schema_of_a_suite_in_the_documents_is_the_one_that_is_printed() {
+    let kept = include_str!("../../docs/suite.schema.json");
+    assert!(kept == suite_schema(), "cargo run -- schema suite > docs/suite.schema.json");
+}
