@@ -4,6 +4,7 @@
 mod gate;
 mod grammar;
 mod leaf;
+mod manual;
 mod page;
 mod reasons;
 mod search;
@@ -84,4 +85,38 @@ fn every_key_is_noticed() {
     page::write(&search::search(&keys(&grammars), &part, &grammars, &suites));
     let wrong = reasons::wrong(&page::numbers(), &page::names());
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_key_has_a_row_in_the_manual() {
+    let (keys, pages) = (manual::keys(&grammars()), manual::pages());
+    let rows = manual::rows(&pages);
+    let missing: Vec<&String> =
+        keys.keys().filter(|key| !rows.contains_key(key.as_str())).collect();
+    assert!(missing.is_empty(), "no row in docs/grammar: {missing:?}");
+    for (key, rows) in rows {
+        assert_eq!(rows.len(), 1, "rows of `{key}` in docs/grammar");
+        let names = keys.get(key).unwrap_or_else(|| panic!("docs/grammar: there is no `{key}`"));
+        let untold = names.iter().filter(|name| !rows[0].contains(&format!("`{name}`")));
+        let untold: Vec<&String> = untold.collect();
+        assert!(untold.is_empty(), "docs/grammar: the row of `{key}` has not {untold:?}");
+    }
+}
+
+#[test]
+fn the_manual_quotes_suites() {
+    let found = manual::quotations(&grammars());
+    for (path, page) in manual::pages() {
+        let anew = manual::with_quotations(&page, &found);
+        assert!(page == anew, "{} is stale: run ci/pages", path.display());
+    }
+}
+
+#[test]
+#[ignore = "ci/pages runs it"]
+fn the_manual_is_written() {
+    let found = manual::quotations(&grammars());
+    for (path, page) in manual::pages() {
+        std::fs::write(path, manual::with_quotations(&page, &found)).expect("a page is written");
+    }
 }

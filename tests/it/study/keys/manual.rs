@@ -1,0 +1,187 @@
+//! The pages of the grammar, docs/grammar: a row for each key, whose last cell quotes a suite.
+
+use super::grammar::Node;
+use super::leaf::{joined, shared};
+use serde_yaml::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Keys that stand at the head of any suite: other kinds of study have no rows for them.
+const OF_ALL: [&str; 6] = ["suite", "title", "source", "about", "parameters", "functions"];
+
+/// Keys that the grammar of the error messages leaves out: what full runs have besides, and tables.
+const BESIDES: [&str; 4] = ["expect.full", "refine.full", "parameters.by", "parameters.table"];
+
+/// Most characters of a quotation.
+const LONGEST: usize = 70;
+
+/// A key with the names that may stand under it.
+pub(super) type Names = BTreeMap<String, BTreeSet<String>>;
+
+/// Quotations by key: the text and the file.
+pub(super) type Quotations = BTreeMap<String, (String, String)>;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn key_of(study: &str, path: &str) -> String {
+    let is_of_all = OF_ALL.contains(&path);
+    if is_of_all { path.to_owned() } else { shared(study, path) }
+}
+
+/// Every key of the grammar.
+pub(super) fn keys(grammars: &[(&str, Node)]) -> Names {
+    let mut keys: Names = BESIDES.map(|key| (key.to_owned(), BTreeSet::new())).into();
+    for (study, node) in grammars {
+        for (key, node) in &node.keys {
+            add(study, key, node, &mut keys);
+        }
+    }
+    keys
+}
+
+fn add(study: &str, path: &str, node: &Node, keys: &mut Names) {
+    keys.entry(key_of(study, path)).or_default().extend(node.names.iter().cloned());
+    for (key, below) in &node.keys {
+        add(study, &joined(path, key), below, keys);
+    }
+    for below in node.named.iter().chain(&node.member) {
+        add(study, path, below, keys);
+    }
+}
+
+/// Suites with the files that show them: those of the repository, and those on the pages.
+fn suites() -> Vec<(String, Value)> {
+    let files = mpm_verify::suite::yaml::Source::files_in(&root().join("verification"));
+    let read = |file: PathBuf| {
+        let text = std::fs::read_to_string(&file).expect("a suite");
+        (file, text)
+    };
+    let mut texts: Vec<(PathBuf, String)> = files.expect("suites").into_iter().map(read).collect();
+    for (page, text) in pages() {
+        let blocks = text.split("```yaml\n").skip(1).filter(|block| block.starts_with("suite:"));
+        let shown = blocks.map(|block| block.split("```").next().unwrap_or_default().to_owned());
+        texts.extend(shown.map(|text| (page.clone(), text)));
+    }
+    let parsed = texts.into_iter().map(|(file, text)| {
+        let file = file.strip_prefix(root()).expect("a path in here").display().to_string();
+        (file, serde_yaml::from_str(&text).expect("YAML"))
+    });
+    parsed.collect()
+}
+
+/// Of each key a list or a map that a suite says, or else a number or a word: the shortest.
+pub(super) fn quotations(grammars: &[(&str, Node)]) -> Quotations {
+    let mut found: BTreeMap<String, ((bool, usize), (String, String))> = BTreeMap::new();
+    for (file, suite) in suites() {
+        let study = suite["study"].as_str().unwrap_or("convergence");
+        let (_, node) = grammars.iter().find(|(name, _)| *name == study).expect("a study");
+        quote(node, &suite, (study, ""), &mut |key, name, value| {
+            let text = format!("{name}: {}", flow(value));
+            let rank = (!(value.is_sequence() || value.is_mapping()), text.len());
+            let known = found.get(&key);
+            if known.is_none_or(|(best, _)| rank < *best) {
+                found.insert(key, (rank, (text, file.clone())));
+            }
+        });
+    }
+    found.into_iter().map(|(key, (_, quotation))| (key, quotation)).collect()
+}
+
+fn quote(
+    node: &Node,
+    value: &Value,
+    (study, path): (&str, &str),
+    found: &mut dyn FnMut(String, &str, &Value),
+) {
+    match value {
+        Value::Mapping(map) => {
+            for (name, value) in map {
+                let text = name.as_str().unwrap_or_default();
+                let known = node.keys.iter().find(|(known, _)| known == text);
+                let is_invented = known.is_none() && (node.named.is_some() || is_of_author(path));
+                let is_table = path == "parameters" && ["by", "table"].contains(&text);
+                let at =
+                    if is_invented && !is_table { path.to_owned() } else { joined(path, text) };
+                found(key_of(study, &at), text, value);
+                // An entry for full runs has the keys of the entry.
+                let (below, at) = match (known, &node.named) {
+                    (Some((_, below)), _) => (below, at.as_str()),
+                    (None, Some(below)) => (below.as_ref(), at.as_str()),
+                    (None, None) => (node, path),
+                };
+                quote(below, value, (study, at), found);
+            }
+        }
+        Value::Sequence(list) => {
+            let below = node.member.as_deref().unwrap_or(node);
+            list.iter().for_each(|value| quote(below, value, (study, path), found));
+        }
+        _ => {}
+    }
+}
+
+/// Whether the author names what stands under a key.
+fn is_of_author(path: &str) -> bool {
+    ["parameters", "functions"].contains(&path)
+}
+
+/// YAML on one line.
+fn flow(value: &Value) -> String {
+    let parts = |parts: Vec<String>, (open, close)| format!("{open}{}{close}", parts.join(", "));
+    match value {
+        Value::Sequence(list) => parts(list.iter().map(flow).collect(), ('[', ']')),
+        Value::Mapping(map) => {
+            let entry = |(key, value): (&Value, &Value)| format!("{}: {}", flow(key), flow(value));
+            parts(map.iter().map(entry).collect(), ('{', '}'))
+        }
+        Value::String(text) if text.chars().any(|c| "*,:{}[]#&!|>'\"%@`".contains(c)) => {
+            format!("\"{}\"", text.trim())
+        }
+        plain => serde_yaml::to_string(plain).expect("YAML").trim().to_owned(),
+    }
+}
+
+/// The pages with their texts.
+pub(super) fn pages() -> Vec<(PathBuf, String)> {
+    let folder = root().join("docs/grammar");
+    let entries = std::fs::read_dir(folder).expect("pages");
+    let mut pages: Vec<PathBuf> = entries.map(|entry| entry.expect("a page").path()).collect();
+    pages.sort();
+    let read = |path: PathBuf| {
+        let text = std::fs::read_to_string(&path).expect("a page");
+        (path, text)
+    };
+    pages.into_iter().map(read).collect()
+}
+
+/// Key and row, of a line that is the row of a key.
+fn row(line: &str) -> Option<(&str, &str)> {
+    let (key, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
+    (rest.matches(" | ").count() >= 2 && rest.ends_with('|')).then_some((key, rest))
+}
+
+/// The rows of all pages, by key.
+pub(super) fn rows(pages: &[(PathBuf, String)]) -> BTreeMap<&str, Vec<&str>> {
+    let mut rows: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let lines = pages.iter().flat_map(|(_, text)| text.lines());
+    lines.filter_map(row).for_each(|(key, rest)| rows.entry(key).or_default().push(rest));
+    rows
+}
+
+/// A page with the last cell of each row made anew.
+pub(super) fn with_quotations(page: &str, found: &Quotations) -> String {
+    let renew = |line: &str| {
+        let Some((key, _)) = row(line) else { return line.to_owned() };
+        let (before, _) = line.trim_end_matches('|').rsplit_once('|').expect("cells");
+        let cell = found.get(key).map_or("in no suite".to_owned(), |(text, file)| {
+            let name = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+            let link = format!("[{name}](../../{file})");
+            let is_short = text.chars().count() <= LONGEST && !text.contains(['`', '\n']);
+            if is_short { format!("`{}`, {link}", text.replace('|', "\\|")) } else { link }
+        });
+        format!("{before}| {cell} |")
+    };
+    page.lines().map(|line| renew(line) + "\n").collect()
+}
