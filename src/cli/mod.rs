@@ -16,6 +16,7 @@ mod propose;
 mod run;
 mod schema;
 mod select;
+mod shell;
 mod show;
 mod solver;
 mod status;
@@ -76,5 +77,7 @@ fn done(command: Command) -> u8 {
         Command::Problem(args) => problem::problem(&args),
         Command::Cost(args) => cost::cost(&args),
         Command::Compare(args) => compare::compare(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     }
 }

@@ -38,13 +38,24 @@ pub(crate) trait Study: StudyPlan {
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
+/// Warning about the time step of a level, before anything runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StepWarning {
+    /// Index of the case.
+    pub case: usize,
+    /// Words of the warning.
+    pub text: String,
+    /// Whether the step is too long, which a suite may mean: its expectations tell.
+    pub is_too_long: bool,
+}
+
 /// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
     /// Units of progress of all cases.
     fn units(&self) -> u64;
 
     /// Warnings before anything runs, without the name of the suite.
-    fn warnings(&self) -> Vec<String> {
+    fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
 

@@ -1,7 +1,9 @@
 //! Running a suite, of whatever kind of study.
 
 use super::cache::results::ResultCache;
-use super::kind::{CaseRunner, CheckpointStores, Progress, RunContext, Storage, statement, study};
+use super::kind::{
+    CaseRunner, CheckpointStores, Progress, RunContext, StepWarning, Storage, statement, study,
+};
 use crate::external::SolverFactory;
 use crate::suite::model::Suite;
 use crate::suite::model::refine_plan::Extent;
@@ -56,9 +58,11 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Warnings before anything runs, about steps longer than the predicted stable time step.
-    pub fn warnings(&self) -> Vec<String> {
-        let named = |warning| format!("{}::{warning}", self.suite.name);
+    /// Warnings before anything runs, about steps longer than the predicted stable time step, or
+    /// not those that the suite asks for.
+    pub fn warnings(&self) -> Vec<StepWarning> {
+        let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
+        let named = |warning| StepWarning { text: text(&warning), ..warning };
         self.cases.warnings().into_iter().map(named).collect()
     }
 

@@ -1,15 +1,12 @@
 //! Parts of a run of several suites, of about the same predicted cost.
 
-use super::preflight::estimates;
+use super::preflight::{UNKNOWN, estimates};
 use crate::suite::Extent;
 use crate::suite::model::Suite;
 use std::str::FromStr;
 
 /// Most parts of a run.
 const MOST: usize = 10_000;
-
-/// Time (s) of a case of which none is predicted.
-const UNKNOWN: f64 = 0.5;
 
 /// Time (s) that any case takes besides its steps.
 const SET_UP: f64 = 1e-3;

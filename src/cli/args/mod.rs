@@ -5,12 +5,15 @@ mod doctor;
 mod problem;
 mod report;
 mod shared;
+mod shell;
 
 pub(super) use cost::{CostArgs, Vary};
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
 pub(super) use report::{ListArgs, MergeArgs, ReportArgs, RunArgs};
 pub(super) use shared::{ColorArgs, Format, SolverArgs, Targets};
+
+pub(super) use shell::{CompletionsArgs, ManArgs};
 
 use super::new::args::NewArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -74,6 +77,10 @@ pub(super) enum Command {
     /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
     /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
     Compare(CompareArgs),
+    /// Print a script with which a shell completes the words of this command line
+    Completions(CompletionsArgs),
+    /// Print the page of this program for `man`
+    Man(ManArgs),
 }
 
 #[derive(Debug, Args)]

@@ -1,15 +1,16 @@
 //! `mpm-verify run`.
 
 mod files;
+mod interrupt;
 mod page;
 mod printing;
 
 use super::args::{ReportArgs, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
+use super::terminal::progress::RunProgress;
 use super::{output, select, solver, watch};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::SolverProgram;
-use mpm_verify::study::{ResultCache, Runner};
+use mpm_verify::study::{ResultCache, Runner, StepWarning};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
@@ -48,7 +49,9 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
             output::complain("note: no case is left for this part");
         }
     }
-    Ok((suites, Judging { kept, solver }))
+    // Ctrl-C is the usual end of watching.
+    let at_interrupt = (!args.watch).then(|| interrupt::note(args.resume.is_some()));
+    Ok((suites, Judging { kept, solver, at_interrupt }))
 }
 
 /// The cases whose names contain `text`; suites without one are left out.
@@ -98,14 +101,17 @@ pub(super) fn report(
         }
     }
     let printing = Printing::of(args, suites.len());
-    let bar = progress_bar(&suites, args);
+    let bar = RunProgress::over(&suites, extent(args), args.print.quiet);
+    if let Some(note) = &judging.at_interrupt {
+        bar.note_at_interrupt(note.clone());
+    }
     let run = |suite| {
         let outcome = one(suite, args, &judging, &bar);
         bar.suspend(|| printing.of_suite(&outcome));
         outcome
     };
     let outcomes: Vec<SuiteOutcome> = suites.iter().map(run).collect();
-    bar.finish_and_clear();
+    bar.clear();
     printing.of_all(args, &sources, &outcomes);
     let written = args.out.as_deref().map_or(Ok(()), |folder| files::write(folder, &outcomes));
     let page = |file| page::write(file, &sources, &outcomes, refused.len());
@@ -116,7 +122,7 @@ pub(super) fn report(
     if let Err(message) = &written {
         output::complain(message);
     }
-    let Judging { kept, solver } = &judging;
+    let Judging { kept, solver, .. } = &judging;
     let unkept = kept.as_ref().and_then(ResultCache::diagnostic);
     if let Some(diagnostic) = &unkept {
         output::complain(&format!("error: --resume {diagnostic}"));
@@ -147,43 +153,42 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
-/// A bar on standard error, shown only where that is a terminal.
-fn progress_bar(suites: &[Suite], args: &ReportArgs) -> ProgressBar {
-    let units = suites.iter().map(|suite| Runner::over(suite, extent(args)).units()).sum();
-    let target =
-        if args.print.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(units), target);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
-        bar.set_style(style);
-    }
-    bar
-}
-
 /// The cache and the solver of a run.
 pub(super) struct Judging {
     kept: Option<ResultCache>,
     solver: Option<SolverProgram>,
+    /// Note to who ends it by Ctrl-C.
+    at_interrupt: Option<String>,
 }
 
 impl Judging {
     /// Results that are there.
     pub(super) fn of_kept(kept: ResultCache) -> Self {
-        Self { kept: Some(kept), solver: None }
+        Self { kept: Some(kept), solver: None, at_interrupt: None }
     }
 }
 
-fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &ProgressBar) -> SuiteOutcome {
-    bar.set_message(suite.name.clone());
+fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &RunProgress) -> SuiteOutcome {
+    bar.start(suite, extent(args));
     let (kept, solver) = (judging.kept.as_ref(), judging.solver.as_ref());
     let runner = Runner::over(suite, extent(args)).keeping(kept);
     let runner = match solver {
         Some(solver) => runner.judging(solver),
         None => runner,
     };
-    for warning in runner.warnings() {
-        bar.suspend(|| output::complain(&format!("warning: {warning}")));
+    let warn = |warning: &StepWarning| {
+        bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
+    };
+    // Steps that are too long may be what a suite is about: then what comes is expected of them.
+    let (later, now): (Vec<_>, Vec<_>) =
+        runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
+    for warning in &now {
+        warn(warning);
     }
-    let outcome = runner.run(&|| bar.inc(1));
+    let outcome = runner.run(&|| bar.inc());
+    for warning in later.iter().filter(|warning| !outcome.cases[warning.case].passed()) {
+        warn(warning);
+    }
     if suite.explores() && solver.is_none() && !args.print.quiet {
         let name = &suite.name;
         let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";

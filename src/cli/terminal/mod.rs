@@ -1,4 +1,5 @@
-//! Standard output, standard error, and their colours.
+//! Standard output, standard error, their colours, and the progress of a run.
 
 mod colour;
 pub(super) mod output;
+pub(super) mod progress;

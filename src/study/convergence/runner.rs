@@ -14,7 +14,7 @@ use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
 use crate::study::handover::{needs, subject_under};
-use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::study::kind::{CaseRunner, Progress, RunContext, StepWarning, Study};
 use crate::subject::{Profile, Subject};
 use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::grammar::CrossingLevels;
@@ -62,7 +62,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
         (self.plan.cases.len() * self.plan.refine.levels(self.context.extent).len()) as u64
     }
 
-    fn warnings(&self) -> Vec<String> {
+    fn warnings(&self) -> Vec<StepWarning> {
         self.steps.warnings(self.plan, self.context.extent)
     }
 

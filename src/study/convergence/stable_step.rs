@@ -7,6 +7,7 @@
 //! (`tiny-nodal-mass`): the share is for these.
 
 use crate::study::build::dispatch;
+use crate::study::kind::StepWarning;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan};
@@ -52,12 +53,17 @@ impl StableSteps {
     }
 
     /// Warnings about the levels and the fine grids that run, in their order.
-    pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<String> {
+    pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<StepWarning> {
         let levels = plan.refine.levels(extent);
         let each = |case: &Case| levels.iter().copied().chain(case.against.fine_grid());
-        let runs = plan.cases.iter().flat_map(|case| each(case).map(move |level| (case, level)));
-        let runs: Vec<(&Case, LevelPlan)> = runs.collect();
-        let said = |(case, level)| warning(plan, case, self.of(plan, case, level).ok()?);
+        let runs = (0..plan.cases.len())
+            .flat_map(|case| each(&plan.cases[case]).map(move |level| (case, level)));
+        let runs: Vec<(usize, LevelPlan)> = runs.collect();
+        let said = |(case, level)| {
+            let stepped = self.of(plan, &plan.cases[case], level).ok()?;
+            let (text, is_too_long) = warning(plan, &plan.cases[case], stepped)?;
+            Some(StepWarning { case, text, is_too_long })
+        };
         runs.into_par_iter().filter_map(said).collect()
     }
 }
@@ -82,23 +88,26 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the stable time step, or not the one asked for.
-fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<String> {
+/// Warning about a step that is longer than the stable time step, or not the one asked for, and
+/// whether it is too long.
+fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);
     if let Some(limit) = limit.filter(|limit| dt > *limit) {
         let times = dt / limit;
-        return Some(format!(
+        let text = format!(
             "{name}, {cells} cells: dt = {dt:.4e} s is {times:.2} times the stable time \
              step, {limit:.4e} s"
-        ));
+        );
+        return Some((text, true));
     }
     let (ratio, steps) = (dt / level.dt, clock.steps);
     let is_near = (ratio - 1.0).abs() <= STEP_TOLERANCE;
     (!is_near).then(|| {
-        format!(
+        let text = format!(
             "{name}, {cells} cells: the run takes {steps} steps of {dt:.4e} s, {ratio:.3} times what \
              the suite asks for; a longer run, or a step that divides it, would take the step itself"
-        )
+        );
+        (text, false)
     })
 }

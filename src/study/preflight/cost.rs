@@ -1,13 +1,16 @@
 //! Seconds and memory that a suite will take, before anything runs.
 
 use crate::suite::compile::check::size;
-use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 
 /// Seconds that a particle takes in a step, by dimension, errors and set-up included: fitted to
 /// whole runs of eight suites in the profile of `cargo run`, one thread. Single suites differ from
 /// it by a factor of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
+
+/// Time (s) of a case of which none is predicted.
+pub(crate) const UNKNOWN: f64 = 0.5;
 
 /// Bytes of a particle, and of a node, by dimension.
 const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
@@ -47,16 +50,33 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     })
 }
 
+/// Seconds (one thread) of each unit of progress of a run: its levels, and a guess for those of
+/// studies that refine nothing.
+pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
+    let Some(plan) = suite.plan::<ConvergencePlan>() else {
+        return vec![UNKNOWN; suite.case_names().len()];
+    };
+    let index = plan.scene.dimension().clamp(1, 3) - 1;
+    let levels = plan.refine.levels(extent);
+    let each = plan.cases.iter().flat_map(|case| levels.iter().map(move |level| (case, level)));
+    each.map(|(case, level)| SECONDS[index] * particle_steps(plan, case, *level)).collect()
+}
+
+/// Particles times steps of a level.
+fn particle_steps(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
+    let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
+    size::particles(&plan.scene, level) * steps as f64
+}
+
 fn of_case(plan: &ConvergencePlan, case: &Case, extent: Extent) -> Estimate {
     let scene = &plan.scene;
     let index = scene.dimension().clamp(1, 3) - 1;
-    let (mut particle_steps, mut bytes) = (0.0, 0.0_f64);
+    let (mut all, mut bytes) = (0.0, 0.0_f64);
     for level in plan.refine.levels(extent) {
         let particles = size::particles(scene, *level);
-        let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
-        particle_steps += particles * steps as f64;
+        all += particle_steps(plan, case, *level);
         let [particle, node] = BYTES[index];
         bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
     }
-    Estimate { particle_steps, seconds: SECONDS[index] * particle_steps, bytes }
+    Estimate { particle_steps: all, seconds: SECONDS[index] * all, bytes }
 }

@@ -29,7 +29,8 @@ pub(crate) mod strain;
 pub(crate) mod subject;
 pub(crate) mod time_step;
 
-pub use cost::{Estimate, estimate, estimates};
+pub(crate) use cost::UNKNOWN;
+pub use cost::{Estimate, estimate, estimates, unit_seconds};
 
 use self::subject::Preflight;
 use crate::suite::model::{ConvergencePlan, Suite};

@@ -6,6 +6,7 @@ mod cost;
 mod explain;
 mod explore;
 mod hostile;
+mod interrupt;
 mod json;
 mod new;
 mod page;

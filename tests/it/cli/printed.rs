@@ -166,6 +166,8 @@ fn colours_are_for_terminals_or_on_request() {
 #[case(&["problem", "bar.yaml"])]
 #[case(&["cost", "bar.yaml"])]
 #[case(&["compare", "report.json", "report.json"])]
+#[case(&["completions", "fish"])]
+#[case(&["man"])]
 fn an_output_that_cannot_be_written_is_an_error(#[case] arguments: &[&str]) {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
@@ -177,4 +179,27 @@ fn an_output_that_cannot_be_written_is_an_error(#[case] arguments: &[&str]) {
     assert_eq!(output.status.code(), Some(BAD_INPUT), "{errors}");
     let message = "error: standard output cannot be written: No space left on device";
     assert!(errors.contains(message), "{errors}");
+}
+
+#[rstest]
+#[case("bash", "complete -F _mpm")]
+#[case("zsh", "#compdef mpm-verify")]
+#[case("fish", "complete -c mpm-verify")]
+fn shells_complete_commands(#[case] shell: &str, #[case] words: &str) {
+    let found = Folder::new().call(&["completions", shell]);
+    assert!(found.code == SOUND && found.out.contains(words), "{}", found.out);
+    for command in ["diagnose", "propose", "completions"] {
+        assert!(found.out.contains(command), "{shell}: no {command}");
+    }
+}
+
+#[test]
+fn there_is_a_page_for_man_of_the_program_and_of_each_command() {
+    let folder = Folder::new();
+    let page = folder.call(&["man"]);
+    assert!(page.code == SOUND && page.out.contains(".TH mpm-verify 1"), "{}", page.out);
+    assert!(page.out.contains("mpm\\-verify\\-diagnose(1)"), "{}", page.out);
+    let run = folder.call(&["man", "run"]);
+    assert!(run.out.contains(".TH mpm-verify-run 1") && run.out.contains("resume"), "{}", run.out);
+    assert_eq!(folder.call(&["man", "rnu"]).code, BAD_INPUT);
 }

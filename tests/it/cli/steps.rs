@@ -15,10 +15,10 @@ fn a_step_beyond_the_stable_one_warns_and_is_taken_all_the_same() {
     // c = 10 m/s: 0.02 s is 0.8 h/c on the coarsest grid and 2.4 h/c on the finest.
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
     let folder = Folder::new();
-    folder.write("bar.yaml", &text);
+    folder.write("bar.yaml", text.split_once("expect:").expect("an expectation").0);
     let found = folder.call(&["run", "bar.yaml", "--format", "json"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    let warnings: Vec<&str> = found.errors.lines().collect();
+    let warnings: Vec<&str> = warnings(&found.errors);
     assert_eq!(warnings.len(), 3, "{warnings:?}");
     let first = "warning: short-bar::mpm-linear-flip-musl, 6 cells: dt = 2.0000e-2 s is ";
     assert!(warnings[0].starts_with(first), "{warnings:?}");
@@ -28,6 +28,23 @@ fn a_step_beyond_the_stable_one_warns_and_is_taken_all_the_same() {
     assert!(level["failure"].is_string());
     let text = folder.call(&["run", "bar.yaml"]).out;
     assert!(text.contains("6 cells, 8 cells, 12 cells: steps are longer"), "{text}");
+}
+
+fn warnings(errors: &str) -> Vec<&str> {
+    errors.lines().filter(|line| line.starts_with("warning: ")).collect()
+}
+
+/// A suite that expects what comes of such steps is not warned of them.
+#[test]
+fn steps_that_are_too_long_warn_where_what_was_expected_did_not_come() {
+    let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
+    let folder = Folder::new();
+    folder.write("bar.yaml", &text);
+    let found = folder.call(&["run", "bar.yaml"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    folder.write("bar.yaml", text.replace("verdict: failed", "order: [1.9, 2.1]"));
+    let found = folder.call(&["run", "bar.yaml"]);
+    assert_eq!((found.code, warnings(&found.errors).len()), (FAILED, 3), "{}", found.errors);
 }
 
 #[test]

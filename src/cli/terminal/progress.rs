@@ -1,0 +1,134 @@
+//! The progress of a run on standard error, where that is a terminal: levels, and the time left by
+//! the cost model.
+
+use crate::cli::terminal::output;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mpm_verify::study::{Runner, unit_seconds};
+use mpm_verify::suite::{Extent, Suite};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// Exit status of a program that Ctrl-C ends.
+const INTERRUPTED: i32 = 130;
+
+/// Share of the predicted time after which there is a time left.
+const ENOUGH: f64 = 0.02;
+
+/// Progress of the suites of a run, one after the other.
+pub(in crate::cli) struct RunProgress {
+    bar: ProgressBar,
+    state: Mutex<ProgressState>,
+}
+
+struct ProgressState {
+    suite: String,
+    /// Predicted seconds of the units of this suite that are left, the longest first.
+    units: Vec<f64>,
+    /// Predicted seconds of the units that are done, and of all.
+    done: f64,
+    all: f64,
+    start: Instant,
+}
+
+impl RunProgress {
+    /// A bar for all levels of `suites`, hidden if it is to be quiet.
+    pub(in crate::cli) fn over(suites: &[Suite], extent: Extent, quiet: bool) -> Self {
+        let levels = suites.iter().map(|suite| Runner::over(suite, extent).units()).sum();
+        let target =
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(Some(levels), target);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
+            bar.set_style(style);
+        }
+        let all = suites.iter().flat_map(|suite| unit_seconds(suite, extent)).sum();
+        let (suite, units) = (String::new(), Vec::new());
+        let state = ProgressState { suite, units, done: 0.0, all, start: Instant::now() };
+        Self { bar, state: Mutex::new(state) }
+    }
+
+    /// The levels of `suite` are next.
+    pub(in crate::cli) fn start(&self, suite: &Suite, extent: Extent) {
+        let mut state = self.state();
+        state.done += state.units.iter().sum::<f64>();
+        suite.name.clone_into(&mut state.suite);
+        // Cases run side by side, each from coarse to fine: the cheapest levels end first.
+        state.units = unit_seconds(suite, extent);
+        state.units.sort_by(|a, b| b.total_cmp(a));
+        self.bar.set_message(state.message());
+    }
+
+    /// A level has ended.
+    pub(in crate::cli) fn inc(&self) {
+        let mut state = self.state();
+        state.done += state.units.pop().unwrap_or_default();
+        self.bar.set_message(state.message());
+        self.bar.inc(1);
+    }
+
+    /// Takes the bar away while something is printed.
+    pub(in crate::cli) fn suspend(&self, print: impl FnOnce()) {
+        self.bar.suspend(print);
+    }
+
+    /// Takes the bar away.
+    pub(in crate::cli) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Ctrl-C ends the program with `note`. Without such a handler it ends all the same.
+    pub(in crate::cli) fn note_at_interrupt(&self, note: String) {
+        let bar = self.bar.clone();
+        let _ = ctrlc::set_handler(move || {
+            bar.suspend(|| output::complain(&note));
+            std::process::exit(INTERRUPTED);
+        });
+    }
+
+    fn state(&self) -> MutexGuard<'_, ProgressState> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl ProgressState {
+    fn message(&self) -> String {
+        let left = time_left(self.start.elapsed().as_secs_f64(), self.done, self.all);
+        left.map_or_else(|| self.suite.clone(), |left| format!("{}, {left} left", self.suite))
+    }
+}
+
+/// The time left after so many `seconds`, in which `done` of `all` predicted ones were done; none
+/// as long as there is little to tell it from.
+fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
+    if !(done > ENOUGH * all && seconds > 1.0) {
+        return None;
+    }
+    let left = seconds * (all - done).max(0.0) / done;
+    Some(match left {
+        0.0..100.0 => format!("about {left:.0} s"),
+        100.0..6000.0 => format!("about {:.0} min", left / 60.0),
+        _ => format!("about {:.0} h", left / 3600.0),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::too_early_to_tell(10.0, 1.0, 100.0, None)]
+    #[case::too_short_to_tell(0.5, 50.0, 100.0, None)]
+    #[case::nothing_predicted(10.0, 0.0, 0.0, None)]
+    #[case(10.0, 50.0, 100.0, Some("about 10 s"))]
+    #[case::machine_twice_as_slow(40.0, 20.0, 100.0, Some("about 3 min"))]
+    #[case(3600.0, 10.0, 100.0, Some("about 9 h"))]
+    #[case::longer_than_predicted(10.0, 100.0, 99.0, Some("about 0 s"))]
+    fn the_time_left_is_that_of_the_model_at_the_pace_so_far(
+        #[case] seconds: f64,
+        #[case] done: f64,
+        #[case] all: f64,
+        #[case] wanted: Option<&str>,
+    ) {
+        assert_eq!(time_left(seconds, done, all).as_deref(), wanted);
+    }
+}

@@ -1,0 +1,34 @@
+//! Ctrl-C during a run.
+
+use super::{BAR, Folder};
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Command, Stdio};
+
+/// Exit status of a run that Ctrl-C ended.
+const INTERRUPTED: i32 = 130;
+
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_interrupted_says_how_to_go_on() {
+    let folder = Folder::new();
+    folder.write("first.yaml", BAR.replace("short-bar", "first"));
+    let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-8");
+    folder.write("long.yaml", long);
+    for (more, words) in [
+        (&[][..], "interrupted, and nothing is kept: with a folder for results, `mpm-verify run"),
+        (&["--resume", "kept"], "long.yaml --resume kept` goes on from here"),
+    ] {
+        let mut command = folder.command(&[&["run", "first.yaml", "long.yaml"], more].concat());
+        let mut child =
+            command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a program");
+        // The first suite has been printed, so that the second one runs.
+        let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
+        lines.read_line(&mut String::new()).expect("a first line");
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &id]).status().expect("kill").success());
+        let mut errors = String::new();
+        child.stderr.take().expect("a pipe").read_to_string(&mut errors).expect("UTF-8");
+        assert_eq!(child.wait().expect("an end").code(), Some(INTERRUPTED), "{errors}");
+        assert!(errors.contains(words), "{errors}");
+    }
+}
