@@ -1,20 +1,52 @@
-//! Verification of Material Point Method solvers: which order does a solver have, where does it
-//! stop having it, and did a change break it?
+//! Verification of Material Point Method solvers: does a solver converge to the right answer, how
+//! fast, and did a change break it?
 //!
-//! The way of the data, in the order of the modules below:
+//! A solver runs on problems whose exact solution is known, on a series of ever finer grids. From
+//! the errors follow the order of accuracy with a confidence interval, and a verdict. The README
+//! is the first page for users of the program; `bash ci/book` makes a book of all pages.
 //!
-//! ```text
-//! verification/*.yaml
-//!   -> suite::Suite       what the file says, checked, with file:line:column for every complaint
-//!   -> suite::Runner      one case for each member of the product of its lists; names -> types
-//!   -> verify::run        the subject on every level of the refinement plan, against the truth
-//!   -> verify::judge      observed against formal order: a verdict, with the figures behind it
-//!   -> report             the text kept as a snapshot; JSON; figures
+//! # From a suite to a report
+//!
+//! A suite is a YAML file: a problem with its solution, methods, and what is expected of them.
+//!
+//! ```
+//! use mpm_verify::prelude::*;
+//!
+//! let text = r#"
+//! suite: my-bar
+//! title: A bar that swings
+//! source: "one mode of an elastic bar, fixed on the left"
+//! parameters: {L: 25, E: 100, rho: 1, v0: 0.1, omega: "pi/(2*L)*sqrt(E/rho)"}
+//! scene:
+//!   dimension: 1
+//!   body: {box: {from: [0], to: [L]}}
+//!   material: {corotated: {young: E, poisson: 0, density: rho}}
+//!   boundary: {left: fixed}
+//! exact: {equation: corotated, displacement: ["v0/omega*sin(pi*X/(2*L))*sin(omega*t)"]}
+//! run: {until: 0.5, dt: 0.004*h}
+//! refine: {cells: [5, 10, 20, 40], ppc: 4}
+//! methods: [{mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}}]
+//! expect: [{order: [1.9, 2.1], because: "linear functions, and no particle changes its cell"}]
+//! "#;
+//! let suite = Suite::load(&Source::from_text("my-bar.yaml", text)?)?;
+//! let outcome = Runner::new(&suite).run(&|| ());
+//! assert!(outcome.passed());
+//! # Ok::<(), Diagnostic>(())
 //! ```
 //!
-//! The walls: [`mpm`] and [`fem`] are subjects and know nothing but [`subject`], and so does
-//! [`external`], which hands problems to solvers of others; [`exact`] is the truth and knows no
-//! solver; [`verify`] is the judge and knows no particular subject; [`suite`] says what is to be
+//! The modules, in the order in which a file becomes a report:
+//!
+//! ```text
+//! suite    the file, checked: every complaint has its line; the stated solution is put into the
+//!          equation of motion
+//! study    one case for each member of the product of its lists; names become solvers, which run
+//! verify   errors on every level; observed against formal order: a verdict, with its figures
+//! report   the text that is kept as a snapshot; JSON; figures; one HTML page; two runs compared
+//! ```
+//!
+//! The walls: [`mpm`] and [`fem`] are solvers and know nothing but [`subject`], the contract; so
+//! does [`external`], which hands problems to solvers of others. [`exact`] is the truth and knows
+//! no solver; [`verify`] is the judge and knows no particular solver; [`suite`] says what is to be
 //! run and [`study`] runs it; [`report`] knows results only.
 //!
 //! # Judging a solver of your own
