@@ -32,6 +32,7 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
     output::print(&match args.format {
         Page::Text => compare::text(&found),
         Page::Markdown => compare::markdown(&found),
+        Page::Json => compare::json(&found),
     });
     if found.is_worse() { FAILED } else { PASSED }
 }

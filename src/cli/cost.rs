@@ -50,7 +50,7 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
     for suite in suites {
         match best_candidate(suite, budget) {
             Ok(one) => {
-                if !args.json {
+                if !args.format.is_json() {
                     output::print(&format!("{}\n", report::best_candidate(&suite.name, &one)));
                 }
                 found.push((suite.name.clone(), one));
@@ -61,7 +61,7 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
             }
         }
     }
-    if args.json {
+    if args.format.is_json() {
         output::print(&report::timed_json(&[], &found));
     }
     code
@@ -74,7 +74,7 @@ fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> 
     let mut code = PASSED;
     for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
         let timed = one(suite, &over, solver, args);
-        if !args.json {
+        if !args.format.is_json() {
             output::print(&format!("{}\n", report::timed(&timed, !over.is_empty())));
         }
         if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &timed)) {
@@ -83,7 +83,7 @@ fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> 
         }
         all.push(timed);
     }
-    if args.json {
+    if args.format.is_json() {
         output::print(&report::timed_json(&all, &[]));
     }
     code

@@ -5,10 +5,11 @@ use super::status::{BAD_INPUT, PASSED};
 use super::{output, select};
 use mpm_verify::report;
 use mpm_verify::study;
+use serde_json::json;
 
 /// Prints the finding on each case that is named.
 pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {
-    let mut code = PASSED;
+    let (mut code, mut cases) = (PASSED, Vec::new());
     for found in select::with_sources(&args.targets.targets) {
         let (source, suite) = match found {
             Ok(found) => found,
@@ -24,6 +25,11 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {
             }
             let name = format!("{}::{case}", suite.name);
             match study::diagnose(&suite, &source, index, args.budget) {
+                Ok(Some(found)) if args.format.is_json() => {
+                    let mut case = report::diagnosis_json(&found);
+                    case["suite"] = suite.name.clone().into();
+                    cases.push(case);
+                }
                 Ok(Some(found)) => {
                     output::print(&format!("{}\n{}\n", suite.name, report::diagnosis(&found)));
                 }
@@ -34,6 +40,9 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {
                 }
             }
         }
+    }
+    if args.format.is_json() {
+        output::print(&format!("{:#}\n", json!({"cases": cases})));
     }
     code
 }

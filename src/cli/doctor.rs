@@ -1,6 +1,6 @@
 //! `mpm-verify doctor`: what is wrong with a solver of another program.
 
-use super::args::{DoctorArgs, Format};
+use super::args::DoctorArgs;
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, solver};
 use mpm_verify::testing::{DoctorReport, doctor as examine, page};
@@ -19,10 +19,7 @@ pub(super) fn doctor(args: &DoctorArgs) -> u8 {
         }
     };
     let report = examine(&program, &|name| output::complain(&format!("examining: {name}")));
-    output::print(&match args.format {
-        Format::Text => page(&report),
-        Format::Json => json(&report),
-    });
+    output::print(&if args.format.is_json() { json(&report) } else { page(&report) });
     match report.silent {
         Some(_) => BAD_INPUT,
         None if report.defects() > 0 => FAILED,

@@ -11,6 +11,7 @@ use mpm_verify::study::describe::level_list::{PlannedLevel, planned_levels};
 use mpm_verify::study::describe::profiles::Dispensable;
 use mpm_verify::study::describe::sketch::{sketch_svg, sketch_text};
 use mpm_verify::suite::Suite;
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
@@ -26,7 +27,11 @@ pub(super) fn explain(args: &ExplainArgs) -> u8 {
     if let Some(file) = &args.sketch {
         return draw(args, file);
     }
-    show::each(&args.targets.targets, |suite| explanation(suite, without))
+    let targets = &args.targets.targets;
+    if args.format.is_json() {
+        return show::json(targets, |_, suite| Ok(explained(suite, without)));
+    }
+    show::each(targets, |suite| explanation(suite, without))
 }
 
 /// Writes the sketch of the only suite that is named into `file`.
@@ -116,6 +121,45 @@ fn levels(suite: &Suite) -> String {
         }
     }
     page
+}
+
+fn explained(suite: &Suite, without: Option<Dispensable>) -> Value {
+    let levels = |levels: &[PlannedLevel]| -> Value {
+        let one = |level: &PlannedLevel| {
+            let PlannedLevel { cells, h, particles, dt, steps, courant } = level;
+            json!({"cells": cells, "h": h, "particles": particles, "dt": dt, "steps": steps,
+                "courant": courant})
+        };
+        levels.iter().map(one).collect()
+    };
+    let planned = planned_levels(suite);
+    let profile = |case: &str, without| {
+        study::profile(suite, case, without).map(|profile| report::profile_json(&profile))
+    };
+    let cases = suite.case_names().into_iter().enumerate().map(|(i, case)| {
+        let (expected, because) = suite.study.expectation(i).unzip();
+        let planned = planned.iter().find(|(name, _)| *name == case);
+        json!({
+            "case": case,
+            "expected": expected,
+            "because": because,
+            "levels": planned.map_or_else(|| json!([]), |(_, planned)| levels(planned)),
+            "profile": profile(case, None),
+            "without": without.and_then(|effect| profile(case, Some(effect))),
+        })
+    });
+    let statement = study::statement(suite).into_iter();
+    let cost = study::estimate(suite);
+    json!({
+        "suite": suite.name,
+        "title": suite.title,
+        "about": suite.about.trim(),
+        "source": suite.source,
+        "statement": statement.map(|(name, value)| json!([name, value])).collect::<Vec<_>>(),
+        "seconds": cost.map(|cost| cost.seconds),
+        "bytes": cost.map(|cost| cost.bytes),
+        "cases": cases.collect::<Vec<_>>(),
+    })
 }
 
 fn line(key: &str, value: &str) -> String {

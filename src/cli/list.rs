@@ -1,40 +1,22 @@
 //! `mpm-verify list`.
 
-use super::args::{Format, ListArgs};
-use super::status::{BAD_INPUT, PASSED};
-use super::{output, select, show};
+use super::args::ListArgs;
+use super::show;
 use mpm_verify::study::{Estimate, estimates};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use serde_json::{Value, json};
-use std::path::PathBuf;
 
 /// Prints every suite with its cases.
 pub(super) fn list(args: &ListArgs) -> u8 {
     let targets = &args.targets.targets;
-    if args.format == Format::Json {
-        return as_json(targets);
+    if args.format.is_json() {
+        return show::json(targets, |source, suite| Ok(listed(source, suite)));
     }
     show::each(targets, |suite| {
         let cases = suite.case_names().join("\n  ");
         format!("{}: {}\n  {cases}\n", suite.name, suite.title)
     })
-}
-
-/// Prints one document of all suites that can be loaded, and the complaints about others.
-fn as_json(targets: &[PathBuf]) -> u8 {
-    let (mut suites, mut code) = (Vec::new(), PASSED);
-    for found in select::with_sources(targets) {
-        match found {
-            Ok((source, suite)) => suites.push(listed(&source, &suite)),
-            Err(diagnostic) => {
-                output::diagnose(&diagnostic);
-                code = BAD_INPUT;
-            }
-        }
-    }
-    output::print(&format!("{:#}\n", json!({"suites": suites})));
-    code
 }
 
 fn listed(source: &Source, suite: &Suite) -> Value {

@@ -2,6 +2,7 @@
 //! and what accuracy costs.
 
 mod args;
+mod check;
 mod command_line;
 mod compare;
 mod cost;
@@ -67,11 +68,11 @@ fn done(command: Command) -> u8 {
         Command::New(args) => new::new(&args),
         Command::Merge(args) => merge::merge(&args),
         Command::List(args) => list::list(&args),
-        Command::Check(args) => show::check(&args),
+        Command::Check(args) => check::check(&args),
         Command::Explain(args) => explain::explain(&args),
         Command::Diagnose(args) => diagnose::diagnose(&args),
         Command::Doctor(args) => doctor::doctor(&args),
-        Command::Propose(targets) => propose::propose(&targets.targets),
+        Command::Propose(args) => propose::propose(&args),
         Command::Schema(args) => schema::schema(&args),
         Command::Steps(args) => steps::steps(&args),
         Command::Problem(args) => problem::problem(&args),

@@ -10,7 +10,7 @@ use std::io::{IsTerminal, stdout};
 
 /// Writes the initial state of a level, or its exact state at a time, to standard output.
 pub(super) fn problem(args: &ProblemArgs) -> u8 {
-    if args.out == ProblemFormat::Npz && stdout().is_terminal() {
+    if args.format == ProblemFormat::Npz && stdout().is_terminal() {
         output::complain("error: npz is not for a terminal: send it to a file, `> problem.npz`");
         return BAD_INPUT;
     }
@@ -47,5 +47,5 @@ fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, String> {
     if let Some(t) = args.at {
         problem.particles = exact_state(plan, &problem.particles, t)?;
     }
-    problem.written(args.out)
+    problem.written(args.format)
 }

@@ -1,14 +1,21 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
+use super::args::ProposeArgs;
 use super::show;
 use mpm_verify::report;
 use mpm_verify::study::{Runner, preflight};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use std::path::PathBuf;
+use serde_json::json;
 
 /// Runs each suite as if it expected nothing, and prints what it could expect.
-pub(super) fn propose(targets: &[PathBuf]) -> u8 {
+pub(super) fn propose(args: &ProposeArgs) -> u8 {
+    let targets = &args.targets.targets;
+    if args.format.is_json() {
+        return show::json(targets, |source, suite| {
+            Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite)?}))
+        });
+    }
     show::try_each(targets, of_suite)
 }
 

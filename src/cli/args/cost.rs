@@ -1,6 +1,6 @@
 //! The words of `cost`.
 
-use super::shared::{SolverArgs, Targets, seconds};
+use super::shared::{FormatArgs, SolverArgs, Targets, seconds};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -15,9 +15,8 @@ pub(in crate::cli) struct CostArgs {
     /// `500ms`, `2min`
     #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with_all = ["over", "figures", "solver"])]
     pub(in crate::cli) budget: Option<f64>,
-    /// Print one JSON document
-    #[arg(long)]
-    pub(in crate::cli) json: bool,
+    #[command(flatten)]
+    pub(in crate::cli) format: FormatArgs,
     /// Write work-precision diagrams into this folder
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) figures: Option<PathBuf>,

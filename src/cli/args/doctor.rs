@@ -1,13 +1,12 @@
 //! Words of `mpm-verify doctor`.
 
-use super::shared::{Format, SolverArgs};
+use super::shared::{FormatArgs, SolverArgs};
 use clap::Args;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct DoctorArgs {
     #[command(flatten)]
     pub(in crate::cli) solver: SolverArgs,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(in crate::cli) format: Format,
+    #[command(flatten)]
+    pub(in crate::cli) format: FormatArgs,
 }

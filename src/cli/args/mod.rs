@@ -11,7 +11,7 @@ pub(super) use cost::{CostArgs, Vary};
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
 pub(super) use report::{ListArgs, MergeArgs, ReportArgs, RunArgs};
-pub(super) use shared::{ColorArgs, Format, SolverArgs, Targets};
+pub(super) use shared::{ColorArgs, Format, FormatArgs, SolverArgs, Targets};
 
 pub(super) use shell::{CompletionsArgs, ManArgs};
 
@@ -55,7 +55,7 @@ pub(super) enum Command {
     Explain(ExplainArgs),
     /// Run suites and write the `expect` entries that theory gives and the runs support, each with
     /// where it comes from; nothing is changed
-    Propose(Targets),
+    Propose(ProposeArgs),
     /// Find out why cases do not have the order of theory: the finest levels again, with one thing
     /// changed at a time
     Diagnose(DiagnoseArgs),
@@ -91,6 +91,8 @@ pub(super) struct CheckArgs {
     #[arg(long)]
     pub(super) strict: bool,
     #[command(flatten)]
+    pub(super) format: FormatArgs,
+    #[command(flatten)]
     pub(super) solver: SolverArgs,
     /// Check again whenever one of the files changes, until Ctrl-C
     #[arg(long)]
@@ -107,6 +109,8 @@ pub(super) struct DiagnoseArgs {
     /// Predicted time for the runs of each case: `30s`, `2min`
     #[arg(long, value_name = "TIME", value_parser = shared::seconds, default_value = "60s")]
     pub(super) budget: f64,
+    #[command(flatten)]
+    pub(super) format: FormatArgs,
 }
 
 #[derive(Debug, Args)]
@@ -119,6 +123,8 @@ pub(super) struct ExplainArgs {
     /// Draw the scene of one suite into this file (SVG), and print nothing
     #[arg(long, value_name = "FILE")]
     pub(super) sketch: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) format: FormatArgs,
 }
 
 #[derive(Debug, Args)]
@@ -143,6 +149,16 @@ pub(super) struct StepsArgs {
     /// Also the finer levels that suites list under `full`
     #[arg(long)]
     pub(super) full: bool,
+    #[command(flatten)]
+    pub(super) format: FormatArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ProposeArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    #[command(flatten)]
+    pub(super) format: FormatArgs,
 }
 
 #[derive(Debug, Args)]
@@ -167,4 +183,6 @@ pub(super) enum Page {
     Text,
     /// A comment for a pull request
     Markdown,
+    /// One JSON document
+    Json,
 }

@@ -15,9 +15,9 @@ pub(in crate::cli) struct ProblemArgs {
     /// The exact state at this time (s), and not the initial one
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(in crate::cli) at: Option<f64>,
-    /// Format, which goes to standard output: csv, json, npz, vtu
-    #[arg(long, value_name = "FORMAT", value_parser = format, default_value = "csv")]
-    pub(in crate::cli) out: ProblemFormat,
+    /// Format of the output: csv, json, npz, vtu
+    #[arg(long, alias = "out", value_name = "FORMAT", value_parser = format, default_value = "csv")]
+    pub(in crate::cli) format: ProblemFormat,
 }
 
 /// The format with this name.

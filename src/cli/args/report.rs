@@ -1,6 +1,6 @@
 //! The words of `run`, `merge` and `list`.
 
-use super::shared::{Format, SolverArgs, Targets, seconds};
+use super::shared::{FormatArgs, SolverArgs, Targets, seconds};
 use clap::Args;
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -10,9 +10,8 @@ use std::path::PathBuf;
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(in crate::cli) targets: Targets,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(in crate::cli) format: Format,
+    #[command(flatten)]
+    pub(in crate::cli) format: FormatArgs,
     #[command(flatten)]
     pub(in crate::cli) print: PrintArgs,
     /// Run the finer levels too that suites list under `full`: takes hours where the others take
@@ -94,7 +93,6 @@ pub(in crate::cli) struct JudgedSolverArgs {
 pub(in crate::cli) struct ListArgs {
     #[command(flatten)]
     pub(in crate::cli) targets: Targets,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(in crate::cli) format: Format,
+    #[command(flatten)]
+    pub(in crate::cli) format: FormatArgs,
 }

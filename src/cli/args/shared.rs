@@ -27,9 +27,22 @@ pub(in crate::cli) struct SolverArgs {
     pub(in crate::cli) solver_memory: Option<u64>,
 }
 
+#[derive(Debug, Args)]
+pub(in crate::cli) struct FormatArgs {
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(in crate::cli) format: Format,
+}
+
+impl FormatArgs {
+    pub(in crate::cli) fn is_json(&self) -> bool {
+        self.format == Format::Json
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Format {
-    /// Reports and a table of verdicts
+    /// Text for a reader
     Text,
     /// One JSON document
     Json,

@@ -1,5 +1,6 @@
 //! The words of `mpm-verify new`.
 
+use crate::cli::args::FormatArgs;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -29,6 +30,8 @@ pub(in crate::cli) struct NewArgs {
     /// File to write; one that is there is left alone [default: NAME.yaml]
     #[arg(long, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(in crate::cli) format: FormatArgs,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -21,8 +21,12 @@ use template::{Choices, NamedChoice};
 pub(super) fn new(args: &NewArgs) -> u8 {
     match written(args) {
         Ok(path) => {
-            let path = path.display();
-            output::print(&format!("wrote {path}\nnext: mpm-verify check {path}\n"));
+            let path = path.display().to_string();
+            output::print(&if args.format.is_json() {
+                format!("{:#}\n", serde_json::json!({"file": path}))
+            } else {
+                format!("wrote {path}\nnext: mpm-verify check {path}\n")
+            });
             PASSED
         }
         Err(message) => {

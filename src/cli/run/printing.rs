@@ -30,7 +30,7 @@ impl Printing {
     /// The extent that the options ask for, of so many suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
-        match args.format {
+        match args.format.format {
             Format::Json => Self::Json,
             Format::Text if args.print.quiet => Self::Unexpected,
             Format::Text if args.print.brief => Self::Verdicts,

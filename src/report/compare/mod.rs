@@ -13,6 +13,7 @@ mod changes;
 mod cheapest;
 mod document;
 mod equal_error;
+mod json;
 mod markdown;
 mod number;
 mod pairs;
@@ -25,6 +26,7 @@ mod tests;
 
 pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
+pub use json::json;
 pub use markdown::markdown;
 pub use text::text;
 

@@ -93,7 +93,8 @@ fn case(outcome: &CaseOutcome) -> Value {
     members.into()
 }
 
-fn profile(profile: &Profile) -> Value {
+/// Cost of a step.
+pub fn profile(profile: &Profile) -> Value {
     let visit = |(part, particles): &(&str, u64)| json!({"part": part, "particles": particles});
     let column = |column: &Column| {
         let of = match column.holder {

@@ -1,6 +1,7 @@
 //! The report as JSON: an interface for programs.
 
 pub(crate) mod cost;
+pub(crate) mod diagnosis;
 pub(crate) mod document;
 pub(crate) mod number;
 pub(crate) mod stability;

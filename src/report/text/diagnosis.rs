@@ -20,7 +20,8 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     lines.join("\n") + "\n"
 }
 
-fn paragraph(found: &Diagnosis) -> String {
+/// Verdict, cause, evidence and remedy.
+pub(crate) fn paragraph(found: &Diagnosis) -> String {
     let p = found.formal_order;
     let judgement = &found.judgement;
     if found.is_sound() {

@@ -5,7 +5,7 @@ use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
 use serde_json::Value;
 
 fn document(folder: &Folder, arguments: &[&str]) -> Value {
-    let found = folder.call(&[&["cost", "--json"], arguments].concat());
+    let found = folder.call(&[&["cost", "--format", "json"], arguments].concat());
     assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
     serde_json::from_str(&found.out).expect("one document")
 }

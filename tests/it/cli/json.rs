@@ -1,6 +1,7 @@
 //! `--format json`: one document, with the keys that the documentation promises.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
+use rstest::rstest;
 use serde_json::{Value, json};
 
 const CASE: [&str; 17] = [
@@ -205,4 +206,48 @@ fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
         }
     }
     assert_eq!(methods[0]["reached"][0]["times"], 1.0);
+}
+
+/// One flag for every command that prints something, and one document of it.
+#[rstest]
+#[case(&["list", "bar.yaml"], "/suites/0/cases/0/case", &json!("mpm-linear-flip-musl"))]
+#[case(&["check", "bar.yaml"], "/suites/0/cases", &json!(2))]
+#[case(&["check", "bar.yaml"], "/errors", &json!(0))]
+#[case(&["explain", "bar.yaml"], "/suites/0/cases/0/levels/3/cells", &json!(12))]
+#[case(&["explain", "bar.yaml"], "/suites/0/cases/0/profile/particles", &json!(16))]
+#[case(&["steps", "bar.yaml"], "/suites/0/levels/0/steps", &json!(50))]
+#[case(&["propose", "bar.yaml"], "/suites/0/suite", &json!("short-bar"))]
+#[case(&["diagnose", "bar.yaml", "--case", "mpm"], "/cases/0/sound", &json!(true))]
+#[case(&["problem", "bar.yaml", "--level", "1"], "/suite", &json!("short-bar"))]
+#[case(&["cost", "bar.yaml"], "/suites/0/suite", &json!("short-bar"))]
+#[case(&["compare", "empty.json", "empty.json"], "/worse", &json!(false))]
+#[case(&["new", "my-suite"], "/file", &json!("my-suite.yaml"))]
+fn every_command_prints_one_document(
+    #[case] arguments: &[&str],
+    #[case] place: &str,
+    #[case] wanted: &Value,
+) {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.write("empty.json", r#"{"suites": []}"#);
+    let found = folder.call(&[arguments, &["--format", "json"]].concat());
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let document: Value = serde_json::from_str(&found.out).expect("one document");
+    assert_eq!(document.pointer(place), Some(wanted), "{document:#}");
+}
+
+#[test]
+fn what_is_wrong_with_a_file_is_in_the_document_of_check() {
+    let folder = Folder::new();
+    folder.write("bad.yaml", mistaken());
+    let found = folder.call(&["check", "bad.yaml", "--format", "json"]);
+    assert_eq!((found.code, found.errors.as_str()), (BAD_INPUT, ""));
+    let document: Value = serde_json::from_str(&found.out).expect("one document");
+    let diagnostic = &document["suites"][0]["diagnostics"][0];
+    let wanted = json!({
+        "severity": "error", "file": "bad.yaml", "line": 9, "column": 3,
+        "message": "unknown key `dimensions`", "label": "no key that is known here",
+        "help": "did you mean `dimension`?",
+    });
+    assert_eq!((diagnostic, &document["errors"]), (&wanted, &json!(1)));
 }

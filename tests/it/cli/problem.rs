@@ -53,7 +53,7 @@ fn the_exact_state_is_that_of_the_formula() {
 
 #[test]
 fn json_has_the_keys_of_the_protocol() {
-    let document: Value = serde_json::from_str(&problem(&["--out", "json"])).expect("JSON");
+    let document: Value = serde_json::from_str(&problem(&["--format", "json"])).expect("JSON");
     assert_eq!(document["grid"]["h"], 1.0 / 12.0);
     assert_eq!(document["faces"][0]["condition"], "fixed");
     assert_eq!(document["materials"][0]["parameters"]["young"], 100.0);
@@ -63,7 +63,7 @@ fn json_has_the_keys_of_the_protocol() {
 
 #[test]
 fn a_file_for_paraview_has_a_vertex_for_each_particle() {
-    let xml = problem(&["--out", "vtu", "--level", "1"]);
+    let xml = problem(&["--format", "vtu", "--level", "1"]);
     assert!(xml.contains("<Piece NumberOfPoints=\"16\" NumberOfCells=\"16\">"), "{xml}");
     let first = xml.lines().skip_while(|line| !line.contains("\"position\"")).nth(1);
     assert_eq!(first, Some("0.03125 0 0"));
@@ -76,7 +76,7 @@ fn a_file_for_paraview_has_a_vertex_for_each_particle() {
 fn arrays_for_numpy_are_a_zip_file() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
-    let mut command = folder.command(&["problem", "bar.yaml", "--out", "npz"]);
+    let mut command = folder.command(&["problem", "bar.yaml", "--format", "npz"]);
     let bytes = command.output().expect("the program starts").stdout;
     assert!(bytes.starts_with(b"PK") && bytes.windows(8).any(|name| name == b"mass.npy"));
 }
@@ -84,7 +84,7 @@ fn arrays_for_numpy_are_a_zip_file() {
 #[rstest]
 #[case::no_such_level(&["--level", "9"], "there is no level 9: expected 1 to 4")]
 #[case::level_zero(&["--level", "0"], "there is no level 0: expected 1 to 4")]
-#[case::no_such_format(&["--out", "xls"], "expected one of csv, json, npz, vtu")]
+#[case::no_such_format(&["--format", "xls"], "expected one of csv, json, npz, vtu")]
 fn bad_input_is_told(#[case] arguments: &[&str], #[case] words: &str) {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);

@@ -143,7 +143,7 @@ fn a_level_that_broke_runs_again() {
 
 #[test]
 fn what_its_accuracy_costs_is_timed() {
-    let found = folder().call(&["cost", "bar.yaml", "--solver", SOLVER, "--json"]);
+    let found = folder().call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     let text = found.to_string();
