@@ -25,7 +25,8 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn key_of(study: &str, path: &str) -> String {
+/// A key as the pages name it.
+pub(super) fn key_of(study: &str, path: &str) -> String {
     let is_of_all = OF_ALL.contains(&path);
     if is_of_all { path.to_owned() } else { shared(study, path) }
 }

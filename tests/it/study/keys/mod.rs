@@ -7,6 +7,7 @@ mod leaf;
 mod manual;
 mod page;
 mod reasons;
+mod required;
 mod search;
 mod solver;
 
@@ -101,6 +102,24 @@ fn every_key_has_a_row_in_the_manual() {
         let untold: Vec<&String> = untold.collect();
         assert!(untold.is_empty(), "docs/grammar: the row of `{key}` has not {untold:?}");
     }
+}
+
+/// `required` alone says that a key must stand wherever it may; a default, that it need not
+/// stand everywhere.
+#[test]
+fn the_manual_says_which_keys_must_stand() {
+    let (required, pages) = (required::required(), manual::pages());
+    let mut held = 0;
+    for (key, rows) in manual::rows(&pages) {
+        let default = rows[0].split(" | ").nth(1).unwrap_or_default();
+        let (Some(found), false) = (required.get(key), default.is_empty()) else { continue };
+        let is_conditional = default != "required" && default.starts_with("required");
+        let is_right =
+            if default == "required" { !found.contains(&false) } else { found.contains(&false) };
+        assert!(is_conditional || is_right, "docs/grammar: `{key}`, default {default}");
+        held += 1;
+    }
+    assert!(held > 150, "only {held} rows are in the schema");
 }
 
 #[test]

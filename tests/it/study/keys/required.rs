@@ -1,0 +1,74 @@
+//! Which keys must stand, by the JSON Schema of a suite.
+
+use super::leaf::joined;
+use super::manual::key_of;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Types of the schema for the kinds of study.
+const STUDIES: [(&str, &str); 3] = [
+    ("convergence", "ConvergenceSpec"),
+    ("stability", "StabilitySpec"),
+    ("internal_force", "InternalForceSpec"),
+];
+
+/// Keys of maps that have one for each face.
+const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+
+/// By key, whether it is required; both, if that depends on where it stands.
+pub(super) type Required = BTreeMap<String, BTreeSet<bool>>;
+
+struct Walk<'a> {
+    definitions: &'a Value,
+    study: &'a str,
+    found: Required,
+}
+
+pub(super) fn required() -> Required {
+    let schema: Value = serde_json::from_str(include_str!("../../../../docs/suite.schema.json"))
+        .expect("the schema of a suite");
+    let mut all = Required::new();
+    for (study, name) in STUDIES {
+        let definitions = &schema["definitions"];
+        let mut walk = Walk { definitions, study, found: Required::new() };
+        walk.below(&definitions[name], "");
+        for (key, found) in walk.found {
+            all.entry(key).or_default().extend(found);
+        }
+    }
+    all
+}
+
+impl Walk<'_> {
+    fn below(&mut self, node: &Value, path: &str) {
+        if let Some(reference) = node["$ref"].as_str() {
+            let name = reference.rsplit('/').next().unwrap_or_default();
+            let definitions = self.definitions;
+            return self.below(&definitions[name], path);
+        }
+        for several in ["allOf", "anyOf", "oneOf"] {
+            let members = node[several].as_array().into_iter().flatten();
+            members.for_each(|member| self.below(member, path));
+        }
+        for one in ["items", "additionalProperties"] {
+            if node[one].is_object() {
+                self.below(&node[one], path);
+            }
+        }
+        let must: Vec<&str> =
+            node["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+        for (key, member) in node["properties"].as_object().into_iter().flatten() {
+            if FACES.contains(&key.as_str()) {
+                self.below(member, path);
+                continue;
+            }
+            let path = joined(path, key);
+            let is_required = must.contains(&key.as_str());
+            self.found.entry(key_of(self.study, &path)).or_default().insert(is_required);
+            // The expectation of a full run is one more of the same.
+            if key != "full" {
+                self.below(member, &path);
+            }
+        }
+    }
+}
