@@ -300,6 +300,14 @@ fn reports_are_quoted_as_they_are() {
 }
 
 #[test]
+fn the_page_of_the_judge_has_its_numbers() {
+    let page = std::fs::read_to_string(source::root().join(pages::JUDGE)).expect("a page");
+    let (rows, wrong) = pages::constants(&page, &source::texts("src/verify", ".rs"));
+    assert!(rows > 15, "{} has {rows} numbers: are they still found?", pages::JUDGE);
+    assert!(wrong.is_empty(), "{}: not in the sources:\n{}", pages::JUDGE, wrong.join("\n"));
+}
+
+#[test]
 fn the_book_has_every_document() {
     let summary = "docs/SUMMARY.md";
     let documents = documents();

@@ -104,6 +104,15 @@ fn every_key_has_a_row_in_the_manual() {
     }
 }
 
+#[test]
+fn the_manual_has_every_verdict() {
+    let (pages, verdicts) = (manual::pages(), mpm_verify::verify::Verdict::ALL);
+    let row = manual::rows(&pages)["expect.verdict"][0];
+    let spelt = verdicts.map(|verdict| format!("`{}`", verdict.name().replace([' ', '-'], "_")));
+    let untold: Vec<&String> = spelt.iter().filter(|name| !row.contains(*name)).collect();
+    assert!(untold.is_empty(), "docs/grammar: the row of `expect.verdict` has not {untold:?}");
+}
+
 /// `required` alone says that a key must stand wherever it may; a default, that it need not
 /// stand everywhere.
 #[test]
