@@ -20,6 +20,7 @@ pub use figure::drawing::Figure;
 pub use figure::suite::svg;
 pub use json::diagnosis::diagnosis_json;
 pub use json::document::{json, profile as profile_json};
+pub use json::schema::report_schema;
 pub use json::timed_suite::timed_json;
 pub use text::cost::cost;
 pub use text::diagnosis::diagnosis;

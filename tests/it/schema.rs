@@ -119,5 +119,6 @@ fn schema_and_program_agree_about_each_key() {
 #[test]
 fn the_schema_of_a_suite_in_the_documents_is_the_one_that_is_printed() {
     let kept = include_str!("../../docs/suite.schema.json");
-    assert!(kept == suite_schema(), "cargo run -- schema suite > docs/suite.schema.json");
+    let written = "`mpm-verify schema suite > docs/suite.schema.json` writes it anew";
+    assert!(kept == suite_schema(), "{written}");
 }

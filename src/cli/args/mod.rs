@@ -138,6 +138,8 @@ pub(super) struct SchemaArgs {
 pub(super) enum SchemaName {
     /// A suite, for editors that complete and check it while it is written
     Suite,
+    /// The document of `run --format json`
+    Json,
     /// Messages between the harness and a solver of another program
     Protocol,
 }

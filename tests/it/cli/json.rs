@@ -1,6 +1,8 @@
 //! `--format json`: one document, with the keys that the documentation promises.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
+use crate::common::json_schema::JsonSchema;
+use mpm_verify::report::report_schema;
 use rstest::rstest;
 use serde_json::{Value, json};
 
@@ -66,7 +68,24 @@ fn list(value: &Value) -> &[Value] {
 fn document(folder: &Folder, targets: &[&str], code: i32) -> Value {
     let found = folder.call(&[&["run", "--format", "json"], targets].concat());
     assert_eq!(found.code, code, "{}", found.errors);
-    serde_json::from_str(&found.out).expect("one document")
+    let document = serde_json::from_str(&found.out).expect("one document");
+    assert_eq!(JsonSchema::new(&report_schema()).refusal(&document), None);
+    document
+}
+
+#[test]
+fn a_stability_study_has_rows_and_no_levels() {
+    let document = document(&Folder::new(), &["null-space"], SOUND);
+    let case = &document["suites"][0]["cases"][0];
+    assert!(!list(&case["stability"]["rows"]).is_empty(), "{case:#}");
+    assert_eq!(case["levels"], json!([]));
+}
+
+#[test]
+fn the_schema_in_the_documents_is_the_one_that_is_printed() {
+    let kept = include_str!("../../../docs/report.schema.json");
+    let written = "`mpm-verify schema json > docs/report.schema.json` writes it anew";
+    assert!(kept == report_schema(), "{written}");
 }
 
 #[test]

@@ -1,0 +1,191 @@
+//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. Rows have the keys
+//! and the meanings of the columns that write them; tests hold the rest to documents.
+
+use crate::report::columns::{TableColumn, cost, force, level, stability};
+use crate::verify::{Axis, FloorCause, Quantity, Ranking, StabilityStudy};
+use serde_json::{Map, Value, json};
+
+/// The schema, as indented JSON.
+pub fn report_schema() -> String {
+    let suite = object([
+        ("suite", text(), "name of the suite"),
+        ("passed", flag(), "whether every case came as expected"),
+        ("cases", list(case()), "its cases, in the order of the suite"),
+        ("cost", list(ranking()), "methods by the work that they take, for each problem"),
+    ]);
+    let schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "mpm-verify report",
+        "description": format!("What version {} prints.", env!("CARGO_PKG_VERSION")),
+        "$defs": {
+            "number": {"anyOf": [{"type": "number"}, {"enum": ["nan", "inf", "-inf"]}]},
+            "suite": suite,
+        },
+        "type": "object",
+        "properties": {"suites": list(json!({"$ref": "#/$defs/suite"}))},
+        "required": ["suites"],
+        "additionalProperties": false,
+    });
+    format!("{schema:#}\n")
+}
+
+fn case() -> Value {
+    let levels = row(&level::json_columns());
+    let forces = row(&force::columns());
+    let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
+    object([
+        ("case", text(), "name of the case"),
+        ("subject", text(), "the solver: `mpm`, `fem`, or one of another program"),
+        ("verdict", text(), "the verdict, in words"),
+        ("expected", or_null(text()), "the expectation; null where nothing is expected"),
+        ("passed", flag(), "whether the case came as expected"),
+        ("lacks", list(text()), "what the case needs and its solver lacks"),
+        ("reason", text(), "figures that led to the verdict"),
+        ("unmet", list(text()), "expectations that are not met"),
+        ("profile", or_null(profile()), "what one step takes on the coarsest level"),
+        ("axis", or_null(json!({"enum": axes})), "what is refined"),
+        ("formal_order", or_null(number()), "order of theory"),
+        ("judge", or_null(judge()), "the judged error"),
+        ("observed_order", or_null(interval()), "the order, with its 95 % interval"),
+        ("floor", or_null(floor()), "the finest error with another spacing halved"),
+        ("levels", list(levels), "levels, from coarse to fine"),
+        ("forces", or_null(list(forces)), "rows of an internal-force study"),
+        ("stability", or_null(stability_study()), "rows of a stability study"),
+    ])
+}
+
+fn judge() -> Value {
+    let quantities: Vec<&str> = Quantity::ALL.iter().map(|quantity| quantity.name()).collect();
+    object([
+        ("of", json!({"enum": quantities}), "the judged quantity"),
+        ("norm", text(), "norm of the error"),
+        ("scale", or_null(number()), "divisor of the error"),
+    ])
+}
+
+fn profile() -> Value {
+    let visit = object([
+        ("part", text(), "part of a pass"),
+        ("particles", whole(), "particles that it visits"),
+    ]);
+    let column = object([
+        ("name", text(), "name of the column"),
+        ("of", json!({"enum": ["particle", "node"]}), "what has an entry"),
+        ("entries", whole(), "number of entries"),
+        ("bytes", whole(), "bytes of an entry"),
+    ]);
+    object([
+        ("effects", list(text()), "active effects"),
+        ("particles", whole(), "particles"),
+        ("nodes", whole(), "nodes of the grid"),
+        ("passes", list(text()), "passes of a step, in their order"),
+        ("visits", list(visit), "particles that each part of a pass visits"),
+        ("columns", list(column), "memory"),
+    ])
+}
+
+fn floor() -> Value {
+    let causes: Vec<&str> = FloorCause::ALL.iter().map(|cause| cause.name()).collect();
+    let probe = object([
+        ("axis", text(), "spacing that is halved"),
+        ("error", or_null(number()), "finest error with it halved"),
+        ("failure", or_null(text()), "why there is none"),
+    ]);
+    object([
+        ("cause", or_null(json!({"enum": causes})), "axis whose error the floor is"),
+        ("error", number(), "finest error"),
+        ("probes", list(probe), "runs with one spacing halved"),
+    ])
+}
+
+fn interval() -> Value {
+    object([
+        ("value", number(), "the estimate"),
+        ("low", number(), "lower end"),
+        ("high", number(), "upper end"),
+    ])
+}
+
+fn stability_study() -> Value {
+    let (figures, rows) = (Vec::new(), Vec::new());
+    let study = StabilityStudy { swept: String::new(), sought: None, figures, rows };
+    object([
+        ("swept", text(), "parameter whose values make the rows"),
+        ("sought", or_null(text()), "parameter whose limit is sought"),
+        ("rows", list(row(&stability::json_columns(&study))), "one for each value"),
+    ])
+}
+
+fn ranking() -> Value {
+    let methods = row(&cost::json_columns(&Ranking::new(String::new(), 1.0, &[], Vec::new())));
+    object([
+        ("problem", text(), "end of the run, and the truth"),
+        ("size", number(), "divisor of errors"),
+        ("work", text(), "unit of the work"),
+        ("targets", list(number()), "errors whose work is compared"),
+        ("methods", list(methods), "the cheapest first"),
+    ])
+}
+
+/// A row of a table: the keys of its columns, `errors.rms` being the key `rms` of `errors`.
+fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
+    let mut properties = Map::new();
+    for column in columns.iter().filter(|column| !column.key.is_empty()) {
+        let about = json!({"description": column.about});
+        match column.key.split_once('.') {
+            None => _ = properties.insert(column.key.to_owned(), about),
+            Some((outer, inner)) => {
+                let nested = properties
+                    .entry(outer)
+                    .or_insert_with(|| json!({"type": ["object", "null"], "properties": {}}));
+                nested["properties"][inner] = about;
+            }
+        }
+    }
+    closed(properties)
+}
+
+/// An object with these keys, each with its schema and its meaning.
+fn object<const N: usize>(keys: [(&str, Value, &str); N]) -> Value {
+    let property = |(key, mut schema, about): (&str, Value, &str)| {
+        schema["description"] = about.into();
+        (key.to_owned(), schema)
+    };
+    closed(keys.into_iter().map(property).collect())
+}
+
+/// An object with all of these keys, and no other.
+fn closed(properties: Map<String, Value>) -> Value {
+    let keys: Vec<&String> = properties.keys().collect();
+    let object = json!({"type": "object", "required": keys, "additionalProperties": false});
+    with(object, "properties", properties.into())
+}
+
+fn list(items: Value) -> Value {
+    with(json!({"type": "array"}), "items", items)
+}
+
+fn or_null(schema: Value) -> Value {
+    with(json!({}), "anyOf", vec![schema, json!({"type": "null"})].into())
+}
+
+fn with(mut schema: Value, keyword: &str, value: Value) -> Value {
+    schema[keyword] = value;
+    schema
+}
+
+fn number() -> Value {
+    json!({"$ref": "#/$defs/number"})
+}
+
+fn text() -> Value {
+    json!({"type": "string"})
+}
+
+fn whole() -> Value {
+    json!({"type": "integer", "minimum": 0})
+}
+
+fn flag() -> Value {
+    json!({"type": "boolean"})
+}
