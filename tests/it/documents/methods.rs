@@ -12,11 +12,17 @@ const PAGE: &str = "docs/methods.md";
 /// Parts of a method that a table has a column for each name of.
 const PARTS: [&str; 2] = ["basis", "transfer"];
 
+/// Fewest bases of a suite that has a row of its own.
+const FEWEST: usize = 3;
+
 /// A case that is asked for a verdict.
 struct Asked {
     folder: String,
+    suite: String,
     settings: Vec<(String, String)>,
     converges: bool,
+    /// The order that is expected, or the verdict.
+    outcome: String,
 }
 
 fn root() -> &'static Path {
@@ -30,21 +36,54 @@ fn asked() -> Vec<Asked> {
         let suite = Suite::load(&source).unwrap_or_else(|found| panic!("{found}"));
         let cases = suite.plan::<ConvergencePlan>().map(|plan| plan.cases.as_slice());
         let asked = cases.unwrap_or_default().iter().filter_map(|case| {
-            let verdict = case.expectation.as_ref()?.verdict?;
-            let (folder, settings) = (suite.group.clone(), case.method.settings());
-            Some(Asked { folder, settings, converges: verdict == Verdict::Converging })
+            let expectation = case.expectation.as_ref()?;
+            let verdict = expectation.verdict?;
+            let converges = verdict == Verdict::Converging;
+            let middle = |(low, high): (f64, f64)| format!("{:.1}", 0.5 * (low + high));
+            let order = expectation.order.filter(|_| converges).map(middle);
+            let outcome = order.unwrap_or_else(|| verdict.name().to_owned());
+            let (folder, suite) = (suite.group.clone(), suite.name.clone());
+            let settings = case.method.settings();
+            Some(Asked { folder, suite, settings, converges, outcome })
         });
         asked.collect()
     };
     files.par_iter().flat_map_iter(of_file).collect()
 }
 
+/// The name of a part of the method.
+fn part_of<'a>(case: &'a Asked, part: &str) -> Option<&'a str> {
+    let setting = case.settings.iter().find(|(key, _)| key == part);
+    setting.map(|(_, name)| name.as_str())
+}
+
+/// What suites of several bases expect of each, in the order of their folders.
+fn outcomes(asked: &[Asked]) -> String {
+    let mut cells: BTreeMap<(&str, &str), BTreeMap<&str, BTreeSet<&str>>> = BTreeMap::new();
+    for case in asked {
+        let Some(basis) = part_of(case, "basis") else { continue };
+        let row = cells.entry((&case.folder, &case.suite)).or_default();
+        row.entry(basis).or_default().insert(&case.outcome);
+    }
+    let bases: BTreeSet<&str> = cells.values().flat_map(|row| row.keys().copied()).collect();
+    let heads: String = bases.iter().map(|basis| format!(" `{basis}` |")).collect();
+    let mut table = format!("\n| suite |{heads}\n|---|{}\n", "---|".repeat(bases.len()));
+    for ((folder, suite), row) in cells.iter().filter(|(_, row)| row.len() >= FEWEST) {
+        let cell = |basis: &&str| {
+            let told = row.get(basis).map(|all| all.iter().copied().collect::<Vec<_>>());
+            told.map_or(" |".to_owned(), |all| format!(" {} |", all.join(", ")))
+        };
+        let cells: String = bases.iter().map(cell).collect();
+        table += &format!("| [{suite}](../verification/{folder}/{suite}.snap) |{cells}\n");
+    }
+    table
+}
+
 /// Cases that converge and all, by folder and name of a part.
 fn table(part: &str, asked: &[Asked]) -> String {
     let mut counts: BTreeMap<(&str, &str), (usize, usize)> = BTreeMap::new();
     for case in asked {
-        let name = case.settings.iter().find(|(key, _)| key == part);
-        let Some((_, name)) = name else { continue };
+        let Some(name) = part_of(case, part) else { continue };
         let (some, all) = counts.entry((&case.folder, name)).or_default();
         *some += usize::from(case.converges);
         *all += 1;
@@ -64,14 +103,19 @@ fn table(part: &str, asked: &[Asked]) -> String {
     table
 }
 
+/// The page with a table made anew.
+fn with(page: &str, of: &str, table: &str) -> String {
+    let begin = format!("<!-- methods by {of} -->\n");
+    let (before, rest) = page.split_once(&begin).expect("a place for the table");
+    let (_, after) = rest.split_once("<!-- end -->").expect("its end");
+    format!("{before}{begin}{table}\n<!-- end -->{after}")
+}
+
 /// The page as it is, and as it should be.
 fn page() -> (String, String) {
     let (page, asked) = (std::fs::read_to_string(root().join(PAGE)).expect(PAGE), asked());
-    let anew = PARTS.iter().fold(page.clone(), |page, part| {
-        let begin = format!("<!-- methods by {part} -->\n");
-        let (before, rest) = page.split_once(&begin).expect("a place for the table");
-        let (_, after) = rest.split_once("<!-- end -->").expect("its end");
-        format!("{before}{begin}{}\n<!-- end -->{after}", table(part, &asked))
+    let anew = PARTS.iter().fold(with(&page, "suite", &outcomes(&asked)), |page, part| {
+        with(&page, part, &table(part, &asked))
     });
     (page, anew)
 }
