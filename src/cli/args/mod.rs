@@ -90,6 +90,9 @@ pub(super) struct CheckArgs {
     /// Exit status 1 if there are warnings
     #[arg(long)]
     pub(super) strict: bool,
+    /// Say nothing of suites that are sound, and make no notes
+    #[arg(long, short)]
+    pub(super) quiet: bool,
     #[command(flatten)]
     pub(super) format: FormatArgs,
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! Findings of `mpm-verify check`, as text or as JSON.
 
+use crate::cli::args::CheckArgs;
 use crate::cli::output;
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
@@ -8,11 +9,16 @@ use serde_json::{Value, json};
 
 /// The findings so far: text is printed at once, JSON in the end.
 pub(super) struct CheckFindings {
-    pub(super) is_json: bool,
-    pub(super) suites: Vec<Value>,
+    is_json: bool,
+    is_quiet: bool,
+    suites: Vec<Value>,
 }
 
 impl CheckFindings {
+    pub(super) fn new(args: &CheckArgs) -> Self {
+        Self { is_json: args.format.is_json(), is_quiet: args.quiet, suites: Vec::new() }
+    }
+
     /// A file that cannot be used.
     pub(super) fn refused(&mut self, diagnostic: &Diagnostic) {
         if !self.is_json {
@@ -37,8 +43,11 @@ impl CheckFindings {
     /// A suite that can run.
     pub(super) fn sound(&mut self, suite: &Suite, source: &Source, found: &[Diagnostic]) {
         if !self.is_json {
-            output::print(&sound(suite));
-            return found.iter().for_each(output::diagnose);
+            if !self.is_quiet {
+                output::print(&sound(suite));
+            }
+            let is_said = |one: &&Diagnostic| !(self.is_quiet && one.severity() == Severity::Note);
+            return found.iter().filter(is_said).for_each(output::diagnose);
         }
         let cost = study::estimate(suite);
         let linearised = study::linearisation(suite);
@@ -60,7 +69,7 @@ impl CheckFindings {
     /// Says how many complaints there are.
     pub(super) fn end(self, counts: Counts) {
         if !self.is_json {
-            return counts.say();
+            return if self.is_quiet { Counts { notes: 0, ..counts } } else { counts }.say();
         }
         let Counts { errors, warnings, notes } = counts;
         let document =

@@ -82,6 +82,7 @@ pub(super) fn report(
         select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
     let (sources, suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
+    let names: Vec<String> = suites.iter().map(|suite| suite.name.clone()).collect();
     let (suites, judging) = match choose(suites) {
         Ok(chosen) => chosen,
         Err(message) => {
@@ -89,6 +90,10 @@ pub(super) fn report(
             return BAD_INPUT;
         }
     };
+    // Suites of which no case is chosen are left out, and the others stay in their order.
+    let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
+    let sources = names.into_iter().zip(sources).filter(is_chosen);
+    let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
     let twice = twice(&suites);
     for (option, given, clash) in [
         ("--out", args.out.is_some(), "would write the same files"),

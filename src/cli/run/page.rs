@@ -17,8 +17,8 @@ pub(super) fn prepare(file: &Path) -> Result<(), String> {
     made.map_err(|error| unwritable(file, &error))
 }
 
-/// Writes the page; outcomes are in the order of their sources, without the files that were
-/// refused.
+/// Writes the page; outcomes are in the order of their sources, without those that were refused or
+/// left out.
 pub(super) fn write(
     file: &Path,
     sources: &[Source],

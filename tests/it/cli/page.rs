@@ -44,6 +44,22 @@ fn a_page_says_what_is_not_as_expected() {
     assert!(folder.read("page.html").contains("1 file could not be used."));
 }
 
+/// Suites that are left out leave no file to another one.
+#[test]
+fn a_page_of_chosen_cases_has_the_files_of_their_suites() {
+    let folder = Folder::new();
+    folder.write(
+        "a.yaml",
+        BAR.replace("  - mpm: {basis: linear, transfer: flip, scheme: musl}\n", ""),
+    );
+    folder.write("b.yaml", BAR.replace("short-bar", "other-bar"));
+    let arguments = ["run", "a.yaml", "b.yaml", "--case", "mpm", "--html", "page.html"];
+    assert_eq!(folder.call(&arguments).code, SOUND);
+    let page = folder.read("page.html");
+    assert!(page.contains("<details id=\"yaml-other-bar\"><summary>b.yaml</summary>"));
+    assert!(!page.contains("a.yaml"));
+}
+
 #[test]
 fn a_page_that_cannot_be_written_is_refused_before_anything_runs() {
     let folder = Folder::new();

@@ -61,6 +61,8 @@ fn a_quiet_run_speaks_only_of_what_did_not_come_as_expected() {
     assert_eq!(found.code, FAILED);
     assert!(found.out.starts_with("ambitious-bar: Short bar\n\n== mpm-"), "{}", found.out);
     assert!(!found.out.contains("bar-1"), "{}", found.out);
+    let checked = folder.call(&["check", "-q"]);
+    assert_eq!((checked.code, checked.out.as_str(), checked.errors.as_str()), (SOUND, "", ""));
 }
 
 #[rstest]
