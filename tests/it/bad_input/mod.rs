@@ -63,10 +63,7 @@ fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let text = format!("{before}{after}");
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
-    let diagnostic = match load(&text) {
-        Ok(_) => panic!("accepted:\n{text}"),
-        Err(diagnostic) => diagnostic,
-    };
+    let Err(diagnostic) = load(&text) else { panic!("accepted:\n{text}") };
     let shown = diagnostic.to_string();
     let excerpt = text.lines().nth(line - 1).expect("a line");
     points(&shown, line, column, excerpt);

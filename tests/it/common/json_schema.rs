@@ -55,9 +55,8 @@ impl JsonSchema {
                 let named =
                     |key: &str| all.get("properties").is_some_and(|of| of.get(key).is_some());
                 let mut others = value.as_object().into_iter().flatten();
-                return others.try_for_each(|(key, value)| match named(key) {
-                    true => Ok(()),
-                    false => self.inside(key, by, value),
+                return others.try_for_each(|(key, value)| {
+                    if named(key) { Ok(()) } else { self.inside(key, by, value) }
                 });
             }
             "items" => {

@@ -57,6 +57,12 @@ fn part_of<'a>(case: &'a Asked, part: &str) -> Option<&'a str> {
     setting.map(|(_, name)| name.as_str())
 }
 
+/// The head of a table with a column for each name.
+fn head(first: &str, names: &BTreeSet<&str>) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    format!("\n| {first} | {} |\n|---|{}\n", names.join(" | "), "---|".repeat(names.len()))
+}
+
 /// What suites of several bases expect of each, in the order of their folders.
 fn outcomes(asked: &[Asked]) -> String {
     let mut cells: BTreeMap<(&str, &str), BTreeMap<&str, BTreeSet<&str>>> = BTreeMap::new();
@@ -66,8 +72,7 @@ fn outcomes(asked: &[Asked]) -> String {
         row.entry(basis).or_default().insert(&case.outcome);
     }
     let bases: BTreeSet<&str> = cells.values().flat_map(|row| row.keys().copied()).collect();
-    let heads: String = bases.iter().map(|basis| format!(" `{basis}` |")).collect();
-    let mut table = format!("\n| suite |{heads}\n|---|{}\n", "---|".repeat(bases.len()));
+    let mut table = head("suite", &bases);
     for ((folder, suite), row) in cells.iter().filter(|(_, row)| row.len() >= FEWEST) {
         let cell = |basis: &&str| {
             let told = row.get(basis).map(|all| all.iter().copied().collect::<Vec<_>>());
@@ -90,8 +95,7 @@ fn table(part: &str, asked: &[Asked]) -> String {
     }
     let names: BTreeSet<&str> = counts.keys().map(|(_, name)| *name).collect();
     let folders: BTreeSet<&str> = counts.keys().map(|(folder, _)| *folder).collect();
-    let heads: String = names.iter().map(|name| format!(" `{name}` |")).collect();
-    let mut table = format!("\n| suites |{heads}\n|---|{}\n", "---|".repeat(names.len()));
+    let mut table = head("suites", &names);
     for folder in folders {
         let cell = |name: &&str| {
             let count = counts.get(&(folder, name));

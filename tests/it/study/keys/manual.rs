@@ -74,20 +74,20 @@ fn suites() -> Vec<(String, Value)> {
 
 /// Of each key a list or a map that a suite says, or else a number or a word: the shortest.
 pub(super) fn quotations(grammars: &[(&str, Node)]) -> Quotations {
-    let mut found: BTreeMap<String, ((bool, usize), (String, String))> = BTreeMap::new();
+    let mut found = Quotations::new();
     for (file, suite) in suites() {
         let study = suite["study"].as_str().unwrap_or("convergence");
         let (_, node) = grammars.iter().find(|(name, _)| *name == study).expect("a study");
         quote(node, &suite, (study, ""), &mut |key, name, value| {
             let text = format!("{name}: {}", flow(value));
-            let rank = (!(value.is_sequence() || value.is_mapping()), text.len());
+            let rank = |text: &str| (!text.ends_with([']', '}']), text.len());
             let known = found.get(&key);
-            if known.is_none_or(|(best, _)| rank < *best) {
-                found.insert(key, (rank, (text, file.clone())));
+            if known.is_none_or(|(best, _)| rank(&text) < rank(best)) {
+                found.insert(key, (text, file.clone()));
             }
         });
     }
-    found.into_iter().map(|(key, (_, quotation))| (key, quotation)).collect()
+    found
 }
 
 fn quote(
@@ -117,7 +117,9 @@ fn quote(
         }
         Value::Sequence(list) => {
             let below = node.member.as_deref().unwrap_or(node);
-            list.iter().for_each(|value| quote(below, value, (study, path), found));
+            for value in list {
+                quote(below, value, (study, path), found);
+            }
         }
         _ => {}
     }
