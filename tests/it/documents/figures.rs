@@ -1,0 +1,41 @@
+//! The figures of documents, drawn again where that is quick: `ci/check` compares the others with those
+//! of its run of all suites.
+
+use super::whole_suites;
+use crate::common::folder::Folder;
+use std::path::{Path, PathBuf};
+
+/// A figure, and the suite whose run draws it: one of the repository, or the one that a page shows.
+const FIGURES: [(&str, &str); 2] =
+    [("vibrating-bar.svg", "vibrating-bar"), ("courant-limit-of-one.svg", "docs/stability.md")];
+
+/// The figures with their places, as runs draw them.
+fn drawn() -> Vec<(PathBuf, String)> {
+    let (folder, root) = (Folder::new(), Path::new(env!("CARGO_MANIFEST_DIR")));
+    let shown = whole_suites();
+    let draw = |(figure, suite): (&str, &str)| {
+        let on_page = shown.iter().find(|(place, _)| place.starts_with(suite));
+        let file = on_page.map(|(_, text)| folder.write("shown.yaml", text).display().to_string());
+        let suite = file.as_deref().unwrap_or(suite);
+        let answer = folder.call(&["run", suite, "--brief", "--out", "results"]);
+        assert_eq!(answer.code, 0, "{suite}\n{}{}", answer.out, answer.errors);
+        (root.join("docs/figures").join(figure), folder.read(&format!("results/{figure}")))
+    };
+    FIGURES.map(draw).into()
+}
+
+#[test]
+fn figures_are_those_of_runs() {
+    for (path, drawn) in drawn() {
+        let kept = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(kept == drawn, "{} is stale: run ci/pages", path.display());
+    }
+}
+
+#[test]
+#[ignore = "ci/pages runs it"]
+fn figures_are_written() {
+    for (path, drawn) in drawn() {
+        std::fs::write(path, drawn).expect("a figure is written");
+    }
+}
