@@ -4,7 +4,7 @@ use super::args::{CompareArgs, Page};
 use super::output;
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use mpm_verify::report::compare;
-use mpm_verify::report::compare::{ReportDocument, Unreadable};
+use mpm_verify::report::compare::{ReportComparison, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;
 use std::fs;
 use std::ops::Range;
@@ -28,11 +28,15 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
             return BAD_INPUT;
         }
     };
-    let found = compare::compare(&old, &new, tolerance);
-    output::print(&match args.format {
-        Page::Text => compare::text(&found),
-        Page::Markdown => compare::markdown(&found),
-        Page::Json => compare::json(&found),
+    print(&compare::compare(&old, &new, tolerance), args.format)
+}
+
+/// Prints a comparison, and gives the exit status that it stands for.
+pub(super) fn print(found: &ReportComparison, format: Page) -> u8 {
+    output::print(&match format {
+        Page::Text => compare::text(found),
+        Page::Markdown => compare::markdown(found),
+        Page::Json => compare::json(found),
     });
     if found.is_worse() { FAILED } else { PASSED }
 }

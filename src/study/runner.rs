@@ -6,6 +6,7 @@ use super::kind::{
 };
 use crate::external::SolverFactory;
 use crate::suite::model::Suite;
+use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::refine_plan::Extent;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use rayon::prelude::*;
@@ -75,13 +76,17 @@ impl<'a> Runner<'a> {
 
     /// The outcome of the suite, from the outcomes of its cases.
     pub fn outcome(&self, cases: Vec<CaseOutcome>) -> SuiteOutcome {
+        let statement = statement(self.suite);
+        let words: Vec<String> =
+            statement.iter().map(|(key, value)| format!("{key}\n{value}\n")).collect();
         SuiteOutcome {
             suite: self.suite.name.clone(),
             group: self.suite.group.clone(),
             title: self.suite.title.clone(),
             source: self.suite.source.clone(),
             about: self.suite.about.trim().to_owned(),
-            statement: statement(self.suite),
+            meaning: fingerprint(words.concat().as_bytes()),
+            statement,
             cases,
         }
     }

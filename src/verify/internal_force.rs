@@ -1,6 +1,6 @@
 //! Results of an internal-force study.
 
-use super::outcome::StudyResults;
+use super::study_results::StudyResults;
 
 impl StudyResults for InternalForce {}
 

@@ -23,6 +23,7 @@
 //! absolute numbers, so that no unit of error or spacing changes a verdict.
 
 mod conservation;
+mod convergence;
 mod cost;
 mod energy_rate;
 pub(crate) mod error;
@@ -31,9 +32,11 @@ mod internal_force;
 pub(crate) mod order;
 mod outcome;
 mod stability;
+mod study_results;
 pub(crate) mod verdict;
 
 pub use conservation::{ConservationError, Conserved};
+pub use convergence::{Convergence, LevelOutcome};
 pub use cost::{
     Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model,
     PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,
@@ -56,19 +59,21 @@ pub use expectation::{Bounds, CaseFindings, Expectation};
 pub use internal_force::{ForceRow, InternalForce};
 pub use order::axis::Axis;
 pub use order::fit::Interval;
+pub(crate) use order::format_number::format_number;
 pub use order::hypothesis::OrderHypothesis;
 pub use order::level::Level;
 pub use order::pairwise::observed_order;
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
-pub use outcome::{CaseOutcome, Convergence, LevelOutcome, StudyResults, SuiteOutcome};
+pub use outcome::{CaseOutcome, SuiteOutcome};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
     Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
     StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,
     spectral_radius, stability_limit, trial,
 };
+pub use study_results::StudyResults;
 pub use verdict::diagnosis::{ChangedRun, Diagnosis, Evidence};
 pub use verdict::floor::{Floor, FloorCause, Probe};
 pub use verdict::judge::{Judgement, judge};

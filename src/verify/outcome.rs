@@ -1,20 +1,9 @@
 //! The results of a suite: all that reports are made of.
 
-use super::conservation::Conserved;
-use super::error::error_scale::ErrorScale;
-use super::error::observer::History;
-use super::error::quantity::Quantity;
-use super::error::run_result::RunResult;
-use super::order::axis::Axis;
-use super::order::format_number::format_number;
-use super::order::richardson::Richardson;
-use super::stability::StabilityStudy;
-use super::verdict::floor::Floor;
-use super::verdict::judge::Judgement;
-use super::verdict::name::Verdict;
+use super::convergence::Convergence;
+use super::study_results::StudyResults;
 use crate::subject::Profile;
 use std::any::Any;
-use std::fmt::Debug;
 use std::sync::Arc;
 
 /// One suite, run.
@@ -33,6 +22,8 @@ pub struct SuiteOutcome {
     pub about: String,
     /// The problem as rows of name and value: parameters, scene, exact solution, dt rule.
     pub statement: Vec<(String, String)>,
+    /// Fingerprint of the statement: what the suite means, however it is written.
+    pub meaning: u64,
     /// One outcome for each case, in the order of the suite.
     pub cases: Vec<CaseOutcome>,
 }
@@ -66,78 +57,6 @@ pub struct CaseOutcome {
     pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// Results of one kind of study. What shows them is listed in `report::study`.
-pub trait StudyResults: Any + Debug + Send + Sync {}
-
-impl StudyResults for Convergence {}
-impl StudyResults for StabilityStudy {}
-
-/// Results of a convergence study.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Convergence {
-    /// Axis of refinement.
-    pub axis: Axis,
-    /// Order that theory gives the method on a smooth solution; for particles per cell, where it
-    /// gives none in general, that of the midpoint rule.
-    pub formal_order: f64,
-    /// Name of the error that was judged.
-    pub norm: &'static str,
-    /// The judged quantity.
-    pub of: Quantity,
-    /// Divisor of the error, if any.
-    pub scale: Option<f64>,
-    /// Scale that makes its errors and its work comparable with those of other cases.
-    pub error_scale: ErrorScale,
-    /// Whether there is a truth that errors are taken against.
-    pub compared: bool,
-    /// Whether bounds on figures are all that binds the case: then no order is asked for, and
-    /// every usable level counts.
-    pub bounded: bool,
-    /// The totals whose drift was asked for.
-    pub drifts: Vec<Conserved>,
-    /// Whether the rate of the energy was asked for.
-    pub rated: bool,
-    /// The judge's finding.
-    pub judgement: Judgement,
-    /// Whose error the finest level shows, where that was asked.
-    pub floor: Option<Floor>,
-    /// The levels, coarse to fine.
-    pub levels: Vec<LevelOutcome>,
-    /// Richardson's extrapolation at the observed place, for each triple of levels with spacings
-    /// 4, 2 and 1.
-    pub richardson: Vec<([usize; 3], Richardson)>,
-    /// Reference position that was observed (m).
-    pub observed_at: Option<Vec<f64>>,
-}
-
-/// One level of a refinement plan.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct LevelOutcome {
-    /// Cells along the first axis.
-    pub cells: u64,
-    /// Cell size (m).
-    pub h: f64,
-    /// The spacing that is judged: of cells (m), time (s) or particles (m).
-    pub spacing: f64,
-    /// Time step (s).
-    pub dt: f64,
-    /// Particles per cell (MPM).
-    pub ppc: Option<u64>,
-    /// Results of the run.
-    pub run: RunResult,
-    /// The error that was judged.
-    pub error: f64,
-    /// Whether the judge may count the level.
-    pub usable: bool,
-    /// Order between the next coarser level and this one.
-    pub order: Option<f64>,
-    /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the
-    /// step is longer.
-    pub stable_time_step: Option<f64>,
-}
-
 impl SuiteOutcome {
     /// Whether every case passed.
     pub fn passed(&self) -> bool {
@@ -155,6 +74,11 @@ impl CaseOutcome {
     /// Whether everything came as expected.
     pub fn passed(&self) -> bool {
         self.unmet.is_empty()
+    }
+
+    /// Whether the method fails at the problem, be that expected of it or not.
+    pub fn fails(&self) -> bool {
+        self.study.as_deref().is_some_and(StudyResults::fails)
     }
 
     /// One word: `pass`, `FAIL`, `explored` where nothing is expected, or `n/a` where the solver
@@ -195,62 +119,5 @@ impl CaseOutcome {
     pub fn results<R: StudyResults>(&self) -> Option<&R> {
         let results: &dyn Any = self.study.as_deref()?;
         results.downcast_ref()
-    }
-}
-
-impl LevelOutcome {
-    /// Whether its step is longer than the stable time step, where that is known.
-    pub fn is_too_long(&self) -> bool {
-        self.stable_time_step.is_some_and(|stable| self.dt > stable)
-    }
-
-    /// Name of the level among those of its study: `64 cells`, `dt = 1e-3 s`.
-    pub fn name(&self, axis: Axis) -> String {
-        match (axis, self.ppc) {
-            (Axis::Time, _) => format!("dt = {} s", format_number(self.dt)),
-            (Axis::Particles, Some(ppc)) => format!("{ppc} particles per cell"),
-            _ => format!("{} cells", self.cells),
-        }
-    }
-}
-
-impl Convergence {
-    /// Verdict of the judge.
-    pub fn verdict(&self) -> Verdict {
-        self.judgement.verdict
-    }
-
-    /// The observed place, as titles write it.
-    pub fn place(&self) -> Option<String> {
-        let coordinates: Vec<String> =
-            self.observed_at.as_ref()?.iter().map(ToString::to_string).collect();
-        Some(if coordinates.len() == 1 {
-            coordinates.concat()
-        } else {
-            format!("({})", coordinates.join(", "))
-        })
-    }
-
-    /// Whether the judged error is not among the errors of the primary unknown that tables show.
-    pub fn is_judged_by_another_figure(&self) -> bool {
-        let shown = ["rms", "l1", "l2", "linf", "max_rms"].contains(&self.norm);
-        !self.of.is_primary() || self.scale.is_some() || !shown
-    }
-
-    /// The judged error in words, with its unit.
-    pub fn judged(&self) -> String {
-        let (norm, of, unit) = (self.norm.replace('_', " "), self.of.words(), self.of.unit());
-        match self.scale.map(|scale| self.of.shown_scale(scale)) {
-            Some(scale) => {
-                format!("{norm} error of {of} over {scale} {unit}").trim_end().to_owned()
-            }
-            None if unit.is_empty() => format!("{norm} error of {of}"),
-            None => format!("{norm} error of {of} ({unit})"),
-        }
-    }
-
-    /// The observed label's history on the finest level that has one.
-    pub fn history(&self) -> Option<&History> {
-        self.levels.iter().rev().find_map(|level| level.run.history.as_ref())
     }
 }

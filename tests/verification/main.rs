@@ -4,5 +4,5 @@ use mpm_verify::testing::SuiteFolder;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    SuiteFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/verification")).main()
+    SuiteFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/verification")).with_overview().main()
 }

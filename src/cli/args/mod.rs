@@ -1,5 +1,6 @@
 //! The words of the command line.
 
+mod compare;
 mod cost;
 mod doctor;
 mod problem;
@@ -7,6 +8,7 @@ mod report;
 mod shared;
 mod shell;
 
+pub(super) use compare::{CompareArgs, DiffArgs, Page};
 pub(super) use cost::{CostArgs, Vary};
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
@@ -17,7 +19,6 @@ pub(super) use shell::{CompletionsArgs, ManArgs};
 
 use super::new::args::NewArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use mpm_verify::report::compare;
 use std::path::PathBuf;
 
 /// Verifies Material Point Method solvers: suites of benchmarks, observed orders, verdicts.
@@ -77,6 +78,9 @@ pub(super) enum Command {
     /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
     /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
     Compare(CompareArgs),
+    /// Hold two sets of snapshots side by side, of folders or of commits, in the words of
+    /// `compare`; exit status 1 if something got worse, 2 on bad input
+    Diff(DiffArgs),
     /// Print a script with which a shell completes the words of this command line
     Completions(CompletionsArgs),
     /// Print the page of this program for `man`
@@ -164,30 +168,4 @@ pub(super) struct ProposeArgs {
     pub(super) targets: Targets,
     #[command(flatten)]
     pub(super) format: FormatArgs,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct CompareArgs {
-    /// JSON of the run before: `mpm-verify run --format json`, or `report.json` of `run --out`
-    #[arg(value_name = "OLD.json")]
-    pub(super) old: PathBuf,
-    /// JSON of the run after
-    #[arg(value_name = "NEW.json")]
-    pub(super) new: PathBuf,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = Page::Text)]
-    pub(super) format: Page,
-    /// Largest relative change of a figure that counts as none
-    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE)]
-    pub(super) tolerance: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Page {
-    /// Aligned tables
-    Text,
-    /// A comment for a pull request
-    Markdown,
-    /// One JSON document
-    Json,
 }

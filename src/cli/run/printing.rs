@@ -5,7 +5,6 @@ use crate::cli::output;
 use mpm_verify::report;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::SuiteOutcome;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Most suites that are named of which the reports are printed.
@@ -53,33 +52,12 @@ impl Printing {
             _ if outcomes.is_empty() => {}
             Self::Reports | Self::Verdicts => output::print(&report::summary(outcomes)),
             Self::Overview => {
-                output::print(&overview(outcomes));
+                output::print(&report::glance(outcomes));
                 output::print(&format!("\n{}{}\n", unexpected(outcomes), place(args, sources)));
             }
             Self::Unexpected => output::print(&unexpected(outcomes)),
         }
     }
-}
-
-/// One line for each suite, below the names of their groups: its cases by verdict.
-fn overview(outcomes: &[SuiteOutcome]) -> String {
-    let mut suites: Vec<&SuiteOutcome> = outcomes.iter().collect();
-    suites.sort_by_key(|outcome| &outcome.group);
-    let mut lines = Vec::new();
-    for group in suites.chunk_by(|a, b| a.group == b.group) {
-        lines.push(group[0].group.clone());
-        for outcome in group {
-            let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-            for case in &outcome.cases {
-                *counts.entry(&case.verdict).or_default() += 1;
-            }
-            let counts: Vec<String> =
-                counts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
-            let result = if outcome.passed() { "pass" } else { "FAIL" };
-            lines.push(format!("  {result}  {}: {}", outcome.suite, counts.join(", ")));
-        }
-    }
-    lines.join("\n") + "\n"
 }
 
 /// The cases that did not come as expected, in full, below the names of their suites.

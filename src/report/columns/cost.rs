@@ -194,7 +194,7 @@ fn differing(name: &str, observed: f64, expected: f64) -> String {
 }
 
 /// Work: at most so much where the coarsest level is good enough.
-fn reach_text(reach: Reach) -> String {
+pub(crate) fn reach_text(reach: Reach) -> String {
     match reach {
         Reach::At { work, .. } => short(work),
         Reach::Already { work, .. } => format!("<={}", short(work)),

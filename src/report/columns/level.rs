@@ -2,7 +2,7 @@
 
 use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::report::json::number::number;
-use crate::verify::{Axis, Conserved, Convergence, History, Interval, LevelOutcome, Norms};
+use crate::verify::{Axis, Conserved, Convergence, History, Interval, LevelOutcome, RunResult};
 use serde_json::Value;
 
 /// A level of a study.
@@ -12,7 +12,10 @@ pub(crate) struct LevelRow<'a> {
     level: &'a LevelOutcome,
 }
 
-type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
+pub(crate) type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
+
+/// The name of a case and its study.
+pub(crate) type NamedStudy<'a> = (&'a str, &'a Convergence);
 
 /// The levels of a study, coarse to fine.
 pub(crate) fn rows(study: &Convergence) -> impl Iterator<Item = LevelRow<'_>> {
@@ -34,99 +37,86 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-fn spacing<'a>(heading: &'static str) -> LevelColumn<'a> {
-    let about = "spacing that is refined: of cells (m), time (s) or particles (m)";
-    LevelColumn::new(heading, "spacing", about, |row| Cell::number(row.level.spacing, scientific))
-}
-
-/// The number of cells, or else the spacing that is refined.
-fn refined<'a>(axis: Axis) -> Vec<LevelColumn<'a>> {
-    match axis {
-        Axis::Space => vec![cells(), spacing("h")],
-        Axis::Time => vec![spacing("dt")],
-        Axis::Particles => vec![ppc(), spacing("spacing")],
-    }
-}
-
-/// All that makes a level, the refined axis first.
-fn setting<'a>(axis: Axis) -> [LevelColumn<'a>; 3] {
-    match axis {
-        Axis::Space => [cells(), dt(), ppc()],
-        Axis::Time => [dt(), cells(), ppc()],
-        Axis::Particles => [ppc(), cells(), dt()],
-    }
-}
-
-/// The refined axis, by which other tables name a level.
+/// The refined axis, by which tables name a level.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
-    let [first, ..] = setting(axis);
-    first
+    match axis {
+        Axis::Space => cells(),
+        Axis::Time => dt(),
+        Axis::Particles => ppc(),
+    }
 }
 
-/// The table of errors.
-pub(crate) fn errors<'a>(axis: Axis) -> Vec<LevelColumn<'a>> {
-    let mut columns = refined(axis);
-    columns.extend(figures());
-    columns
+/// Names of the levels of a study, by which its tables are headed.
+pub(crate) fn names(study: &Convergence) -> Vec<String> {
+    let name = name(study.axis);
+    rows(study).map(|row| name.cell(&row).text).collect()
 }
 
-/// Errors are those of the displacement (m), in text those of the temperature (K) where that is
-/// judged.
-fn figures<'a>() -> Vec<LevelColumn<'a>> {
-    vec![
-        LevelColumn::new("rms", "errors.rms", "root of the mean square error", |row| {
-            row.norm(|norms| norms.rms)
-        }),
-        LevelColumn::new("l1", "errors.l1", "weighted mean error", |row| {
-            row.norm(|norms| norms.l1)
-        }),
-        LevelColumn::new("l2", "errors.l2", "root of the weighted mean square error", |row| {
-            row.norm(|norms| norms.l2)
-        }),
-        LevelColumn::new("linf", "errors.linf", "largest error", |row| {
-            row.norm(|norms| norms.linf)
-        }),
-        LevelColumn::new("max rms", "errors.max_rms", "largest rms over the instants", |row| {
-            let run = &row.level.run;
-            let shown = if row.study.of.is_primary() { run.largest.rms } else { run.max_rms };
-            row.error(shown, run.max_rms)
-        }),
-        LevelColumn::text(
-            "velocity",
-            "error of the observed velocity over the largest exact one",
-            |row| {
-                let history = row.level.run.history.as_ref();
-                history.and_then(History::relative_error).map(scientific)
-            },
-        ),
-        LevelColumn::new(
-            "judged",
-            "judged",
-            "the judged error, where it is none of these",
-            |row| {
-                let cell = row.error(row.level.error, row.level.error);
-                let shown = row.study.is_judged_by_another_figure();
-                if shown { cell } else { Cell::json(cell.json) }
-            },
-        ),
-        LevelColumn::new(
-            "order",
-            "order",
-            "order between the next coarser level and this one",
-            |row| Cell::number(row.level.order, decimals(2)),
-        ),
-        LevelColumn::text("counts", "whether the level counts for the verdict", LevelRow::counts),
+/// The judged error.
+pub(crate) fn judged<'a>() -> LevelColumn<'a> {
+    let about = "the judged error; between brackets if its level does not count for the verdict";
+    LevelColumn::new("error", "judged", about, |row| {
+        let cell = row.error(row.level.error, row.level.error);
+        let text = if row.counts() { cell.text } else { format!("({})", cell.text) };
+        Cell { text, ..cell }
+    })
+}
+
+/// The order from level to level.
+pub(crate) fn order<'a>() -> LevelColumn<'a> {
+    let about = "order between the next coarser level and this one";
+    LevelColumn::new("order", "order", about, |row| Cell::number(row.level.order, decimals(2)))
+}
+
+/// Norms of the error at the end, of the displacement (m).
+fn norms<'a>() -> [LevelColumn<'a>; 5] {
+    let column = |key: &'static str, about: &'static str, norm: fn(&RunResult) -> f64| {
+        LevelColumn::json(key, about, move |row| {
+            row.study.compared.then(|| number(norm(&row.level.run)))
+        })
+    };
+    [
+        column("errors.rms", "root of the mean square error", |run| run.errors.rms),
+        column("errors.l1", "weighted mean error", |run| run.errors.l1),
+        column("errors.l2", "root of the weighted mean square error", |run| run.errors.l2),
+        column("errors.linf", "largest error", |run| run.errors.linf),
+        column("errors.max_rms", "largest rms over the instants", |run| run.max_rms),
     ]
 }
 
-/// The table of work, and of what a reader must know beside an error.
-pub(crate) fn work<'a>(axis: Axis) -> Vec<LevelColumn<'a>> {
-    let mut columns: Vec<LevelColumn<'a>> = setting(axis).into();
-    columns.extend(counters());
-    columns
+/// The largest error at the end, where another norm is judged, and its order.
+pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
+    let linf = |study: &Convergence, level: &LevelOutcome| {
+        let norms = if study.of.is_primary() { &level.run.at_end } else { &level.run.errors };
+        norms.linf
+    };
+    let about = "order of linf between the next coarser level and this one";
+    [
+        LevelColumn::text("linf", "largest error", move |row| {
+            let shown = row.error(linf(row.study, row.level), f64::NAN).text;
+            (shown != row.error(row.level.error, f64::NAN).text).then_some(shown)
+        }),
+        LevelColumn::text("its order", about, move |row| {
+            let coarse = row.index.checked_sub(1).and_then(|k| row.study.levels.get(k))?;
+            let [coarser, own] = [coarse, row.level].map(|level| linf(row.study, level));
+            let refined = libm::log(coarse.spacing / row.level.spacing);
+            let order = libm::log(coarser / own) / refined;
+            (row.study.compared && order.is_finite()).then(|| decimals(2)(order))
+        }),
+    ]
 }
 
-fn counters<'a>() -> Vec<LevelColumn<'a>> {
+/// The error of the observed velocity.
+pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
+    let about = "error of the observed velocity over the largest exact one";
+    LevelColumn::text("velocity", about, |row| {
+        let history = row.level.run.history.as_ref();
+        history.and_then(History::relative_error).map(scientific)
+    })
+}
+
+/// Work, and what a reader must know beside an error.
+pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
             Cell::plain(row.level.run.counters.particles)
@@ -138,11 +128,20 @@ fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
             Cell::plain(row.level.run.counters.crossings)
         }),
+        LevelColumn::text("from", "coarsest level on which particles change their cell", |row| {
+            let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
+            let (index, level) =
+                row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
+            Some(name(row.study.axis).cell(&LevelRow { study: row.study, index, level }).text)
+        }),
         LevelColumn::new(
             "outside",
             "left_domain",
             "particles outside the grid at the end",
-            |row| Cell::plain(row.level.run.counters.left_domain),
+            |row| {
+                let outside = row.level.run.counters.left_domain;
+                Cell { json: outside.into(), ..Cell::text(outside.filter(|count| *count > 0)) }
+            },
         ),
         LevelColumn::new(
             "min J",
@@ -197,11 +196,16 @@ pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
 
 /// All columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
-    let mut columns: Vec<LevelColumn<'a>> = setting(Axis::Space).into();
-    columns.push(spacing("h"));
-    columns.extend(figures());
+    let mut columns = vec![cells(), dt(), ppc(), judged(), order()];
+    columns.extend(norms());
     columns.extend(counters());
     columns.extend([
+        LevelColumn::json(
+            "spacing",
+            "spacing that is refined: of cells (m), time (s) or particles (m)",
+            |row| number(row.level.spacing),
+        ),
+        LevelColumn::json("counts", "whether the level counts for the verdict", LevelRow::counts),
         LevelColumn::json("h", "cell size (m)", |row| number(row.level.h)),
         LevelColumn::json("drift", "relative drift of each conserved sum", |row| {
             let columns: Vec<_> = Conserved::ALL.iter().map(|sum| drift(*sum)).collect();
@@ -223,13 +227,6 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// A norm of the errors at the end, in text of the primary unknown of the study.
-    fn norm(&self, norm: impl Fn(&Norms) -> f64) -> Cell {
-        let run = &self.level.run;
-        let shown = if self.study.of.is_primary() { &run.at_end } else { &run.errors };
-        self.error(norm(shown), norm(&run.errors))
-    }
-
     /// An error, where there is a truth to compare with.
     fn error(&self, text: f64, json: f64) -> Cell {
         let compared = |value| self.study.compared.then_some(value);
@@ -244,12 +241,14 @@ impl LevelRow<'_> {
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))
     }
 
-    fn counts(&self) -> &'static str {
+    /// Whether the level counts for the verdict.
+    fn counts(&self) -> bool {
         let window = self.study.judgement.window.as_deref().unwrap_or_default();
-        match (self.level.usable, window.contains(&self.index) || self.study.bounded) {
-            (false, _) => "no: crossings",
-            (true, true) => "yes",
-            (true, false) => "no",
-        }
+        self.level.usable && (window.contains(&self.index) || self.study.bounded)
     }
+}
+
+/// The relative drift of a conserved sum, as a number.
+pub(crate) fn drift_of(row: &LevelRow<'_>, sum: Conserved) -> f64 {
+    row.level.run.drift.map_or(0.0, |drift| drift.of(sum))
 }

@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 
 type RowColumn<'a> = TableColumn<'a, StabilityRow>;
 type TrialColumn<'a> = TableColumn<'a, Trial>;
-type CaseColumn<'a> = TableColumn<'a, (&'a str, &'a StabilityStudy)>;
 
 /// The value of the parameter that is swept.
 fn swept(study: &StabilityStudy) -> RowColumn<'_> {
@@ -117,20 +116,6 @@ fn confirmations(critical: &Critical) -> Value {
         run
     };
     critical.confirmed.iter().map(run).collect()
-}
-
-/// The limits of all cases in one table, one row for each case and one column for each value of the
-/// parameter that is swept, those of the `first`.
-pub(crate) fn overview<'a>(first: &'a StabilityStudy, sought: &str) -> Vec<CaseColumn<'a>> {
-    let name = CaseColumn::text(format!("limit of {sought}"), "case", |(name, _)| *name);
-    let value = |(k, row): (usize, &StabilityRow)| {
-        let heading = format!("{} = {}", first.swept, row.value);
-        CaseColumn::text(heading, "limit", move |(_, study)| {
-            study.rows.get(k).and_then(limit_of).map(limit_text)
-        })
-    };
-    let values = first.rows.iter().enumerate().map(value);
-    std::iter::once(name.flush_left()).chain(values).collect()
 }
 
 /// The limit that a row has found, predicted or observed.

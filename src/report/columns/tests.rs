@@ -25,8 +25,10 @@ fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
 #[test]
 fn the_document_lists_the_columns() {
     let levels = vec![
-        level::errors(Axis::Space),
-        level::work(Axis::Space),
+        vec![level::name(Axis::Space), level::judged(), level::order()],
+        level::largest_error().into(),
+        vec![level::velocity()],
+        level::counters(),
         level::energy_rate().into(),
         level::json_columns(),
     ];

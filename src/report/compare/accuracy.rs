@@ -4,6 +4,7 @@ use super::changes::{ErrorMove, ratio_moved};
 use super::document::{CaseDocument, JudgeDocument, LevelDocument};
 use super::equal_error::ErrorAndWork;
 use super::number::JsonNumber;
+use super::snapshots::FINEST;
 use crate::verify::Quantity;
 
 /// Largest relative difference of two spacings that are the same.
@@ -63,6 +64,11 @@ pub(super) fn error(
     axis: Option<&str>,
     tolerance: f64,
 ) -> Option<ErrorMove> {
+    let counts = |level: &LevelDocument| level.counts.unwrap_or(true);
+    let counting: Vec<LevelPair<'_>> =
+        pairs.iter().filter(|(old, new)| counts(old) || counts(new)).copied().collect();
+    // Where no level counts, as on a floor, all say something.
+    let pairs = if counting.is_empty() { pairs } else { &counting };
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
     let broken = moves.iter().rfind(|found| found.old.is_none() || found.new.is_none());
@@ -110,6 +116,7 @@ pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {
     let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {
+        (Some(FINEST), _) => "the finest level".to_owned(),
         (Some("time"), _) => format!("dt = {spacing:.3e} s"),
         (Some("particles"), Some(ppc)) => format!("{ppc} particles per cell"),
         _ => format!("{} cells", level.cells),

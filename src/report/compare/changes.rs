@@ -21,6 +21,8 @@ pub enum Rank {
     MoreExpensive,
     /// It is more accurate, more stable or cheaper.
     Better,
+    /// Its problem is another one, so that its figures say nothing about the method.
+    OtherProblem,
     /// It is judged or refined otherwise, so that there is nothing to compare.
     Otherwise,
     /// It was not there before.
@@ -31,7 +33,7 @@ pub enum Rank {
 
 impl Rank {
     /// Every rank, in order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Broken,
         Self::WorseVerdict,
         Self::OtherVerdict,
@@ -40,6 +42,7 @@ impl Rank {
         Self::LessStable,
         Self::MoreExpensive,
         Self::Better,
+        Self::OtherProblem,
         Self::Otherwise,
         Self::New,
         Self::Gone,
@@ -56,6 +59,7 @@ impl Rank {
             Self::LessStable => "less stable",
             Self::MoreExpensive => "more expensive",
             Self::Better => "better",
+            Self::OtherProblem => "of another problem",
             Self::Otherwise => "judged or refined otherwise",
             Self::New => "new",
             Self::Gone => "gone",
@@ -78,6 +82,8 @@ impl Rank {
 /// Two runs side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
+    /// Suites whose problem is another one.
+    pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
     /// Target errors whose least work moved, the more expensive first.
@@ -86,6 +92,14 @@ pub struct ReportComparison {
     pub(super) unchanged: usize,
     /// Largest relative change of a figure that counts as none.
     pub(super) tolerance: f64,
+}
+
+/// A suite whose problem is another one: its figures say nothing about a solver.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ProblemMove {
+    pub(super) suite: String,
+    /// Rows that differ: name, old and new value.
+    pub(super) rows: Vec<[String; 3]>,
 }
 
 /// A case that moved.

@@ -26,6 +26,9 @@ pub struct Unreadable {
 pub(super) struct SuiteDocument {
     #[serde(rename = "suite")]
     pub(super) name: String,
+    /// Rows of name and value that state the problem.
+    #[serde(default)]
+    pub(super) statement: Vec<(String, String)>,
     pub(super) cases: Vec<CaseDocument>,
     #[serde(default)]
     pub(super) cost: Vec<RankingDocument>,
@@ -90,6 +93,8 @@ pub(super) struct LevelDocument {
     pub(super) ppc: Option<u64>,
     pub(super) transfers: u64,
     pub(super) judged: Option<JsonNumber>,
+    /// Whether it counts for the verdict.
+    pub(super) counts: Option<bool>,
     pub(super) failure: Option<String>,
 }
 

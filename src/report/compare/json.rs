@@ -1,19 +1,25 @@
 //! A comparison as JSON.
 
-use super::changes::{CheapestMove, ErrorMove, Moved, ReportComparison};
+use super::changes::{CheapestMove, ErrorMove, Moved, ProblemMove, ReportComparison};
 use crate::report::json::number::number;
 use serde_json::{Value, json};
 
-/// One document: cases that moved, the most important first, and targets whose least work moved.
+/// One document: suites whose problem is another one; cases that moved, the most important first;
+/// and targets whose least work moved.
 pub fn json(comparison: &ReportComparison) -> String {
     let document = json!({
         "worse": comparison.is_worse(),
+        "problems": comparison.problems.iter().map(problem).collect::<Vec<_>>(),
         "moved": comparison.moved.iter().map(moved).collect::<Vec<_>>(),
         "cheapest": comparison.cheapest.iter().map(cheapest).collect::<Vec<_>>(),
         "unchanged": comparison.unchanged,
         "tolerance": number(comparison.tolerance),
     });
     format!("{document:#}\n")
+}
+
+fn problem(problem: &ProblemMove) -> Value {
+    json!({"suite": problem.suite, "rows": problem.rows})
 }
 
 fn moved(moved: &Moved) -> Value {

@@ -14,6 +14,15 @@ const MOST_ROWS: usize = 40;
 pub fn markdown(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
+    if !comparison.problems.is_empty() {
+        page += "\n**Another problem, so that figures are not compared**\n\n";
+    }
+    for problem in &comparison.problems {
+        for [key, old, new] in &problem.rows {
+            let change = prose(&format!("{key} {old} -> {new}"));
+            page += &format!("- {}: {change}\n", code(&problem.suite));
+        }
+    }
     for rank in Rank::ALL {
         let moved: Vec<&Moved> = comparison.of(rank).collect();
         if moved.is_empty() {

@@ -17,7 +17,9 @@ mod json;
 mod markdown;
 mod number;
 mod pairs;
+mod problem;
 mod row;
+mod snapshots;
 mod stability;
 mod text;
 

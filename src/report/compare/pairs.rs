@@ -3,7 +3,7 @@
 use super::changes::{Moved, Rank, ReportComparison, ratio_moved};
 use super::document::{CaseDocument, ReportDocument, name};
 use super::stability::StabilityMove;
-use super::{accuracy, cheapest, equal_error, stability};
+use super::{accuracy, cheapest, equal_error, problem, stability};
 use std::collections::BTreeMap;
 
 /// See [`compare`](super::compare()).
@@ -14,12 +14,16 @@ pub(super) fn compare(
 ) -> ReportComparison {
     let mut before: BTreeMap<String, &CaseDocument> =
         old.cases().map(|(suite, case)| (name(suite, case), case)).collect();
+    let problems = problem::compare(old, new);
     let mut moved = Vec::new();
     let mut unchanged = 0;
     for (suite, case) in new.cases() {
         let name = name(suite, case);
         match before.remove(&name) {
             None => moved.push(lone(name, Rank::New, case)),
+            Some(old) if problems.iter().any(|problem| problem.suite == suite.name) => {
+                moved.push(of_another_problem(name, old, case));
+            }
             Some(old) => match pair(name, old, case, tolerance) {
                 Some(found) => moved.push(found),
                 None => unchanged += 1,
@@ -28,8 +32,24 @@ pub(super) fn compare(
     }
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
-    let cheapest = cheapest::compare(old, new, tolerance);
-    ReportComparison { moved, cheapest, unchanged, tolerance }
+    let mut cheapest = cheapest::compare(old, new, tolerance);
+    let is_another = |place: &str| {
+        let suite = place.split([':', ',', ' ']).next().unwrap_or(place);
+        problems.iter().any(|problem| problem.suite == suite)
+    };
+    cheapest.retain(|target| !is_another(&target.place));
+    ReportComparison { problems, moved, cheapest, unchanged, tolerance }
+}
+
+/// A case whose problem is another one: only whether it meets its expectations can be compared.
+fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> Moved {
+    let is_broken = old.passed && !new.passed;
+    Moved {
+        verdict: [Some(shown(old)), Some(shown(new))],
+        order: [old, new].map(|case| case.observed_order.map(|order| order.value.0)),
+        notes: if is_broken { new.unmet.clone() } else { Vec::new() },
+        ..lone(name, if is_broken { Rank::Broken } else { Rank::OtherProblem }, new)
+    }
 }
 
 /// A case of one run only.

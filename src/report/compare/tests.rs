@@ -33,6 +33,39 @@ fn document(cases: &[Value]) -> ReportDocument {
     ReportDocument::read(&text).expect("a document")
 }
 
+/// The same case, of a suite that states its problem so.
+fn stating(young: &str, case: &Value) -> ReportDocument {
+    let statement = json!([["parameters", young], ["dt", "h"]]);
+    let suite = json!({"suite": "bar", "statement": statement, "cases": [case]});
+    ReportDocument::read(&json!({ "suites": [suite] }).to_string()).expect("a document")
+}
+
+#[test]
+fn figures_of_another_problem_are_not_compared() {
+    let (before, mut after) = (case("a", 1.0, 1.0), case("a", 2.0, 1.0));
+    let found = compare(&stating("E = 100", &before), &stating("E = 101", &after), TOLERANCE);
+    assert_eq!((rank(&found), found.is_worse()), (Some(Rank::OtherProblem), false));
+    assert!(text(&found).contains("  bar: parameters E = 100 -> E = 101\n"), "{}", text(&found));
+    assert!(markdown(&found).contains("E = 100 → E = 101"), "{}", markdown(&found));
+    let same = compare(&stating("E = 100", &before), &stating("E = 100", &after), TOLERANCE);
+    assert_eq!(rank(&same), Some(Rank::LessAccurate));
+    after["passed"] = json!(false);
+    let broken = compare(&stating("E = 100", &before), &stating("E = 101", &after), TOLERANCE);
+    assert_eq!(rank(&broken), Some(Rank::Broken));
+}
+
+#[test]
+fn only_levels_that_count_are_compared() {
+    let mut before = case("a", 1.0, 1.0);
+    for (level, counts) in [false, true, true, true].into_iter().enumerate() {
+        before["levels"][level]["counts"] = json!(counts);
+    }
+    let coarse = after(&before, set("/levels/0/judged", json!(1.0)));
+    assert_eq!(rank(&coarse), None);
+    let fine = after(&before, set("/levels/1/judged", json!(1.0)));
+    assert_eq!(rank(&fine), Some(Rank::LessAccurate));
+}
+
 fn run(verdict: &str) -> Value {
     json!({ "verdict": verdict })
 }

@@ -8,6 +8,18 @@ use crate::report::text::table::{Table, printable};
 pub fn text(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "worse" } else { "nothing worse" };
     let mut lines = vec![format!("{head}: {}", comparison.headline())];
+    if !comparison.problems.is_empty() {
+        lines.extend([
+            String::new(),
+            "another problem, so that figures are not compared".to_owned(),
+        ]);
+    }
+    for problem in &comparison.problems {
+        let line = |[key, old, new]: &[String; 3]| {
+            printable(&format!("  {}: {key} {old} -> {new}", problem.suite))
+        };
+        lines.extend(problem.rows.iter().map(line));
+    }
     for rank in Rank::ALL {
         let table = Table::new(&cases(), comparison.of(rank));
         if table.is_empty() {

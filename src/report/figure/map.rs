@@ -44,6 +44,48 @@ const BAR: f64 = 12.0;
 const BAR_WIDTH: f64 = 240.0;
 /// Steps of the bar.
 const SHADES: u32 = 48;
+/// Positive values that span more have colours by their logarithms.
+const SPAN: f64 = 1e3;
+
+/// Colours of values.
+#[derive(Debug, Clone, Copy)]
+struct ColourScale {
+    low: f64,
+    high: f64,
+    is_logarithmic: bool,
+}
+
+impl ColourScale {
+    /// The scale from the smallest to the largest finite value.
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let finite = values.filter(|value| value.is_finite());
+        let (low, high) = finite
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        let (low, high) = if low < high { (low, high) } else { (0.0, 1.0) };
+        Self { low, high, is_logarithmic: low > 0.0 && high / low > SPAN }
+    }
+
+    /// The share of the way from dark to light.
+    fn share(self, value: f64) -> f64 {
+        let [value, low, high] = if self.is_logarithmic {
+            [value, self.low, self.high].map(libm::log)
+        } else {
+            [value, self.low, self.high]
+        };
+        (value - low) / (high - low)
+    }
+
+    /// The values at both ends of the bar and in its middle, as labels.
+    fn labels(self) -> [String; 3] {
+        let Self { low, high, is_logarithmic } = self;
+        let middle = if is_logarithmic { libm::sqrt(low * high) } else { 0.5 * (low + high) };
+        [low, middle, high].map(|value| match high.abs() {
+            _ if is_logarithmic => format!("{value:.0e}"),
+            most if most < 0.995 => format!("{value:.4}"),
+            _ => format!("{value:.2}"),
+        })
+    }
+}
 
 /// Red, green and blue from dark to light (after Nunez, Anderton & Renslow 2018, cividis).
 const COLOURS: [[f64; 3]; 6] = [
@@ -105,11 +147,12 @@ impl Map {
             let at = (left + field * (k as f64 + 0.5), head - 6.0);
             svg.add(&SvgElement::text(at, "middle", column));
         }
-        let range = self.range();
+        let fields = self.rows.iter().flat_map(|(_, fields)| fields);
+        let scale = ColourScale::of(fields.filter_map(|field| field.value));
         for ((name, fields), y) in self.rows.iter().zip(places) {
-            svg.add(&row(name, fields, (left, y, field), range));
+            svg.add(&row(name, fields, (left, y, field), scale));
         }
-        svg.add(&self.bar((left, bottom + 16.0), range));
+        svg.add(&self.bar((left, bottom + 16.0), scale));
         svg.render() + "\n"
     }
 
@@ -129,17 +172,8 @@ impl Map {
         (places, y)
     }
 
-    /// The smallest and the largest finite value.
-    fn range(&self) -> (f64, f64) {
-        let values = self.rows.iter().flat_map(|(_, fields)| fields).filter_map(|f| f.value);
-        let finite = values.filter(|value| value.is_finite());
-        let (low, high) = finite
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-        if low < high { (low, high) } else { (0.0, 1.0) }
-    }
-
     /// The colours with their numbers.
-    fn bar(&self, (x, y): (f64, f64), (low, high): (f64, f64)) -> SvgElement {
+    fn bar(&self, (x, y): (f64, f64), scale: ColourScale) -> SvgElement {
         let mut group = SvgElement::new("g");
         let step = BAR_WIDTH / f64::from(SHADES);
         for k in 0..SHADES {
@@ -150,11 +184,10 @@ impl Map {
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
         }
-        let labels = [(0.0, "start", low), (0.5, "middle", 0.5 * (low + high)), (1.0, "end", high)];
-        for (share, anchor, value) in labels {
+        let places = [(0.0, "start"), (0.5, "middle"), (1.0, "end")];
+        for ((share, anchor), label) in places.into_iter().zip(scale.labels()) {
             let at = (x + share * BAR_WIDTH, y + BAR + 15.0);
-            let digits = if high.abs() < 0.995 { 4 } else { 2 };
-            group.add(&SvgElement::text(at, anchor, &format!("{value:.digits$}")));
+            group.add(&SvgElement::text(at, anchor, &label));
         }
         group.add(&SvgElement::text((x - 8.0, y + BAR - 2.0), "end", &self.z_label));
         group
@@ -165,14 +198,14 @@ fn row(
     name: &str,
     fields: &[MapField],
     (x, y, width): (f64, f64, f64),
-    (low, high): (f64, f64),
+    scale: ColourScale,
 ) -> SvgElement {
     let mut group = SvgElement::new("g");
     group.add(&SvgElement::text((x - 8.0, y + ROW - 4.5), "end", name));
     for (k, field) in fields.iter().enumerate() {
         let at = x + width * k as f64;
         let value = field.value.filter(|value| value.is_finite());
-        let known = value.map(|value| colour((value - low) / (high - low)));
+        let known = value.map(|value| colour(scale.share(value)));
         let (fill, ink) = known.unwrap_or((PAPER.to_owned(), NEUTRAL));
         let square =
             SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
@@ -210,6 +243,15 @@ mod tests {
             assert_eq!(colour(f64::from(u8::from(fill == "#fdea45"))).1, ink);
         }
         assert!(svg.contains("a &amp; b"));
+    }
+
+    #[test]
+    fn values_over_decades_have_colours_by_their_logarithms() {
+        let scale = ColourScale::of([1e-2, 1.0, 1e8, f64::INFINITY].into_iter());
+        assert!((scale.share(1e3) - 0.5).abs() <= 1e-12);
+        assert_eq!(scale.labels(), ["1e-2", "1e3", "1e8"]);
+        let scale = ColourScale::of([0.0, 1e8].into_iter());
+        assert_eq!(scale.share(5e7), 0.5);
     }
 
     #[test]

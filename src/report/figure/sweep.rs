@@ -1,7 +1,7 @@
 //! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
 
 use super::{Curve, HistoryPlot, Map, MapField};
-use crate::report::text::stability::merged;
+use crate::report::text::stability::merged_fields;
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Values from which on they make curves.
@@ -100,7 +100,7 @@ fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunF
         z_label: figure.head().to_owned(),
         columns: first
             .map_or(Vec::new(), |study| study.rows.iter().map(|r| r.value.to_string()).collect()),
-        rows: merged(studies.iter().map(row).collect()),
+        rows: merged_fields(studies.iter().map(row).collect()),
     };
     let file = format!("{}-{}.svg", outcome.suite, figure.name());
     (file, svg.to_svg())

@@ -65,12 +65,24 @@ use serde_json::{Value, json};
 /// The document for `outcomes`, indented, with a newline at its end.
 pub fn json(outcomes: &[SuiteOutcome]) -> String {
     let suites: Vec<Value> = outcomes.iter().map(suite).collect();
-    format!("{:#}\n", json!({ "suites": suites }))
+    let version = env!("CARGO_PKG_VERSION");
+    format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
+}
+
+/// The commit that is tested, where a CI service says so.
+fn commit() -> Option<String> {
+    let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
+    ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)
 }
 
 fn suite(outcome: &SuiteOutcome) -> Value {
     json!({
         "suite": outcome.suite,
+        "group": outcome.group,
+        "title": outcome.title,
+        "source": outcome.source,
+        "problem": format!("{:016x}", outcome.meaning),
+        "statement": outcome.statement,
         "passed": outcome.passed(),
         "cases": outcome.cases.iter().map(case).collect::<Vec<_>>(),
         "cost": cost::rankings(&by_transfers(outcome), "transfers"),
@@ -81,6 +93,8 @@ fn case(outcome: &CaseOutcome) -> Value {
     let mut members = members(json!({
         "case": outcome.case,
         "subject": outcome.subject,
+        "settings": outcome.settings,
+        "because": outcome.because,
         "verdict": outcome.verdict,
         "expected": outcome.expected,
         "passed": outcome.passed() && outcome.lacks.is_empty(),

@@ -9,6 +9,11 @@ use serde_json::{Map, Value, json};
 pub fn report_schema() -> String {
     let suite = object([
         ("suite", text(), "name of the suite"),
+        ("group", text(), "name of the folder of its file"),
+        ("title", text(), "headline"),
+        ("source", text(), "where the problem comes from"),
+        ("problem", text(), "fingerprint of the statement, in hexadecimal digits"),
+        ("statement", list(list(text())), "the problem, as rows of name and value"),
         ("passed", flag(), "whether every case came as expected"),
         ("cases", list(case()), "its cases, in the order of the suite"),
         ("cost", list(ranking()), "methods by the work that they take, for each problem"),
@@ -22,8 +27,15 @@ pub fn report_schema() -> String {
             "suite": suite,
         },
         "type": "object",
-        "properties": {"suites": list(json!({"$ref": "#/$defs/suite"}))},
-        "required": ["suites"],
+        "properties": {
+            "version": {"type": "string", "description": "version of mpm-verify"},
+            "commit": {
+                "type": ["string", "null"],
+                "description": "the commit that is tested, where a CI service says so",
+            },
+            "suites": list(json!({"$ref": "#/$defs/suite"})),
+        },
+        "required": ["version", "commit", "suites"],
         "additionalProperties": false,
     });
     format!("{schema:#}\n")
@@ -36,6 +48,8 @@ fn case() -> Value {
     object([
         ("case", text(), "name of the case"),
         ("subject", text(), "the solver: `mpm`, `fem`, or one of another program"),
+        ("settings", list(list(text())), "its method, as rows of name and value"),
+        ("because", text(), "the reason of the expectation"),
         ("verdict", text(), "the verdict, in words"),
         ("expected", or_null(text()), "the expectation; null where nothing is expected"),
         ("passed", flag(), "whether the case came as expected"),

@@ -1,9 +1,8 @@
 //! One HTML page for a run: everything that was found, in one file that needs no network.
 //!
-//! It is read without JavaScript; a small script only sorts and filters the table of verdicts and
-//! unfolds what a link leads to. Figures are inline SVG, coloured anew for light and dark
-//! (`theme`). Nothing on the page depends on the time or the machine: the same run gives the same
-//! bytes.
+//! It is read without JavaScript; a small script only sorts and filters its tables and unfolds what
+//! a link leads to. Figures are inline SVG, coloured anew for light and dark (`theme`). Nothing on
+//! the page depends on the time or the machine: the same run gives the same bytes.
 //!
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.
@@ -19,6 +18,7 @@ mod inline;
 mod links;
 mod section;
 mod source;
+mod suites;
 mod theme;
 mod verdicts;
 
@@ -40,8 +40,9 @@ const POLICY: &str =
 /// The page, which says too how many suites could not be run. Names of suites must differ: they
 /// become the ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
-    let mut body = vec![head(sources, refused), contents(sources), verdicts::table(sources)];
-    body.extend(sources.iter().map(section::section));
+    let mut body = vec![head(sources, refused), suites::matrix(sources), verdicts::table(sources)];
+    let ordered = suites::grouped(sources).into_values().flatten();
+    body.extend(ordered.map(|source| section::section(&source)));
     body.push(foot());
     let page = Html::block(
         "html",
@@ -100,30 +101,6 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
         parts.push(Html::block("ul", &[("class", "unmet")], &items));
     }
     Html::block("header", &[], &parts)
-}
-
-/// Every suite with its headline.
-fn contents(sources: &[SuiteSource<'_>]) -> Html {
-    let item = |source: &SuiteSource<'_>| {
-        let outcome = source.outcome;
-        let link = Html::tag(
-            "a",
-            &[("href", &format!("#{}", links::id(outcome)))],
-            outcome.suite.as_str(),
-        );
-        let title = Html::tag("span", &[("class", "muted")], format!(" {}", outcome.title));
-        let mut parts = vec![link, title];
-        if !outcome.passed() {
-            parts.push(Html::tag("b", &[("class", "bad")], " FAIL"));
-        }
-        Html::tag("li", &[], parts)
-    };
-    let items: Vec<Html> = sources.iter().map(item).collect();
-    Html::block(
-        "nav",
-        &[("aria-label", "Suites")],
-        &[Html::tag("h2", &[], "Suites"), Html::block("ul", &[("class", "suites")], &items)],
-    )
 }
 
 fn foot() -> Html {

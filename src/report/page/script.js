@@ -1,6 +1,6 @@
 
 "use strict";
-// Sorts and filters the table of verdicts, and unfolds what a link leads to. Without it everything is read.
+// Sorts the table of verdicts, filters it and that of suites, and unfolds what a link leads to. Without it everything is read.
 (() => {
   const section = document.getElementById("verdicts");
   const table = section.querySelector("table");
@@ -37,23 +37,28 @@
     });
   });
 
-  const label = document.createElement("label");
-  const input = document.createElement("input");
-  const count = document.createElement("output");
-  label.className = "filter";
-  input.type = "search";
-  label.append("Show only rows with ", input, count);
-  table.parentElement.before(label);
-  input.addEventListener("input", () => {
-    const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
-    let shown = 0;
-    for (const row of rows) {
-      const text = row.textContent.toLowerCase();
-      row.hidden = !words.every((word) => text.includes(word));
-      shown += row.hidden ? 0 : 1;
-    }
-    count.textContent = words.length ? `${shown} of ${rows.length}` : "";
-  });
+  const filter = (table, rows) => {
+    const label = document.createElement("label");
+    const input = document.createElement("input");
+    const count = document.createElement("output");
+    label.className = "filter";
+    input.type = "search";
+    label.append("Show only rows with ", input, count);
+    table.parentElement.before(label);
+    input.addEventListener("input", () => {
+      const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+      let shown = 0;
+      for (const row of rows) {
+        const text = row.textContent.toLowerCase();
+        row.hidden = !words.every((word) => text.includes(word));
+        shown += row.hidden ? 0 : 1;
+      }
+      count.textContent = words.length ? `${shown} of ${rows.length}` : "";
+    });
+  };
+  filter(table, rows);
+  const suites = document.querySelector("#suites table");
+  filter(suites, Array.from(suites.querySelectorAll("tbody tr:not(.group)")));
 
   const unfold = () => {
     const target = document.getElementById(location.hash.slice(1));

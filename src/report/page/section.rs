@@ -2,7 +2,7 @@
 
 use super::cells::scrolled;
 use super::html::Html;
-use super::links::{case_id, case_link, id};
+use super::links::{case_id, id};
 use super::source::SuiteSource;
 use super::{cells, figure_list};
 use crate::report::text;
@@ -19,7 +19,11 @@ pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     let mut parts = vec![Html::tag("h2", &[], heading), links(source)];
     let paragraphs = outcome.about.split("\n\n").filter(|text| !text.trim().is_empty());
     parts.extend(paragraphs.map(|text| Html::tag("p", &[], text)));
-    parts.push(Html::tag("p", &[("class", "muted")], format!("Source: {}", outcome.source)));
+    parts.push(Html::tag(
+        "p",
+        &[("class", "muted")],
+        format!("Source: {}. Fingerprint of the problem: {:016x}", outcome.source, outcome.meaning),
+    ));
     parts.extend(figure_list::figures(outcome));
     parts.push(cases(outcome));
     parts.push(report(outcome));
@@ -68,7 +72,7 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
         let unmet = case.unmet.iter();
         found.extend(unmet.map(|unmet| Html::tag("p", &[("class", "bad")], unmet.as_str())));
         let mut cells = vec![
-            Html::tag("td", &[("class", "name")], case_link(outcome, case, false)),
+            Html::tag("td", &[("class", "name")], case.case.as_str()),
             Html::tag("td", &[], cells::result(case)),
             Html::tag("td", &[("class", "name")], case.verdict.as_str()),
         ];
@@ -84,22 +88,14 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
                 case.expectation(),
             ));
         }
-        Html::tag("tr", &[], cells)
+        Html::tag("tr", &[("id", &case_id(outcome, case))], cells)
     };
     group.iter().enumerate().map(row).collect()
 }
 
-/// The text report, whole, with a place to link to where each case begins.
+/// The text report, whole.
 fn report(outcome: &SuiteOutcome) -> Html {
-    let line = |line: &str| {
-        let starts = |case: &&CaseOutcome| line == format!("== {} ==", case.case);
-        let content = match outcome.cases.iter().find(starts) {
-            Some(case) => Html::tag("b", &[("id", &case_id(outcome, case))], line),
-            None => Html::text(line),
-        };
-        vec![content, Html::text("\n")].into()
-    };
-    let text: Html = text(outcome).lines().map(line).collect();
+    let text = Html::text(&text(outcome));
     folded(
         &format!("report-{}", outcome.suite),
         "Report",

@@ -29,6 +29,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
         source: word(),
         about: format!("{words}\n\n{words}"),
         statement: vec![(word(), word())],
+        meaning: 0,
         cases: vec![case("first"), case("second")],
     }
 }

@@ -1,12 +1,11 @@
 //! Convergence studies in reports.
 
-use super::kind::{StudyReport, members};
+use super::kind::{StudyReport, members, studies};
 use crate::report::columns::{json_object, level};
 use crate::report::figure::drawing::Figure;
 use crate::report::figure::study;
 use crate::report::json::number::number;
 use crate::report::text::levels;
-use crate::report::text::prose::row;
 use crate::verify::{
     Axis, CaseOutcome, Convergence, Floor, FloorCause, Interval, LevelOutcome, Probe, SuiteOutcome,
 };
@@ -16,10 +15,12 @@ use serde_json::{Map, Value, json};
 pub(crate) struct ConvergenceReport;
 
 impl StudyReport for ConvergenceReport {
-    fn tables(&self, lines: &mut Vec<String>, case: &CaseOutcome) {
-        if let Some(study) = case.convergence() {
-            tables(lines, study);
-        }
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        levels::tables(lines, &studies(cases));
+    }
+
+    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
+        case.convergence().map_or(Vec::new(), remarks)
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
@@ -43,50 +44,18 @@ impl StudyReport for ConvergenceReport {
     }
 }
 
-fn tables(lines: &mut Vec<String>, study: &Convergence) {
-    levels::tables(lines, study);
-    let too_long: Vec<String> = study
-        .levels
-        .iter()
-        .filter(|level| level.is_too_long())
-        .map(|level| level.name(study.axis))
-        .collect();
-    if !too_long.is_empty() {
-        lines.push(String::new());
-        let text = "steps are longer than the stable time step";
-        row(lines, "warning", &format!("{}: {text}", too_long.join(", ")));
-    }
-    let failure = |level: &LevelOutcome| Some((level.name(study.axis), level.run.failure.clone()?));
-    for (level, failure) in study.levels.iter().filter_map(failure) {
-        lines.push(String::new());
-        row(lines, "failure", &format!("{level}: {failure}"));
-    }
-    if let Some(lost) = order_lost(study) {
-        lines.push(String::new());
-        row(lines, "crossing", &lost);
-    }
-}
-
-/// Where particles begin to change their cell, and what that does to the order.
-fn order_lost(study: &Convergence) -> Option<String> {
-    let first = study.levels.iter().find(|level| level.run.counters.crossings.unwrap_or(0) > 0)?;
-    let crossings = first.run.counters.crossings?;
-    let finest = study.levels.last()?;
-    if study.levels.len() == 1 {
-        return Some(format!("particles change their cell {crossings} times"));
-    }
-    let pair = |level: &LevelOutcome| {
-        level.order.map_or("no order".to_owned(), |order| format!("order {order:.2}"))
+/// Steps that are too long, runs that broke, and whose error a floor is.
+fn remarks(study: &Convergence) -> Vec<String> {
+    let too_long = study.levels.iter().filter(|level| level.is_too_long());
+    let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();
+    let too_long = (!too_long.is_empty())
+        .then(|| format!("steps are longer than the stable time step: {}", too_long.join(", ")));
+    let failure = |level: &LevelOutcome| {
+        Some(format!("{}: {}", level.name(study.axis), level.run.failure.clone()?))
     };
-    Some(format!(
-        "particles change their cell from {} on ({crossings} crossings, {} against the next \
-         coarser level); on the finest level, {}, {} crossings and {}",
-        first.name(study.axis),
-        pair(first),
-        finest.name(study.axis),
-        finest.run.counters.crossings.unwrap_or(0),
-        pair(finest),
-    ))
+    let failures = study.levels.iter().filter_map(failure);
+    let floor = study.floor.iter().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
+    too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
 /// Quantity and norm of the judged errors, and what they are divided by.

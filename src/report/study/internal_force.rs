@@ -12,9 +12,12 @@ use serde_json::{Map, Value, json};
 pub(crate) struct InternalForceReport;
 
 impl StudyReport for InternalForceReport {
-    fn tables(&self, lines: &mut Vec<String>, case: &CaseOutcome) {
-        if let Some(InternalForce { rows }) = case.results() {
-            lines.extend(Table::new(&force::columns(), rows).lines());
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        for case in cases {
+            if let Some(InternalForce { rows }) = case.results() {
+                lines.extend([String::new(), format!("  {}", case.case)]);
+                lines.extend(Table::new(&force::columns(), rows).lines());
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Stability studies in reports.
 
-use super::kind::{StudyReport, members};
+use super::kind::{StudyReport, members, studies};
 use crate::report::figure::drawing::Figure;
 use crate::report::figure::sweep;
 use crate::report::json::stability::study;
@@ -12,14 +12,12 @@ use serde_json::{Map, Value, json};
 pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {
-    fn overview(&self, lines: &mut Vec<String>, outcome: &SuiteOutcome) {
-        stability::overview(lines, outcome);
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        stability::tables(lines, &studies(cases));
     }
 
-    fn tables(&self, lines: &mut Vec<String>, case: &CaseOutcome) {
-        if let Some(results) = case.results() {
-            stability::tables(lines, results);
-        }
+    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
+        case.results().map_or(Vec::new(), stability::remarks)
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {

@@ -4,7 +4,7 @@
 
 use super::table::Table;
 use crate::report::columns::{cost as columns, short};
-use crate::verify::{self, Ranking, SuiteOutcome};
+use crate::verify::{self, Ranked, Ranking, SuiteOutcome};
 
 /// The unit of work that is counted.
 pub(crate) const TRANSFERS: &str = "particle-node transfers";
@@ -31,6 +31,19 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
         lines.extend(exponents.lines());
     }
     lines.join("\n") + "\n"
+}
+
+/// The cheapest method for each target, in one line.
+pub(crate) fn cheapest(ranking: &Ranking) -> String {
+    let best = |(k, target): (usize, &f64)| {
+        let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
+        let row = ranking.rows.iter().find(reached)?;
+        let work = columns::reach_text(row.reaches[k]);
+        Some(format!("{target:e} by {} with {work}", row.method.name))
+    };
+    let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
+    let best = if best.is_empty() { "no target is reached".to_owned() } else { best.join("; ") };
+    format!("{best} {TRANSFERS}; errors {}", relative(ranking))
 }
 
 /// The size that errors are divided by.

@@ -10,12 +10,20 @@ pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
 
 /// `key` in the first column, `value` wrapped beside it.
 pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
-    const KEY: usize = 18;
+    beside(lines, 14, key, value);
+}
+
+/// A paragraph with a mark in front of it.
+pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
+    beside(lines, 4, mark, paragraph);
+}
+
+fn beside(lines: &mut Vec<String>, column: usize, key: &str, value: &str) {
     let mut wrapped = Vec::new();
-    wrap(&mut wrapped, WIDTH - KEY - 2, value);
+    wrap(&mut wrapped, WIDTH - column - 2, value);
     for (i, line) in wrapped.iter().enumerate() {
         let key = if i == 0 { format!("{key} ") } else { String::new() };
-        lines.push(format!("  {key:KEY$}{line}").trim_end().to_owned());
+        lines.push(format!("  {key:column$}{line}").trim_end().to_owned());
     }
 }
 

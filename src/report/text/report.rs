@@ -3,10 +3,10 @@
 //! Errors have four significant digits, orders two decimals; counters are exact. Nothing in it
 //! depends on the machine.
 
-use super::cost;
-use super::profile::profile;
+use super::merged::shared;
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
+use super::{cost, verdicts};
 use crate::report::columns::TableColumn;
 use crate::report::study::KINDS;
 use crate::verify::{CaseOutcome, SuiteOutcome};
@@ -14,33 +14,85 @@ use crate::verify::{CaseOutcome, SuiteOutcome};
 /// The whole report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
     let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
-    for paragraph in outcome.about.split("\n\n") {
-        paragraph_lines(&mut lines, paragraph);
-    }
+    let rankings = cost::by_transfers(outcome);
+    verdicts::head(&mut lines, &outcome.cases, &rankings);
     lines.push(String::new());
+    if !outcome.about.is_empty() {
+        paragraph_lines(&mut lines, first_sentence(&outcome.about));
+        lines.push(String::new());
+    }
     row(&mut lines, "source", &outcome.source);
-    for (key, value) in &outcome.statement {
-        row(&mut lines, key, value);
+    problem(&mut lines, &outcome.statement);
+    in_common(&mut lines, &outcome.cases);
+    for ranking in &rankings {
+        row(&mut lines, "cheapest for", &cost::cheapest(ranking));
     }
     for kind in KINDS {
-        kind.overview(&mut lines, outcome);
-    }
-    for case in &outcome.cases {
-        lines.push(String::new());
-        case_lines(&mut lines, case);
-    }
-    for ranking in cost::by_transfers(outcome) {
-        lines.push(String::new());
-        lines.extend(cost::cost(&ranking, cost::TRANSFERS).lines().map(str::to_owned));
+        kind.tables(&mut lines, &outcome.cases);
     }
     lines.join("\n") + "\n"
+}
+
+/// The statement of the problem: parameters and functions in rows, all else in one paragraph.
+fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
+    // The heading of the errors says what is judged.
+    let is_told = |(key, value): &&(String, String)| {
+        key == "judged" || (key == "crossing levels" && value == "counted")
+    };
+    let is_row = |(key, _): &&(String, String)| ["parameters", "function"].contains(&key.as_str());
+    let (rows, others): (Vec<_>, Vec<_>) =
+        statement.iter().filter(|row| !is_told(row)).partition(is_row);
+    for (key, value) in rows {
+        row(lines, key, value);
+    }
+    let others: Vec<String> =
+        others.iter().map(|(key, value)| format!("{} {value}", key.trim())).collect();
+    row(lines, "problem", &others.join("; "));
 }
 
 /// The report of one case, for failing tests.
 pub fn case(outcome: &CaseOutcome) -> String {
     let mut lines = Vec::new();
-    case_lines(&mut lines, outcome);
+    let cases = std::slice::from_ref(outcome);
+    verdicts::head(&mut lines, cases, &[]);
+    lines.push(String::new());
+    in_common(&mut lines, cases);
+    for kind in KINDS {
+        kind.tables(&mut lines, cases);
+    }
     lines.join("\n") + "\n"
+}
+
+/// Settings that all cases have in common; the names of the cases tell where they differ.
+fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+    let Some((first, others)) = cases.split_first() else { return };
+    let is_common =
+        |setting: &&(String, String)| others.iter().all(|case| case.settings.contains(setting));
+    let settings: Vec<String> = first
+        .settings
+        .iter()
+        .filter(is_common)
+        .map(|(key, value)| format!("{key}: {value}"))
+        .collect();
+    if !settings.is_empty() {
+        row(lines, "methods", &settings.join("; "));
+    }
+    let of_case = |case: &CaseOutcome| {
+        let effects = case.profile.as_ref()?.effects.join(", ");
+        Some(if effects.is_empty() { "none".to_owned() } else { effects })
+    };
+    let cases = cases.iter().filter_map(|case| Some((case.case.as_str(), of_case(case)?)));
+    for (effects, names) in shared(cases) {
+        row(lines, "effects", &format!("{effects}{names}"));
+    }
+}
+
+/// The first sentence of a text: the whole is in the file of the suite.
+fn first_sentence(text: &str) -> &str {
+    let ends = |(at, _): &(usize, &str)| {
+        text[at + 2..].starts_with(char::is_uppercase) && !text[..*at].ends_with(char::is_uppercase)
+    };
+    text.match_indices(". ").find(ends).map_or(text, |(at, _)| &text[..=at])
 }
 
 /// One line for each case: the table that `run` prints.
@@ -70,27 +122,4 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
         })
         .flush_left(),
     ]
-}
-
-fn case_lines(lines: &mut Vec<String>, case: &CaseOutcome) {
-    lines.push(format!("== {} ==", case.case));
-    let settings: Vec<String> =
-        case.settings.iter().map(|(key, value)| format!("{key}: {value}")).collect();
-    row(lines, "method", &settings.join("; "));
-    for (key, value) in case.profile.iter().flat_map(profile) {
-        row(lines, key, &value);
-    }
-    lines.push(String::new());
-    for kind in KINDS {
-        kind.tables(lines, case);
-    }
-    lines.push(String::new());
-    row(lines, "verdict", &format!("{}: {}", case.verdict, case.reason));
-    row(lines, "expected", &case.expectation());
-    if case.passed() {
-        row(lines, "result", if case.expected.is_some() { "as expected" } else { "explored" });
-    }
-    for unmet in &case.unmet {
-        row(lines, "result", &format!("NOT AS EXPECTED: {unmet}"));
-    }
 }

@@ -1,23 +1,14 @@
 //! Tables of a stability study.
 
+use super::merged::merged;
 use super::table::Table;
 use crate::report::columns::stability::{self, limit_of, limit_text};
 use crate::report::figure::{Map, MapField};
-use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome, Trial};
+use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// The studies of a suite that seek a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
-}
-
-/// The limits of all cases in one table: a row for each case, a column for each value. Nothing
-/// where no limit is sought, or a single case says it all.
-pub(crate) fn overview(lines: &mut Vec<String>, outcome: &SuiteOutcome) {
-    let studies = seeking(outcome);
-    let [(_, first), _, ..] = studies[..] else { return };
-    let sought = first.sought.as_deref().unwrap_or_default();
-    lines.push(String::new());
-    lines.extend(Table::new(&stability::overview(first, sought), studies.iter().copied()).lines());
 }
 
 /// The same as a figure.
@@ -40,14 +31,14 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
         x_label: first.swept.clone(),
         z_label: format!("limit of {sought}"),
         columns: first.rows.iter().map(|row| row.value.to_string()).collect(),
-        rows: merged(studies.iter().map(row).collect()),
+        rows: merged_fields(studies.iter().map(row).collect()),
     };
     Some(map.to_svg())
 }
 
 /// Rows with names without what all begin with, of which neighbours that show the same and are
 /// called the same but for the last word are one: `flip-usf/musl`.
-pub(crate) fn merged(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
+pub(crate) fn merged_fields(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
     let first =
         |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());
     let common = rows.first().map(|(name, _)| first(name)).unwrap_or_default();
@@ -74,33 +65,63 @@ fn shown_alike(a: &[MapField], b: &[MapField]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.text == b.text)
 }
 
-/// One row for each value of the parameter that is swept.
-pub(crate) fn tables(lines: &mut Vec<String>, study: &StabilityStudy) {
-    match &study.sought {
-        Some(sought) => limits(lines, study, sought),
-        None => trials(lines, study),
-    }
-    for row in &study.rows {
-        if let Some(reason) = &row.refused {
-            lines.push(format!("  {} = {}: {reason}", study.swept, row.value));
+/// The name of a case and its study.
+type NamedSweep<'a> = (&'a str, &'a StabilityStudy);
+
+/// Limits, a row for each case and a column for each value of the parameter that is swept; runs, a
+/// row for each case and value.
+pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
+    let (seeking, others): (Vec<NamedSweep<'_>>, Vec<NamedSweep<'_>>) =
+        studies.iter().partition(|(_, study)| study.sought.is_some());
+    limits(lines, &seeking);
+    trials(lines, &others);
+}
+
+/// Values that could not be tried, and runs that did not come to their end.
+pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
+    let remark = |row: &StabilityRow| {
+        let why = row.trial.as_ref().and_then(|trial| trial.why.as_ref());
+        let why = row.refused.as_ref().or(why)?;
+        Some(format!("{} = {}: {why}", study.swept, row.value))
+    };
+    study.rows.iter().filter_map(remark).collect()
+}
+
+fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
+    let Some((_, first)) = studies.first() else { return };
+    let columns = stability::trials(first);
+    let headings = columns.iter().map(|column| column.heading.to_string());
+    let headings = std::iter::once("case".to_owned()).chain(headings).collect();
+    let row = |name: &str, row: &StabilityRow| {
+        let cells = columns.iter().map(|column| column.cell(row).text);
+        std::iter::once(name.to_owned()).chain(cells).collect()
+    };
+    let of_study = |(name, study): &NamedSweep<'_>| {
+        let rows = study.rows.iter().filter(|row| row.trial.is_some());
+        rows.map(|one| row(name, one)).collect::<Vec<_>>()
+    };
+    let rows = merged(studies.iter().flat_map(of_study).collect());
+    lines.push(String::new());
+    lines.extend(Table::of_cells(headings, rows).flush_left(&["verdict"]).lines());
+}
+
+fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
+    let Some((_, first)) = studies.first() else { return };
+    let sought = first.sought.as_deref().unwrap_or_default();
+    let details = stability::limits(first, sought).into_iter().skip(1);
+    for column in details {
+        let values = first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value));
+        let headings = std::iter::once(column.heading.to_string()).chain(values).collect();
+        let cells = |(name, study): &NamedSweep<'_>| {
+            let cells = study.rows.iter().map(|row| column.cell(row).text);
+            std::iter::once((*name).to_owned()).chain(cells).collect()
+        };
+        let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
+        if rows.iter().any(|row: &Vec<String>| row[1..].iter().any(|cell| cell != "-")) {
+            lines.push(String::new());
+            lines.extend(Table::of_cells(headings, merged(rows)).lines());
         }
     }
-}
-
-fn trials(lines: &mut Vec<String>, study: &StabilityStudy) {
-    let rows = study.rows.iter().filter(|row| row.trial.is_some());
-    lines.extend(Table::new(&stability::trials(study), rows).lines());
-    let trials = study.rows.iter().filter_map(|row| Some((row.value, row.trial.as_ref()?)));
-    let why = |(value, trial): (f64, &Trial)| Some((value, trial.why.clone()?));
-    for (value, why) in trials.filter_map(why) {
-        lines.push(format!("  {} = {value}: {why}", study.swept));
-    }
-}
-
-fn limits(lines: &mut Vec<String>, study: &StabilityStudy, sought: &str) {
-    let rows = study.rows.iter().filter(|row| row.critical.is_some());
-    let table = Table::new(&stability::limits(study, sought), rows);
-    lines.extend(table.without_empty_columns().lines());
 }
 
 #[cfg(test)]
@@ -120,11 +141,11 @@ mod tests {
             row("mpm-linear-pic-usf", "2"),
             row("mpm-linear-pic-usl", "1"),
         ];
-        let names: Vec<String> = merged(rows).into_iter().map(|(name, _)| name).collect();
+        let names: Vec<String> = merged_fields(rows).into_iter().map(|(name, _)| name).collect();
         let expected =
             ["linear-flip-usl", "linear-flip-usf/musl", "linear-pic-usf", "linear-pic-usl"];
         assert_eq!(names, expected);
-        assert_eq!(merged(vec![row("bar", "1"), row("rod", "1")]).len(), 1);
-        assert!(merged(Vec::new()).is_empty());
+        assert_eq!(merged_fields(vec![row("bar", "1"), row("rod", "1")]).len(), 1);
+        assert!(merged_fields(Vec::new()).is_empty());
     }
 }

@@ -26,6 +26,20 @@ impl Table {
         }
     }
 
+    /// Rows of cells under headings, the first column flush left.
+    pub(crate) fn of_cells(headings: Vec<String>, rows: Vec<Vec<String>>) -> Self {
+        let flush_left = (0..headings.len()).map(|column| column == 0).collect();
+        Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
+    }
+
+    /// The same with columns flush left that have these headings.
+    pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
+        for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
+            *flush_left |= headings.contains(&heading.as_str());
+        }
+        self
+    }
+
     /// Whether there is no row but the headings.
     pub(crate) fn is_empty(&self) -> bool {
         self.rows.len() == 1

@@ -21,7 +21,7 @@ pub(super) fn compare(suite: &str, text: &str, folder: &Path) -> Result<(), Fail
         format!(
             "the report of {suite} {what} {} (the difference stands above).\nIf the change is \
              meant, accept it with `cargo insta review`, or with `INSTA_UPDATE=always cargo test \
-             {suite}::report`, and say in the commit why it moved.",
+             {suite}`, and say in the commit why it moved.",
             file.display()
         )
         .into()

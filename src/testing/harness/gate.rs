@@ -7,7 +7,7 @@ use crate::study::{Runner, lacking, under};
 use crate::suite::Suite;
 use crate::suite::yaml::Source;
 use crate::testing::conformance::examined;
-use crate::verify::CaseOutcome;
+use crate::verify::{CaseOutcome, SuiteOutcome};
 use libtest_mimic::{Completion, Failed, Trial};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,8 @@ pub(super) struct Gate {
     pub(super) snapshots: PathBuf,
     /// The solver in place of the methods of the suites.
     pub(super) solver: Option<&'static dyn SolverFactory>,
+    /// Whether all suites have snapshots in common besides their own.
+    pub(super) with_overview: bool,
 }
 
 impl Gate {
@@ -33,12 +35,32 @@ impl Gate {
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
         // The check of a truth takes a tenth of a second; there may be many.
-        files.par_iter().flat_map_iter(|file| self.of_file(file)).collect()
+        let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
+        let suites = found.iter().filter_map(|(_, suite)| suite.clone()).collect();
+        let mut trials: Vec<Trial> = found.into_iter().flat_map(|(trials, _)| trials).collect();
+        if self.with_overview {
+            trials.extend(self.of_all(suites));
+        }
+        trials
     }
 
-    fn of_file(&self, file: &Path) -> Vec<Trial> {
+    /// The snapshots that all suites have in common.
+    fn of_all(&self, suites: Vec<Arc<SharedSuite>>) -> [Trial; 2] {
+        let suites: Arc<[Arc<SharedSuite>]> = suites.into();
+        let trial = |name: &'static str, text: fn(&[SuiteOutcome]) -> String| {
+            let (suites, folder) = (Arc::clone(&suites), self.snapshots.clone());
+            Trial::test(name, move || {
+                let outcomes: Vec<SuiteOutcome> =
+                    suites.iter().map(|suite| suite.outcome()).collect();
+                drift::compare(name, &text(&outcomes), &folder)
+            })
+        };
+        [trial("OVERVIEW", report::overview), trial("profile", report::profiles)]
+    }
+
+    fn of_file(&self, file: &Path) -> (Vec<Trial>, Option<Arc<SharedSuite>>) {
         let stem = stem(file);
-        let unusable = |why: String| vec![broken(&format!("{stem}::parse"), why)];
+        let unusable = |why: String| (vec![broken(&format!("{stem}::parse"), why)], None);
         match Source::read(file).and_then(|source| Suite::load(&source)) {
             Ok(suite) if suite.name != stem => unusable(format!(
                 "{} calls itself `{}`: rename one of them",
@@ -56,17 +78,20 @@ impl Gate {
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
     }
 
-    fn of_suite(&self, suite: Suite, snapshots: &Path) -> Vec<Trial> {
-        let Some(solver) = self.solver else {
-            return trials(suite, snapshots, None);
+    fn of_suite(&self, suite: Suite, snapshots: &Path) -> (Vec<Trial>, Option<Arc<SharedSuite>>) {
+        let suite = match self.solver {
+            None => suite,
+            Some(solver) => match judged(&suite, solver) {
+                Ok(suite) => suite,
+                Err(why) => {
+                    let name = format!("{}::{}", suite.name, solver.name());
+                    let ignored = move || Ok(Completion::ignored_with(&why));
+                    return (vec![Trial::ignorable_test(name, ignored)], None);
+                }
+            },
         };
-        let name = format!("{}::{}", suite.name, solver.name());
-        match judged(&suite, solver) {
-            Ok(suite) => trials(suite, snapshots, Some(solver)),
-            Err(why) => {
-                vec![Trial::ignorable_test(name, move || Ok(Completion::ignored_with(&why)))]
-            }
-        }
+        let (trials, suite) = trials(suite, snapshots, self.solver);
+        (trials, Some(suite))
     }
 }
 
@@ -131,10 +156,14 @@ impl SharedSuite {
         Err(format!("{}\n\n{}", outcome.unmet.join("\n"), report::case(outcome)).into())
     }
 
+    fn outcome(&self) -> SuiteOutcome {
+        let cases = (0..self.outcomes.len()).map(|index| self.case(index).clone()).collect();
+        self.runner.outcome(cases)
+    }
+
     /// Drift; of a suite that was not run there is no report.
     fn compare(&self) -> Result<Completion, Failed> {
-        let cases = (0..self.outcomes.len()).map(|index| self.case(index).clone()).collect();
-        let outcome = self.runner.outcome(cases);
+        let outcome = self.outcome();
         if let [first, ..] = &outcome.cases[..]
             && outcome.cases.iter().all(|case| !case.lacks.is_empty())
         {
@@ -150,7 +179,7 @@ fn trials(
     suite: Suite,
     snapshots: &Path,
     solver: Option<&'static dyn SolverFactory>,
-) -> Vec<Trial> {
+) -> (Vec<Trial>, Arc<SharedSuite>) {
     // The tests live as long as the process; so does the suite.
     let suite: &'static Suite = Box::leak(Box::new(suite));
     let names = suite.case_names();
@@ -175,7 +204,7 @@ fn trials(
         let name = format!("{}::conformance", suite.name);
         Trial::ignorable_test(name, || conforms(solver, suite))
     }));
-    let name = format!("{}::report", suite.name);
-    trials.push(Trial::ignorable_test(name, move || shared.compare()));
-    trials
+    let (name, of_report) = (format!("{}::report", suite.name), Arc::clone(&shared));
+    trials.push(Trial::ignorable_test(name, move || of_report.compare()));
+    (trials, shared)
 }

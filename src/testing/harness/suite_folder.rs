@@ -37,7 +37,7 @@ impl SuiteFolder {
     /// root of the package, where tests run.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         let folder = folder.into();
-        Self(Gate { snapshots: folder.clone(), folder, solver: None })
+        Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
     }
 
     /// A solver in place of the methods of the suites, held to what a suite expects of it, or else
@@ -53,6 +53,14 @@ impl SuiteFolder {
     #[must_use]
     pub fn snapshots(mut self, folder: impl Into<PathBuf>) -> Self {
         self.0.snapshots = folder.into();
+        self
+    }
+
+    /// Two snapshots of all suites besides: `OVERVIEW`, what came of each case and the matrix of
+    /// problems and methods, and `profile`, memory and passes of a step.
+    #[must_use]
+    pub fn with_overview(mut self) -> Self {
+        self.0.with_overview = true;
         self
     }
 

@@ -6,7 +6,8 @@ use super::front::pareto_front;
 use super::part::{ConvergingPart, End};
 use super::reach::Reach;
 use super::sample::Sample;
-use crate::verify::outcome::{CaseOutcome, Convergence, LevelOutcome};
+use crate::verify::convergence::{Convergence, LevelOutcome};
+use crate::verify::outcome::CaseOutcome;
 use std::cmp::Ordering;
 
 /// A method with its levels, coarse to fine.

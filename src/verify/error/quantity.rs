@@ -14,6 +14,7 @@ use super::tensor_shape::TensorShape;
 use crate::exact::Truth;
 use crate::named::named;
 use crate::subject::Samples;
+use crate::verify::order::format_number::format_number;
 use std::borrow::Cow;
 
 named! {
@@ -172,10 +173,9 @@ impl Quantity {
         self.sum().map(|sum| sum.needs)
     }
 
-    /// A divisor of its error as captions write it: of a sum to four digits, since it is computed
-    /// rather than stated.
+    /// A divisor of its error as captions write it, to four digits.
     pub(crate) fn shown_scale(self, scale: f64) -> String {
-        if self.is_sum() { format!("{scale:.3e}") } else { scale.to_string() }
+        if self.is_sum() { format!("{scale:.3e}") } else { format_number(scale) }
     }
 
     pub(super) fn sum(self) -> Option<SumDeclaration> {

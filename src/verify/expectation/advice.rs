@@ -1,13 +1,13 @@
 //! Advice on a claim: what keeps it from being stronger.
 
 use super::observed::{counted, is_inside, range};
+use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::Interval;
 use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::order::level::Level;
 use crate::verify::order::t_quantile::two_sided_95;
 use crate::verify::order::window::FEWEST_LEVELS;
-use crate::verify::outcome::{Convergence, LevelOutcome};
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 

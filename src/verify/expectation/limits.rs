@@ -65,12 +65,17 @@ impl Check {
 
     fn bound(&self) -> String {
         let most = if self.least { "at least" } else { "at most" };
-        format!("{} {most} {:e}", self.what, self.limit)
+        format!("{} {most} {:e}", self.what, four_digits(self.limit))
     }
 
     fn got(&self) -> String {
         self.got.map_or("none".to_owned(), format_number)
     }
+}
+
+/// A bound as a text shows it.
+fn four_digits(bound: f64) -> f64 {
+    format!("{bound:.3e}").parse().unwrap_or(bound)
 }
 
 impl Limits {
@@ -97,7 +102,8 @@ impl Limits {
             let drift = measured.drift.map(|drift| drift.of(*sum));
             if !drift.is_some_and(|drift| drift <= *limit) {
                 let (sum, got) = (sum.words(), drift.map_or("none".to_owned(), rounding));
-                let line = format!("expected drift of {sum} at most {limit:e}, got {got}");
+                let line =
+                    format!("expected drift of {sum} at most {:e}, got {got}", four_digits(*limit));
                 let measured = drift.is_some_and(|drift| !drift.is_nan());
                 unmet.push(UnmetFigure { line, measured });
             }
@@ -124,11 +130,9 @@ impl Limits {
                 None => grouped.push((*limit, vec![sum.words()])),
             }
         }
-        parts.extend(
-            grouped
-                .into_iter()
-                .map(|(limit, sums)| format!("drift of {} at most {limit:e}", sums.join(", "))),
-        );
+        parts.extend(grouped.into_iter().map(|(limit, sums)| {
+            format!("drift of {} at most {:e}", sums.join(", "), four_digits(limit))
+        }));
         parts.extend(self.energy_rate.map(rate_within));
         parts
     }

@@ -1,9 +1,9 @@
 //! An observed order beside a range that a suite could claim.
 
+use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::outcome::{Convergence, LevelOutcome};
 
 /// Share of the distance from the middle of an interval to its end that an order may take up.
 const COMFORTABLE: f64 = 0.75;

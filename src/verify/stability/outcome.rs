@@ -5,6 +5,7 @@ use super::limit::StabilityLimit;
 use super::trial_result::Trial;
 use super::verdict::Stability;
 use crate::verify::order::format_number::format_number;
+use crate::verify::study_results::StudyResults;
 
 /// Results of a stability study: one row for each value of the parameter that is swept.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +57,14 @@ impl Critical {
     /// The limit: predicted, or else observed.
     pub fn limit(&self) -> Option<StabilityLimit> {
         self.predicted.map(|prediction| prediction.limit).or(self.observed)
+    }
+}
+
+impl StudyResults for StabilityStudy {
+    fn fails(&self) -> bool {
+        let is_stable = |trial: &Trial| trial.verdict == Stability::Stable;
+        self.sought.is_none()
+            && !self.rows.iter().all(|row| row.trial.as_ref().is_some_and(is_stable))
     }
 }
 

@@ -6,7 +6,7 @@ use mpm_verify::report::report_schema;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-const CASE: [&str; 17] = [
+const CASE: [&str; 19] = [
     "case",
     "subject",
     "axis",
@@ -24,9 +24,15 @@ const CASE: [&str; 17] = [
     "levels",
     "forces",
     "stability",
+    "settings",
+    "because",
 ];
 
-const LEVEL: [&str; 19] = [
+const SUITE: [&str; 9] =
+    ["suite", "group", "title", "source", "problem", "statement", "passed", "cases", "cost"];
+
+const LEVEL: [&str; 20] = [
+    "counts",
     "cells",
     "h",
     "spacing",
@@ -93,9 +99,9 @@ fn every_key_is_there_and_no_other() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
-    has(&document, &["suites"]);
+    has(&document, &["version", "commit", "suites"]);
     for suite in list(&document["suites"]) {
-        has(suite, &["suite", "passed", "cases", "cost"]);
+        has(suite, &SUITE);
         for case in list(&suite["cases"]) {
             has(case, &CASE);
             for level in list(&case["levels"]) {

@@ -3,6 +3,7 @@
 mod checkpoint;
 mod compare;
 mod cost;
+mod diff;
 mod explain;
 mod explore;
 mod hostile;

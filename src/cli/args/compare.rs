@@ -1,0 +1,47 @@
+//! Words of the commands that hold two runs side by side.
+
+use clap::{Args, ValueEnum};
+use mpm_verify::report::compare;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct CompareArgs {
+    /// JSON of the run before: `mpm-verify run --format json`, or `report.json` of `run --out`
+    #[arg(value_name = "OLD.json")]
+    pub(in crate::cli) old: PathBuf,
+    /// JSON of the run after
+    #[arg(value_name = "NEW.json")]
+    pub(in crate::cli) new: PathBuf,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Page::Text)]
+    pub(in crate::cli) format: Page,
+    /// Largest relative change of a figure that counts as none
+    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE)]
+    pub(in crate::cli) tolerance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Page {
+    /// Aligned tables
+    Text,
+    /// A comment for a pull request
+    Markdown,
+    /// One JSON document
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct DiffArgs {
+    /// Snapshots before: a folder that has an OVERVIEW.snap, or a commit
+    #[arg(value_name = "OLD")]
+    pub(in crate::cli) old: String,
+    /// Snapshots after
+    #[arg(value_name = "NEW", default_value = "verification")]
+    pub(in crate::cli) new: String,
+    /// Folder of the snapshots in the tree of a commit
+    #[arg(long, default_value = "verification")]
+    pub(in crate::cli) folder: String,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Page::Text)]
+    pub(in crate::cli) format: Page,
+}

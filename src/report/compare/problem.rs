@@ -1,0 +1,38 @@
+//! Suites whose problem is another one than before.
+
+use super::changes::ProblemMove;
+use super::document::{ReportDocument, SuiteDocument};
+
+/// Rows of a statement that choose levels and figures, which are compared one by one.
+const OF_LEVELS: [&str; 7] =
+    ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
+
+/// The suites of both runs whose statements differ.
+pub(super) fn compare(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {
+    let moved = |suite: &SuiteDocument| {
+        let before = old.suites.iter().find(|known| known.name == suite.name)?;
+        let rows = differing(&before.statement, &suite.statement);
+        (!rows.is_empty()).then(|| ProblemMove { suite: suite.name.clone(), rows })
+    };
+    new.suites.iter().filter_map(moved).collect()
+}
+
+/// Rows that differ, of two statements; none where one of the two was not kept.
+fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
+    if old.is_empty() || new.is_empty() {
+        return Vec::new();
+    }
+    let mut keys: Vec<&String> = Vec::new();
+    for (key, _) in old.iter().chain(new) {
+        if !keys.contains(&key) && !OF_LEVELS.contains(&key.as_str()) {
+            keys.push(key);
+        }
+    }
+    let of = |rows: &[(String, String)], key: &String| {
+        let values = rows.iter().filter(|(known, _)| known == key).map(|(_, value)| value.as_str());
+        let values: Vec<&str> = values.collect();
+        if values.is_empty() { "nothing".to_owned() } else { values.join("; ") }
+    };
+    let rows = keys.into_iter().map(|key| [key.clone(), of(old, key), of(new, key)]);
+    rows.filter(|[_, old, new]| old != new).collect()
+}

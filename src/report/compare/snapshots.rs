@@ -1,0 +1,103 @@
+//! The results of a run as its snapshots keep them: the overview of all cases, and the reports of
+//! the suites for the problems.
+
+use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
+use super::number::JsonNumber;
+
+/// Axis of a study of which only the finest level is known.
+pub(super) const FINEST: &str = "finest";
+
+impl ReportDocument {
+    /// Reads the overview of all suites, `report` giving the text of the report of a suite by its
+    /// group and name, if it is there.
+    pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
+        let mut suites: Vec<SuiteDocument> = Vec::new();
+        let (mut group, mut headings) = ("", Vec::new());
+        for line in overview.lines() {
+            if let Some(name) = line.strip_prefix("== ") {
+                group = name.trim_end_matches(" ==");
+                continue;
+            }
+            let cells: Vec<&str> = cells(line);
+            match (group, cells.first()) {
+                ("", _) | (_, None) => headings.clear(),
+                (_, Some(&"case")) => headings = cells,
+                _ if headings.is_empty() => {
+                    let name = line.trim().split(": ").next().unwrap_or_default();
+                    let statement = report(group, name).map(|text| statement(&text));
+                    suites.push(SuiteDocument {
+                        name: name.to_owned(),
+                        statement: statement.unwrap_or_default(),
+                        cases: Vec::new(),
+                        cost: Vec::new(),
+                    });
+                }
+                _ => {
+                    let value = |heading: &str| {
+                        let at = headings.iter().position(|known| *known == heading)?;
+                        cells.get(at).copied().filter(|cell| *cell != "-")
+                    };
+                    if let Some(suite) = suites.last_mut() {
+                        suite.cases.push(case(cells[0], value));
+                    }
+                }
+            }
+        }
+        Self { suites }
+    }
+}
+
+/// The cells of a line of a table, which two spaces part at least.
+fn cells(line: &str) -> Vec<&str> {
+    line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
+}
+
+fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument {
+    let number = |heading| value(heading).and_then(|text| text.parse().ok()).map(JsonNumber);
+    let error = value("finest error");
+    let one = JsonNumber(1.0);
+    let level = |error: &str| LevelDocument {
+        cells: 1,
+        h: one,
+        spacing: one,
+        ppc: None,
+        transfers: 0,
+        judged: error.parse().ok().map(JsonNumber),
+        counts: None,
+        failure: (error == "failed").then(String::new),
+    };
+    CaseDocument {
+        name: name.to_owned(),
+        verdict: value("verdict").unwrap_or_default().to_owned(),
+        passed: value("result") != Some("NOT AS EXPECTED"),
+        unmet: Vec::new(),
+        judge: None,
+        axis: Some(FINEST.to_owned()),
+        observed_order: number("order").map(|value| OrderDocument { value }),
+        levels: error.map(level).into_iter().collect(),
+        stability: None,
+    }
+}
+
+/// The rows of a report that state the problem, the parts of a paragraph each for itself.
+fn statement(report: &str) -> Vec<(String, String)> {
+    let mut rows: Vec<(String, String)> = Vec::new();
+    for line in report.lines().skip_while(|line| !line.starts_with("  source ")) {
+        let (key, rest) = line.split_at_checked(16).unwrap_or((line, ""));
+        match (key.trim(), rows.last_mut()) {
+            ("", Some((_, value))) => *value = format!("{value} {}", rest.trim()),
+            ("", None) => {}
+            (key, _) => rows.push((key.to_owned(), rest.trim().to_owned())),
+        }
+    }
+    let is_stated = |key: &str| ["parameters", "function", "problem"].contains(&key);
+    let part = |part: &str| {
+        let (key, value) = part.split_once(' ').unwrap_or((part, ""));
+        (key.to_owned(), value.to_owned())
+    };
+    let parts = |(key, value): (String, String)| match key.as_str() {
+        "problem" => value.split("; ").map(part).collect(),
+        _ => vec![(key, value)],
+    };
+    rows.into_iter().filter(|(key, _)| is_stated(key)).flat_map(parts).collect()
+}

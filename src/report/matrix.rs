@@ -1,0 +1,87 @@
+//! The matrix of problems and methods: what each basis comes to in each suite.
+
+use crate::verify::{CaseOutcome, Convergence, StabilityStudy, SuiteOutcome, Verdict};
+
+/// Headings of the columns: bases of MPM, finite elements, and all that is neither.
+pub(crate) const COLUMNS: [&str; 8] =
+    ["linear", "uGIMP", "cpGIMP", "CPDI", "quadratic", "cubic", "FEM", "other"];
+
+const BASES: [&str; 6] =
+    ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
+
+/// Findings of a suite, one text for each of [`COLUMNS`]; a dash where it has no such case.
+pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
+    std::array::from_fn(|column| {
+        let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
+        finding(&cases.collect::<Vec<_>>())
+    })
+}
+
+fn column_of(case: &CaseOutcome) -> usize {
+    let basis = case.settings.iter().find(|(key, _)| key == "basis");
+    let known = basis.and_then(|(_, basis)| BASES.iter().position(|known| known == basis));
+    match known {
+        Some(column) => column,
+        None if case.subject == "fem" => 6,
+        None => 7,
+    }
+}
+
+/// Orders as a range, then what is no order.
+fn finding(cases: &[&CaseOutcome]) -> String {
+    let orders = cases.iter().filter_map(|case| order(case));
+    let [least, most] = orders.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], order| {
+        [least.min(order), most.max(order)]
+    });
+    let mut parts = Vec::new();
+    let [low, high] = [least, most].map(|order| format!("{order:.2}"));
+    if least <= most {
+        parts.push(if low == high { low } else { format!("{low}..{high}") });
+    }
+    for word in cases.iter().filter_map(|case| word(case)) {
+        if !parts.contains(&word) {
+            parts.push(word);
+        }
+    }
+    if parts.is_empty() { "-".to_owned() } else { parts.join("/") }
+}
+
+/// The order of a case that has one.
+fn order(case: &CaseOutcome) -> Option<f64> {
+    let study = case.convergence().filter(|_| word(case).is_none())?;
+    study.judgement.order.map(|order| order.value)
+}
+
+/// The word for a case whose verdict is no order.
+fn word(case: &CaseOutcome) -> Option<String> {
+    if !case.lacks.is_empty() {
+        return Some("n/a".to_owned());
+    }
+    let Some(study) = case.convergence() else { return Some(of_other_study(case)) };
+    if study.bounded {
+        return Some("bounded".to_owned());
+    }
+    of_verdict(study).map(str::to_owned)
+}
+
+fn of_verdict(study: &Convergence) -> Option<&'static str> {
+    match study.judgement.verdict {
+        Verdict::Converging | Verdict::TooLow | Verdict::TooGood => None,
+        Verdict::AtFloor => Some("floor"),
+        Verdict::PreAsymptotic => Some("unsettled"),
+        Verdict::Oscillatory => Some("oscillates"),
+        Verdict::Divergent => Some("grows"),
+        Verdict::Failed => Some("breaks"),
+        Verdict::TooFewLevels => Some("few levels"),
+    }
+}
+
+fn of_other_study(case: &CaseOutcome) -> String {
+    let study: Option<&StabilityStudy> = case.results();
+    match study {
+        Some(study) if study.sought.is_some() => "limit".to_owned(),
+        Some(_) if case.fails() => "unstable".to_owned(),
+        Some(_) => "stable".to_owned(),
+        None => "see report".to_owned(),
+    }
+}

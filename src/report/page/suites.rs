@@ -1,0 +1,60 @@
+//! The matrix of problems and methods, by which a reader finds a suite.
+
+use super::cells::scrolled;
+use super::html::Html;
+use super::links::id;
+use super::source::SuiteSource;
+use crate::report::matrix::{COLUMNS, findings};
+use std::collections::BTreeMap;
+
+const LEGEND: &str = "Orders that the methods of a basis come to, over all transfers and schemes. \
+    Instead of an order: floor, the error stops falling; grows, it grows with refinement; breaks, a \
+    run fails; unsettled or oscillates, no order can be told; bounded, held to bounds and not to an \
+    order; stable, unstable or limit, of a stability study.";
+
+/// Sources in the order of the page: by group, then as they came.
+pub(super) fn grouped<'a>(sources: &[SuiteSource<'a>]) -> BTreeMap<&'a str, Vec<SuiteSource<'a>>> {
+    let mut groups: BTreeMap<&str, Vec<SuiteSource<'_>>> = BTreeMap::new();
+    for source in sources {
+        groups.entry(&source.outcome.group).or_default().push(*source);
+    }
+    groups
+}
+
+/// Every suite with what came of it, below the name of its group.
+pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
+    let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
+    let heads = Html::tag(
+        "tr",
+        &[],
+        ["Suite"].iter().chain(&COLUMNS).map(|name| head(name)).collect::<Vec<_>>(),
+    );
+    let columns = (COLUMNS.len() + 1).to_string();
+    let group = |(group, sources): (&str, Vec<SuiteSource<'_>>)| {
+        let name = Html::tag("th", &[("scope", "rowgroup"), ("colspan", &columns)], group);
+        let mut rows = vec![Html::tag("tr", &[("class", "group")], name)];
+        rows.extend(sources.iter().map(row));
+        Html::block("tbody", &[], &rows)
+    };
+    let mut table = vec![Html::tag("thead", &[], heads)];
+    table.extend(grouped(sources).into_iter().map(group));
+    let parts = [
+        Html::tag("h2", &[], "Suites"),
+        Html::tag("p", &[("class", "muted")], LEGEND),
+        scrolled("Suites and bases", Html::block("table", &[], &table)),
+    ];
+    Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
+}
+
+fn row(source: &SuiteSource<'_>) -> Html {
+    let outcome = source.outcome;
+    let link = Html::tag("a", &[("href", &format!("#{}", id(outcome)))], outcome.suite.as_str());
+    let title = Html::tag("span", &[("class", "muted title")], format!(" {}", outcome.title));
+    let mut name = vec![link, title];
+    if !outcome.passed() {
+        name.push(Html::tag("b", &[("class", "bad")], " FAIL"));
+    }
+    let mut cells = vec![Html::tag("th", &[("scope", "row")], name)];
+    cells.extend(findings(outcome).map(|finding| Html::tag("td", &[], finding)));
+    Html::tag("tr", &[], cells)
+}

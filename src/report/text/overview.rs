@@ -1,0 +1,98 @@
+//! All suites at a glance: the matrix of problems and methods, and a line for each case.
+
+use super::prose::{paragraph_lines, row};
+use super::table::Table;
+use super::verdicts;
+use crate::report::matrix::{COLUMNS, findings};
+use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
+
+const HOW_TO_READ: &str = "The matrix has, for each suite, the orders that the methods of a basis \
+    come to, over all transfers and schemes. Instead of an order: `floor` the error stops falling, \
+    `grows` it grows with refinement, `breaks` a run fails, `unsettled` and `oscillates` no order \
+    can be told; `bounded` figures are held to bounds and not to an order; `stable`, `unstable` and \
+    `limit` are those of stability studies. A suite's report says why.";
+
+/// Suites at a glance: the result, and the matrix of problems and methods.
+pub fn glance(outcomes: &[SuiteOutcome]) -> String {
+    let mut lines = Vec::new();
+    let cases: Vec<CaseOutcome> = outcomes.iter().flat_map(|suite| suite.cases.clone()).collect();
+    row(&mut lines, "result", &verdicts::result(&cases));
+    for suite in outcomes.iter().filter(|suite| !suite.passed()) {
+        row(&mut lines, "NOT AS EXPECTED", &suite.suite);
+    }
+    if let Some(estimates) = estimates(&cases) {
+        row(&mut lines, "estimates", &estimates);
+    }
+    lines.push(String::new());
+    paragraph_lines(&mut lines, HOW_TO_READ);
+    grouped(&mut lines, outcomes, matrix(outcomes));
+    lines.join("\n") + "\n"
+}
+
+/// The overview of suites: what they are at a glance, then a line for each case, in groups.
+pub fn overview(outcomes: &[SuiteOutcome]) -> String {
+    let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
+    lines.push(glance(outcomes).trim_end().to_owned());
+    for (group, suites) in groups(outcomes) {
+        lines.extend([String::new(), format!("== {group} ==")]);
+        for suite in suites {
+            lines.extend([String::new(), format!("  {}: {}", suite.suite, suite.title)]);
+            let rankings = super::cost::by_transfers(suite);
+            lines.extend(verdicts::table(&suite.cases, &rankings));
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// How often grid convergence indices cover the true error, which they are meant to do in 95 of 100
+/// cases.
+fn estimates(cases: &[CaseOutcome]) -> Option<String> {
+    let studies = cases.iter().filter_map(CaseOutcome::convergence);
+    let covered = |study: &Convergence| -> Vec<bool> {
+        study.richardson.iter().filter_map(|triple| Some(study.covered(triple)?.1)).collect()
+    };
+    let all: Vec<bool> = studies.flat_map(covered).collect();
+    let hits = all.iter().filter(|covered| **covered).count();
+    (!all.is_empty()).then(|| {
+        format!(
+            "a grid convergence index (meant for 95 of 100) covers the true error at the observed \
+             place in {hits} of {} triples of levels; reports show both",
+            all.len()
+        )
+    })
+}
+
+/// Suites by group, groups and suites in the order of their names.
+pub(crate) fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
+    let mut groups: Vec<(&str, Vec<&SuiteOutcome>)> = Vec::new();
+    for suite in outcomes {
+        match groups.iter_mut().find(|(group, _)| *group == suite.group) {
+            Some((_, suites)) => suites.push(suite),
+            None => groups.push((&suite.group, vec![suite])),
+        }
+    }
+    groups.sort_by_key(|(group, _)| *group);
+    groups
+}
+
+/// Lines of the matrix: headings, then one line for each suite in the order of the groups.
+fn matrix(outcomes: &[SuiteOutcome]) -> Vec<String> {
+    let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
+    let row = |suite: &&SuiteOutcome| {
+        std::iter::once(suite.suite.clone()).chain(findings(suite)).collect()
+    };
+    let suites = groups(outcomes).into_iter().flat_map(|(_, suites)| suites);
+    let rows = suites.map(|suite| row(&suite)).collect();
+    Table::of_cells(headings.collect(), rows).without_empty_columns().lines()
+}
+
+/// Lines of a table, the names of groups above those of their suites.
+fn grouped(lines: &mut Vec<String>, outcomes: &[SuiteOutcome], table: Vec<String>) {
+    let mut table = table.into_iter();
+    lines.push(String::new());
+    lines.extend(table.next());
+    for (group, suites) in groups(outcomes) {
+        lines.push(group.to_owned());
+        lines.extend(table.by_ref().take(suites.len()));
+    }
+}
