@@ -17,6 +17,23 @@ pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     })
 }
 
+/// Suites in which methods of a column fail, with how: their errors grow or stop falling, or their
+/// runs break.
+pub(crate) fn failures(outcomes: &[SuiteOutcome], column: usize) -> Vec<(&str, Vec<String>)> {
+    let of_suite = |outcome: &'_ SuiteOutcome| {
+        let cases = outcome.cases.iter().filter(|case| column_of(case) == column && case.fails());
+        let mut words: Vec<String> = Vec::new();
+        for word in cases.map(|case| word(case).unwrap_or_else(|| "low order".to_owned())) {
+            if !words.contains(&word) {
+                words.push(word);
+            }
+        }
+        words
+    };
+    let named = outcomes.iter().map(|outcome| (outcome.suite.as_str(), of_suite(outcome)));
+    named.filter(|(_, words)| !words.is_empty()).collect()
+}
+
 fn column_of(case: &CaseOutcome) -> usize {
     let basis = case.settings.iter().find(|(key, _)| key == "basis");
     let known = basis.and_then(|(_, basis)| BASES.iter().position(|known| known == basis));

@@ -12,6 +12,7 @@
 //! documents  what they say that the repository does not have
 //! pages      tables of documents that follow from the suites
 //! exercises  pages that add a member to a family, and how they are applied
+//! licences   of the crates that a build takes in
 //! defects    seeded defects: what they change is still there
 //! ```
 //!
@@ -22,6 +23,7 @@ mod documents;
 mod exercises;
 mod graph;
 mod import;
+mod licences;
 mod markdown;
 mod pages;
 mod planted;
@@ -305,6 +307,24 @@ fn the_page_of_the_judge_has_its_numbers() {
     let (rows, wrong) = pages::constants(&page, &source::texts("src/verify", ".rs"));
     assert!(rows > 15, "{} has {rows} numbers: are they still found?", pages::JUDGE);
     assert!(wrong.is_empty(), "{}: not in the sources:\n{}", pages::JUDGE, wrong.join("\n"));
+}
+
+#[test]
+fn dependencies_ask_for_no_more_than_to_be_named() {
+    for (expression, is_known) in [
+        ("MIT OR GPL-3.0", true),
+        ("(MIT OR Apache-2.0) AND Unicode-3.0", true),
+        ("MIT AND GPL-3.0", false),
+        ("GPL-3.0", false),
+        ("", false),
+    ] {
+        assert_eq!(licences::is_known(expression), is_known, "{expression}");
+    }
+    let found = licences::of_dependencies();
+    assert!(found.len() > 50, "{} crates: are they still found?", found.len());
+    let unknown: Vec<_> =
+        found.iter().filter(|(_, licence)| !licences::is_known(licence)).collect();
+    assert!(unknown.is_empty(), "licences to be looked at: {unknown:?}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use super::verdicts;
-use crate::report::matrix::{COLUMNS, findings};
+use crate::report::matrix::{COLUMNS, failures, findings};
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
 
 const HOW_TO_READ: &str = "The matrix has, for each suite, the orders that the methods of a basis \
@@ -22,6 +22,18 @@ pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     }
     if let Some(estimates) = estimates(&cases) {
         row(&mut lines, "estimates", &estimates);
+    }
+    lines.extend([
+        String::new(),
+        "  Suites in which methods of a basis fail, as expected or not:".to_owned(),
+    ]);
+    for (column, basis) in COLUMNS.iter().enumerate() {
+        let failing = failures(outcomes, column).into_iter();
+        let failing = failing.map(|(suite, words)| format!("{suite} ({})", words.join(", ")));
+        let failing = failing.collect::<Vec<_>>().join(", ");
+        if !failing.is_empty() {
+            row(&mut lines, basis, &failing);
+        }
     }
     lines.push(String::new());
     paragraph_lines(&mut lines, HOW_TO_READ);

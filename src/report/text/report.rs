@@ -24,9 +24,6 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     row(&mut lines, "source", &outcome.source);
     problem(&mut lines, &outcome.statement);
     in_common(&mut lines, &outcome.cases);
-    for ranking in &rankings {
-        row(&mut lines, "cheapest for", &cost::cheapest(ranking));
-    }
     for kind in KINDS {
         kind.tables(&mut lines, &outcome.cases);
     }

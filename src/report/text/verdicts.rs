@@ -1,5 +1,6 @@
 //! The head of a report: what came of each case, and what was expected of it.
 
+use super::cost::cheapest;
 use super::merged::{merged, together};
 use super::prose::{hanging, row};
 use super::table::Table;
@@ -17,6 +18,9 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
         for unmet in &case.unmet {
             row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
         }
+    }
+    for ranking in rankings {
+        row(lines, "cheapest for", &cheapest(ranking));
     }
     lines.push(String::new());
     let expectations = expectations(cases);
