@@ -33,8 +33,8 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The cheapest method for each target, in one line.
-pub(crate) fn cheapest(ranking: &Ranking) -> String {
+/// The cheapest method for each target that is reached, in one line.
+pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
@@ -42,8 +42,8 @@ pub(crate) fn cheapest(ranking: &Ranking) -> String {
         Some(format!("{target:e} by {} with {work}", row.method.name))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
-    let best = if best.is_empty() { "no target is reached".to_owned() } else { best.join("; ") };
-    format!("{best} {TRANSFERS}; errors {}", relative(ranking))
+    (!best.is_empty())
+        .then(|| format!("{} {TRANSFERS}; errors {}", best.join("; "), relative(ranking)))
 }
 
 /// The size that errors are divided by.

@@ -19,8 +19,8 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
             row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
         }
     }
-    for ranking in rankings {
-        row(lines, "cheapest for", &cheapest(ranking));
+    for methods in rankings.iter().filter_map(cheapest) {
+        row(lines, "cheapest for", &methods);
     }
     lines.push(String::new());
     let expectations = expectations(cases);

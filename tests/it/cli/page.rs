@@ -14,7 +14,7 @@ fn a_page_has_verdicts_figures_reports_and_the_suites() {
         "<p class=\"ok finding\">2 suites, ",
         "<section id=\"suite-short-bar\" class=\"suite\">",
         "<a href=\"#case-short-bar.fem-linear-lumped\">",
-        "<b id=\"case-short-bar.fem-linear-lumped\">== fem-linear-lumped ==</b>",
+        "<tr id=\"case-short-bar.fem-linear-lumped\">",
         "<figure id=\"figure-short-bar.1\">",
         "<figure id=\"figure-grid-crossing.1\">",
         "<details id=\"yaml-short-bar\"><summary>bar.yaml</summary>",
