@@ -8,11 +8,12 @@ const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
 /// Words by which a line begins, apart from spaces.
-const FIRST: [(&str, Style); 7] = [
+const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
     ("note:", REMARK),
     ("help:", REMARK),
+    ("NOT AS EXPECTED ", BAD),
     ("FAIL ", BAD),
     ("pass ", GOOD),
     ("n/a ", DOUBTFUL),
@@ -56,6 +57,7 @@ mod tests {
         "  result            as expected\n",
         "  result            \u{1b}[32mas expected\u{1b}[0m\n"
     )]
+    #[case("  NOT AS EXPECTED a: b\n", "  \u{1b}[1m\u{1b}[31mNOT AS EXPECTED \u{1b}[0ma: b\n")]
     #[case("  about      what is as expected\n", "  about      what is as expected\n")]
     #[case("passing\n", "passing\n")]
     fn verdicts_are_painted_and_nothing_else(#[case] text: &str, #[case] wanted: &str) {
