@@ -120,23 +120,26 @@ fn named(name: &str) -> Option<Sources> {
     if let Some(suite) = embedded::source(name) {
         return Some(vec![suite]);
     }
-    let of_group = |source: &Result<Source, Diagnostic>| {
-        source.as_ref().is_ok_and(|source| source.group() == name)
-    };
-    let group: Sources = embedded::names().filter_map(embedded::source).filter(of_group).collect();
+    let of_group = embedded::paths().filter(|(_, path)| Source::group_of(path) == name);
+    let group: Sources = of_group.filter_map(|(suite, _)| embedded::source(suite)).collect();
     Some(group).filter(|group| !group.is_empty())
 }
 
 /// The suites whose name, or group and name, fit a pattern.
 fn fitting(glob: &str) -> Sources {
-    let fits = |source: &Result<Source, Diagnostic>| {
-        let source = source.as_ref().map_or_else(Diagnostic::file, Source::name);
-        let path = Path::new(source).with_extension("");
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let group = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        pattern::fits(glob, &name) || pattern::fits(glob, &format!("{group}/{name}"))
+    let fits = |path: &Path| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let in_group = format!("{}/{name}", Source::group_of(path));
+        pattern::fits(glob, &name) || pattern::fits(glob, &in_group)
     };
-    let found: Sources = everything().into_iter().filter(fits).collect();
+    let folder = Path::new(FOLDER);
+    let found: Sources = if folder.is_dir() {
+        let files = Source::files_in(folder).unwrap_or_default().into_iter();
+        files.filter(|path| fits(path)).map(Source::read).collect()
+    } else {
+        let fitting = embedded::paths().filter(|(_, path)| fits(path));
+        fitting.filter_map(|(suite, _)| embedded::source(suite)).collect()
+    };
     if !found.is_empty() {
         return found;
     }
@@ -176,13 +179,12 @@ fn unknown(name: &str) -> Diagnostic {
 /// the embedded ones.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
-    let text = |part: Option<&OsStr>| Some(part?.to_string_lossy().into_owned());
-    let groups = local.iter().filter_map(|path| text(path.parent()?.file_name()));
-    let mut names: Vec<String> = local.iter().filter_map(|path| text(path.file_stem())).collect();
+    let groups = local.iter().map(|path| Source::group_of(path));
+    let name = |path: &PathBuf| Some(path.file_stem()?.to_string_lossy().into_owned());
+    let mut names: Vec<String> = local.iter().filter_map(name).collect();
     names.extend(embedded::names().map(ToOwned::to_owned));
     names.extend(groups.filter(|group| group != FOLDER));
-    let embedded = embedded::names().filter_map(|name| embedded::source(name)?.ok());
-    names.extend(embedded.map(|source| source.group()));
+    names.extend(embedded::paths().map(|(_, path)| Source::group_of(path)));
     names
 }
 

@@ -85,10 +85,14 @@ impl Source {
         Ok(paths)
     }
 
-    /// Name of the folder that holds the file: of suites of one folder, what they have in common.
-    pub fn group(&self) -> String {
-        let folder = Path::new(&self.name).parent().and_then(Path::file_name);
+    /// Name of the folder that holds a file: of suites of one folder, what they have in common.
+    pub fn group_of(file: &Path) -> String {
+        let folder = file.parent().and_then(Path::file_name);
         folder.unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    pub(crate) fn group(&self) -> String {
+        Self::group_of(Path::new(&self.name))
     }
 
     /// The file as the user named it.
