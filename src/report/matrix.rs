@@ -1,5 +1,6 @@
 //! The matrix of problems and methods: what each basis comes to in each suite.
 
+use crate::report::grouping::{distinct, grouped};
 use crate::verify::{CaseOutcome, Convergence, StabilityStudy, SuiteOutcome, Verdict};
 
 /// Headings of the columns: bases of MPM, finite elements, and all that is neither.
@@ -8,6 +9,23 @@ pub(crate) const COLUMNS: [&str; 8] =
 
 const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
+
+/// Meaning of the findings.
+pub(crate) const LEGEND: &str = "The matrix has, for each suite, the orders that the methods of a \
+    basis come to, over all transfers and schemes. Instead of an order: `floor` the error stops \
+    falling, `grows` it grows with refinement, `breaks` a run fails, `unsettled` and `oscillates` no \
+    order can be told; `bounded` figures are held to bounds and not to an order; `stable`, `unstable` \
+    and `limit` are those of stability studies. A suite's report says why.";
+
+/// Suites, or what has one, by the groups of their names.
+pub(crate) fn by_group<'a, T>(
+    all: impl IntoIterator<Item = T>,
+    suite: impl Fn(&T) -> &'a SuiteOutcome,
+) -> Vec<(&'a str, Vec<T>)> {
+    let mut groups = grouped(all.into_iter().map(|one| (suite(&one).group.as_str(), one)));
+    groups.sort_by_key(|(group, _)| *group);
+    groups
+}
 
 /// Findings of a suite, one text for each of [`COLUMNS`]; a dash where it has no such case.
 pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
@@ -22,21 +40,15 @@ pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
 pub(crate) fn failures(outcomes: &[SuiteOutcome], column: usize) -> Vec<(&str, Vec<String>)> {
     let of_suite = |outcome: &'_ SuiteOutcome| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column && case.fails());
-        let mut words: Vec<String> = Vec::new();
-        for word in cases.map(|case| word(case).unwrap_or_else(|| "low order".to_owned())) {
-            if !words.contains(&word) {
-                words.push(word);
-            }
-        }
-        words
+        distinct(cases.map(|case| word(case).unwrap_or_else(|| "low order".to_owned())))
     };
     let named = outcomes.iter().map(|outcome| (outcome.suite.as_str(), of_suite(outcome)));
     named.filter(|(_, words)| !words.is_empty()).collect()
 }
 
 fn column_of(case: &CaseOutcome) -> usize {
-    let basis = case.settings.iter().find(|(key, _)| key == "basis");
-    let known = basis.and_then(|(_, basis)| BASES.iter().position(|known| known == basis));
+    let basis = case.setting("basis");
+    let known = basis.and_then(|basis| BASES.iter().position(|known| *known == basis));
     match known {
         Some(column) => column,
         None if case.subject == "fem" => 6,
@@ -55,11 +67,7 @@ fn finding(cases: &[&CaseOutcome]) -> String {
     if least <= most {
         parts.push(if low == high { low } else { format!("{low}..{high}") });
     }
-    for word in cases.iter().filter_map(|case| word(case)) {
-        if !parts.contains(&word) {
-            parts.push(word);
-        }
-    }
+    parts.extend(distinct(cases.iter().filter_map(|case| word(case))));
     if parts.is_empty() { "-".to_owned() } else { parts.join("/") }
 }
 

@@ -10,6 +10,7 @@
 pub(crate) mod columns;
 pub mod compare;
 pub mod figure;
+pub(crate) mod grouping;
 pub(crate) mod json;
 pub(crate) mod matrix;
 pub mod page;

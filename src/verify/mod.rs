@@ -59,7 +59,7 @@ pub use expectation::{Bounds, CaseFindings, Expectation};
 pub use internal_force::{ForceRow, InternalForce};
 pub use order::axis::Axis;
 pub use order::fit::Interval;
-pub(crate) use order::format_number::format_number;
+pub(crate) use order::format_number::{format_number, rounded};
 pub use order::hypothesis::OrderHypothesis;
 pub use order::level::Level;
 pub use order::pairwise::observed_order;

@@ -76,6 +76,11 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
+    /// The setting of its method that is called so.
+    pub fn setting(&self, name: &str) -> Option<&str> {
+        self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+    }
+
     /// Whether the method fails at the problem, be that expected of it or not.
     pub fn fails(&self) -> bool {
         self.study.as_deref().is_some_and(StudyResults::fails)

@@ -2,7 +2,9 @@
 
 use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::report::json::number::number;
-use crate::verify::{Axis, Conserved, Convergence, History, Interval, LevelOutcome, RunResult};
+use crate::verify::{
+    Axis, Conserved, Convergence, History, Interval, Level, LevelOutcome, RunResult, observed_order,
+};
 use serde_json::Value;
 
 /// A level of a study.
@@ -56,7 +58,7 @@ pub(crate) fn names(study: &Convergence) -> Vec<String> {
 pub(crate) fn judged<'a>() -> LevelColumn<'a> {
     let about = "the judged error; between brackets if its level does not count for the verdict";
     LevelColumn::new("error", "judged", about, |row| {
-        let cell = row.error(row.level.error, row.level.error);
+        let cell = row.error(row.level.error);
         let text = if row.counts() { cell.text } else { format!("({})", cell.text) };
         Cell { text, ..cell }
     })
@@ -86,22 +88,18 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
 
 /// The largest error at the end, where another norm is judged, and its order.
 pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
-    let linf = |study: &Convergence, level: &LevelOutcome| {
-        let norms = if study.of.is_primary() { &level.run.at_end } else { &level.run.errors };
-        norms.linf
-    };
     let about = "order of linf between the next coarser level and this one";
     [
-        LevelColumn::text("linf", "largest error", move |row| {
-            let shown = row.error(linf(row.study, row.level), f64::NAN).text;
-            (shown != row.error(row.level.error, f64::NAN).text).then_some(shown)
+        LevelColumn::text("linf", "largest error", |row| {
+            let shown = row.error(row.linf()).text;
+            (shown != row.error(row.level.error).text).then_some(shown)
         }),
-        LevelColumn::text("its order", about, move |row| {
-            let coarse = row.index.checked_sub(1).and_then(|k| row.study.levels.get(k))?;
-            let [coarser, own] = [coarse, row.level].map(|level| linf(row.study, level));
-            let refined = libm::log(coarse.spacing / row.level.spacing);
-            let order = libm::log(coarser / own) / refined;
-            (row.study.compared && order.is_finite()).then(|| decimals(2)(order))
+        LevelColumn::text("its order", about, |row| {
+            let index = row.index.checked_sub(1)?;
+            let coarser = LevelRow { study: row.study, index, level: row.study.levels.get(index)? };
+            let level = |row: &LevelRow<'_>| Level::new(row.level.spacing, row.linf());
+            let order = observed_order(&level(&coarser), &level(row));
+            order.filter(|_| row.study.compared).map(decimals(2))
         }),
     ]
 }
@@ -179,6 +177,15 @@ pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
+/// The relative drift of a conserved sum, the largest of all levels.
+pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
+    LevelColumn::text(sum.words(), "largest drift of any level", move |row| {
+        let of_level = |row: &LevelRow<'_>| row.level.run.drift.map_or(0.0, |drift| drift.of(sum));
+        let most = rows(row.study).max_by(|a, b| of_level(a).total_cmp(&of_level(b)))?;
+        Some(drift(sum).cell(&most).text)
+    })
+}
+
 /// The rate of the energy, d ln E/dt (1/s).
 pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     let column = |heading: &'static str, about: &'static str, end: fn(Interval) -> f64| {
@@ -228,11 +235,15 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 
 impl LevelRow<'_> {
     /// An error, where there is a truth to compare with.
-    fn error(&self, text: f64, json: f64) -> Cell {
-        let compared = |value| self.study.compared.then_some(value);
-        let cell = Cell::number(compared(text), scientific);
-        let json = compared(json).map_or(Value::Null, number);
-        Cell { json, ..cell }.or_failed(self.level.run.failure.as_ref())
+    fn error(&self, error: f64) -> Cell {
+        let error = self.study.compared.then_some(error);
+        Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
+    }
+
+    /// The largest error at the end, of the primary unknown of the study.
+    fn linf(&self) -> f64 {
+        let run = &self.level.run;
+        if self.study.of.is_primary() { run.at_end.linf } else { run.errors.linf }
     }
 
     /// A figure of which one digit says enough; a dash also on a failed level that has none.
@@ -246,9 +257,4 @@ impl LevelRow<'_> {
         let window = self.study.judgement.window.as_deref().unwrap_or_default();
         self.level.usable && (window.contains(&self.index) || self.study.bounded)
     }
-}
-
-/// The relative drift of a conserved sum, as a number.
-pub(crate) fn drift_of(row: &LevelRow<'_>, sum: Conserved) -> f64 {
-    row.level.run.drift.map_or(0.0, |drift| drift.of(sum))
 }

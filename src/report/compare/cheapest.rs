@@ -8,14 +8,15 @@ use super::document::{RankingDocument, ReportDocument};
 use super::number::JsonNumber;
 
 /// Targets whose least work moved, the more expensive first; a target that no method reaches any
-/// more before all.
+/// more before all. Suites of another problem are left out.
 pub(super) fn compare(
     old: &ReportDocument,
     new: &ReportDocument,
     tolerance: f64,
+    is_of_another: impl Fn(&str) -> bool,
 ) -> Vec<CheapestMove> {
     let mut moves = Vec::new();
-    for before in &old.suites {
+    for before in old.suites.iter().filter(|suite| !is_of_another(&suite.name)) {
         let Some(after) = new.suites.iter().find(|suite| suite.name == before.name) else {
             continue;
         };

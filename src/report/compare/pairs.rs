@@ -15,13 +15,14 @@ pub(super) fn compare(
     let mut before: BTreeMap<String, &CaseDocument> =
         old.cases().map(|(suite, case)| (name(suite, case), case)).collect();
     let problems = problem::compare(old, new);
+    let is_of_another = |suite: &str| problems.iter().any(|problem| problem.suite == suite);
     let mut moved = Vec::new();
     let mut unchanged = 0;
     for (suite, case) in new.cases() {
         let name = name(suite, case);
         match before.remove(&name) {
             None => moved.push(lone(name, Rank::New, case)),
-            Some(old) if problems.iter().any(|problem| problem.suite == suite.name) => {
+            Some(old) if is_of_another(&suite.name) => {
                 moved.push(of_another_problem(name, old, case));
             }
             Some(old) => match pair(name, old, case, tolerance) {
@@ -32,12 +33,7 @@ pub(super) fn compare(
     }
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
-    let mut cheapest = cheapest::compare(old, new, tolerance);
-    let is_another = |place: &str| {
-        let suite = place.split([':', ',', ' ']).next().unwrap_or(place);
-        problems.iter().any(|problem| problem.suite == suite)
-    };
-    cheapest.retain(|target| !is_another(&target.place));
+    let cheapest = cheapest::compare(old, new, tolerance, is_of_another);
     ReportComparison { problems, moved, cheapest, unchanged, tolerance }
 }
 

@@ -2,6 +2,7 @@
 
 use super::changes::ProblemMove;
 use super::document::{ReportDocument, SuiteDocument};
+use crate::report::grouping::distinct;
 
 /// Rows of a statement that choose levels and figures, which are compared one by one.
 const OF_LEVELS: [&str; 7] =
@@ -22,17 +23,13 @@ fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String;
     if old.is_empty() || new.is_empty() {
         return Vec::new();
     }
-    let mut keys: Vec<&String> = Vec::new();
-    for (key, _) in old.iter().chain(new) {
-        if !keys.contains(&key) && !OF_LEVELS.contains(&key.as_str()) {
-            keys.push(key);
-        }
-    }
+    let keys = distinct(old.iter().chain(new).map(|(key, _)| key));
+    let keys = keys.into_iter().filter(|key| !OF_LEVELS.contains(&key.as_str()));
     let of = |rows: &[(String, String)], key: &String| {
         let values = rows.iter().filter(|(known, _)| known == key).map(|(_, value)| value.as_str());
         let values: Vec<&str> = values.collect();
         if values.is_empty() { "nothing".to_owned() } else { values.join("; ") }
     };
-    let rows = keys.into_iter().map(|key| [key.clone(), of(old, key), of(new, key)]);
+    let rows = keys.map(|key| [key.clone(), of(old, key), of(new, key)]);
     rows.filter(|[_, old, new]| old != new).collect()
 }

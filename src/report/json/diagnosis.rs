@@ -1,8 +1,8 @@
 //! A diagnosis as JSON.
 
-use super::number::number;
+use super::number::{interval, number};
 use crate::report::text::diagnosis::paragraph;
-use crate::verify::{ChangedRun, Diagnosis, Interval};
+use crate::verify::{ChangedRun, Diagnosis};
 use serde_json::{Value, json};
 
 /// The finding on one case: the paragraph of the text, and the runs behind it.
@@ -29,9 +29,4 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
         "runs": found.runs.iter().map(run).collect::<Vec<_>>(),
         "beyond_budget": found.skipped,
     })
-}
-
-fn interval(order: Interval) -> Value {
-    let Interval { value, low, high } = order;
-    json!({"value": number(value), "low": number(low), "high": number(high)})
 }

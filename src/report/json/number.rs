@@ -1,5 +1,6 @@
 //! Numbers in JSON, which has no word for those that are not finite.
 
+use crate::verify::Interval;
 use serde_json::{Value, json};
 
 /// The number, or one of the strings `"nan"`, `"inf"`, `"-inf"`.
@@ -9,6 +10,12 @@ pub(crate) fn number(value: f64) -> Value {
         v if v.is_infinite() => json!(if v > 0.0 { "inf" } else { "-inf" }),
         v => json!(v),
     }
+}
+
+/// An estimate with both ends of its interval.
+pub(crate) fn interval(estimate: Interval) -> Value {
+    let Interval { value, low, high } = estimate;
+    json!({"value": number(value), "low": number(low), "high": number(high)})
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ mod tests;
 
 pub use source::SuiteSource;
 
+use crate::report::matrix::by_group;
 use crate::verify::CaseOutcome;
 use html::Html;
 
@@ -41,8 +42,8 @@ const POLICY: &str =
 /// become the ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![head(sources, refused), suites::matrix(sources), verdicts::table(sources)];
-    let ordered = suites::grouped(sources).into_values().flatten();
-    body.extend(ordered.map(|source| section::section(&source)));
+    let groups = by_group(sources, |source| source.outcome);
+    body.extend(groups.into_iter().flat_map(|(_, of_group)| of_group).map(section::section));
     body.push(foot());
     let page = Html::block(
         "html",

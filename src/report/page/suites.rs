@@ -4,22 +4,7 @@ use super::cells::scrolled;
 use super::html::Html;
 use super::links::id;
 use super::source::SuiteSource;
-use crate::report::matrix::{COLUMNS, findings};
-use std::collections::BTreeMap;
-
-const LEGEND: &str = "Orders that the methods of a basis come to, over all transfers and schemes. \
-    Instead of an order: floor, the error stops falling; grows, it grows with refinement; breaks, a \
-    run fails; unsettled or oscillates, no order can be told; bounded, held to bounds and not to an \
-    order; stable, unstable or limit, of a stability study.";
-
-/// Sources in the order of the page: by group, then as they came.
-pub(super) fn grouped<'a>(sources: &[SuiteSource<'a>]) -> BTreeMap<&'a str, Vec<SuiteSource<'a>>> {
-    let mut groups: BTreeMap<&str, Vec<SuiteSource<'_>>> = BTreeMap::new();
-    for source in sources {
-        groups.entry(&source.outcome.group).or_default().push(*source);
-    }
-    groups
-}
+use crate::report::matrix::{COLUMNS, LEGEND, by_group, findings};
 
 /// Every suite with what came of it, below the name of its group.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
@@ -30,17 +15,17 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
         ["Suite"].iter().chain(&COLUMNS).map(|name| head(name)).collect::<Vec<_>>(),
     );
     let columns = (COLUMNS.len() + 1).to_string();
-    let group = |(group, sources): (&str, Vec<SuiteSource<'_>>)| {
+    let group = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let name = Html::tag("th", &[("scope", "rowgroup"), ("colspan", &columns)], group);
         let mut rows = vec![Html::tag("tr", &[("class", "group")], name)];
-        rows.extend(sources.iter().map(row));
+        rows.extend(sources.into_iter().map(row));
         Html::block("tbody", &[], &rows)
     };
     let mut table = vec![Html::tag("thead", &[], heads)];
-    table.extend(grouped(sources).into_iter().map(group));
+    table.extend(by_group(sources, |source| source.outcome).into_iter().map(group));
     let parts = [
         Html::tag("h2", &[], "Suites"),
-        Html::tag("p", &[("class", "muted")], LEGEND),
+        Html::tag("p", &[("class", "muted")], LEGEND.replace('`', "")),
         scrolled("Suites and bases", Html::block("table", &[], &table)),
     ];
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)

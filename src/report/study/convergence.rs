@@ -4,10 +4,10 @@ use super::kind::{StudyReport, members, studies};
 use crate::report::columns::{json_object, level};
 use crate::report::figure::drawing::Figure;
 use crate::report::figure::study;
-use crate::report::json::number::number;
+use crate::report::json::number::{interval, number};
 use crate::report::text::levels;
 use crate::verify::{
-    Axis, CaseOutcome, Convergence, Floor, FloorCause, Interval, LevelOutcome, Probe, SuiteOutcome,
+    Axis, CaseOutcome, Convergence, Floor, FloorCause, LevelOutcome, Probe, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
@@ -61,10 +61,6 @@ fn remarks(study: &Convergence) -> Vec<String> {
 /// Quantity and norm of the judged errors, and what they are divided by.
 fn judge(study: &Convergence) -> Value {
     json!({"of": study.of.name(), "norm": study.norm, "scale": study.scale.map(number)})
-}
-
-fn interval(order: Interval) -> Value {
-    json!({"value": number(order.value), "low": number(order.low), "high": number(order.high)})
 }
 
 fn floor(floor: &Floor) -> Value {

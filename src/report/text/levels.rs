@@ -1,11 +1,13 @@
 //! Tables of convergence studies: a row for each case, a column for each level.
 
 use super::extrapolation::richardson;
-use super::merged::{merged, shared};
+use super::merged::shared;
 use super::prose::row;
 use super::table::Table;
+use crate::report::columns::TableColumn;
 use crate::report::columns::level::{self, LevelColumn, LevelRow, NamedStudy};
-use crate::verify::{Axis, Conserved, Convergence, LevelOutcome, format_number};
+use crate::report::grouping::{distinct, grouped};
+use crate::verify::{Axis, Convergence, LevelOutcome, format_number};
 
 /// Errors with their orders, figures of the finest levels, drifts, rates and extrapolations.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
@@ -65,14 +67,9 @@ fn setting(study: &Convergence) -> String {
 
 /// Studies in groups with levels of the same names, judged by the same figure.
 fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
-    let mut groups: Vec<(String, Vec<NamedStudy<'a>>)> = Vec::new();
-    for (name, study) in studies.iter().filter(|(_, study)| study.compared) {
-        let key = format!("{} {}", study.judged(), level::names(study).join(" "));
-        match groups.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, group)) => group.push((name, study)),
-            None => groups.push((key, vec![(name, study)])),
-        }
-    }
+    let key = |study: &Convergence| format!("{} {}", study.judged(), level::names(study).join(" "));
+    let compared = studies.iter().filter(|(_, study)| study.compared);
+    let groups = grouped(compared.map(|named| (key(named.1), *named)));
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
@@ -114,41 +111,31 @@ fn by_level<'a>(
         let cells = columns.iter().flat_map(of_column);
         std::iter::once((*name).to_owned()).chain(cells).collect()
     };
-    let rows = merged(studies.iter().map(cells).collect());
+    let rows = studies.iter().map(cells).collect();
     lines.extend([String::new(), format!("  {heading}")]);
-    lines.extend(Table::of_cells(headings, rows).without_empty_columns().lines());
+    lines.extend(Table::of_cells(headings, rows).without_empty_columns().merged().lines());
 }
 
-/// A table with a row for each case, `row` being the level that stands for its study.
+/// The name of a case and a level of its study.
+type NamedLevel<'a> = (&'a str, LevelRow<'a>);
+
+/// A table of the finest levels, a row for each case, under a heading; none if nothing is in it.
 fn by_case<'a>(
+    lines: &mut Vec<String>,
+    heading: &str,
     studies: &[NamedStudy<'a>],
-    columns: &[LevelColumn<'a>],
-    row: impl Fn(&'a Convergence, &LevelColumn<'a>) -> Option<LevelRow<'a>>,
-) -> Option<Vec<String>> {
-    let headings = columns.iter().map(|column| column.heading.to_string());
-    let headings = std::iter::once("case".to_owned()).chain(headings).collect();
-    let cells = |(name, study): &NamedStudy<'a>| {
-        let cell = |column: &LevelColumn<'a>| {
-            row(study, column).map_or("-".to_owned(), |row| column.cell(&row).text)
-        };
-        std::iter::once((*name).to_owned()).chain(columns.iter().map(cell)).collect()
-    };
-    let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
-    let rows = without_zeros(rows);
-    let is_empty = rows.iter().all(|row: &Vec<String>| row[1..].iter().all(|cell| cell == "-"));
-    (!is_empty).then(|| Table::of_cells(headings, merged(rows)).without_empty_columns().lines())
-}
-
-/// Counts of which all are zero as dashes.
-fn without_zeros(mut rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
-    for column in 0..rows.first().map_or(0, Vec::len) {
-        if rows.iter().all(|row| row[column] == "0") {
-            for row in &mut rows {
-                "-".clone_into(&mut row[column]);
-            }
-        }
+    columns: impl IntoIterator<Item = LevelColumn<'a>>,
+) {
+    let name = TableColumn::text("case", "case", |(name, _): &NamedLevel<'a>| *name);
+    let figures = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));
+    let columns: Vec<_> = std::iter::once(name.flush_left()).chain(figures).collect();
+    let finest = |(name, study): &NamedStudy<'a>| Some((*name, level::rows(study).last()?));
+    let table = Table::new(&columns, studies.iter().filter_map(finest));
+    let table = table.without_columns_of("0").without_empty_columns().merged();
+    if table.columns() > 1 {
+        lines.extend([String::new(), format!("  {heading}")]);
+        lines.extend(table.lines());
     }
-    rows
 }
 
 /// Figures of the finest levels.
@@ -156,45 +143,27 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of_levels = ["particles", "steps"];
     let counters = level::counters().into_iter();
     let counters = counters.filter(|column| !of_levels.contains(&column.heading.as_ref()));
-    let columns: Vec<LevelColumn<'_>> =
-        level::largest_error().into_iter().chain(counters).collect();
-    if let Some(table) = by_case(studies, &columns, |study, _| level::rows(study).last()) {
-        lines.extend([String::new(), "  on the finest level".to_owned()]);
-        lines.extend(table);
-    }
+    let columns = level::largest_error().into_iter().chain(counters);
+    by_case(lines, "on the finest level", studies, columns);
 }
 
-/// How far totals drifted, of those that the suite asks for: the most over all levels.
+/// How far totals drifted, of those that the suite asks for.
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
-    let mut sums: Vec<Conserved> = Vec::new();
-    for sum in studies.iter().flat_map(|(_, study)| &study.drifts) {
-        if !sums.contains(sum) {
-            sums.push(*sum);
-        }
-    }
+    let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
     let asked: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| !study.drifts.is_empty()).copied().collect();
-    let columns: Vec<LevelColumn<'_>> = sums.iter().map(|sum| level::drift(*sum)).collect();
-    let most = |study, column: &LevelColumn<'_>| {
-        let sum = sums.iter().find(|sum| sum.words() == column.heading)?;
-        level::rows(study)
-            .max_by(|a, b| level::drift_of(a, *sum).total_cmp(&level::drift_of(b, *sum)))
-    };
-    if let Some(table) = by_case(&asked, &columns, most) {
-        lines.extend([String::new(), "  relative drift, the largest of all levels".to_owned()]);
-        lines.extend(table);
-    }
+    by_case(
+        lines,
+        "relative drift, the largest of all levels",
+        &asked,
+        sums.into_iter().map(level::largest_drift),
+    );
 }
 
 /// How fast the energy grows or decays on the finest level, where the suite asks.
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let rated: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| study.rated).copied().collect();
-    if let Some(table) =
-        by_case(&rated, &level::energy_rate(), |study, _| level::rows(study).last())
-    {
-        let heading = "  rate of the energy on the finest level, d ln E/dt (1/s)".to_owned();
-        lines.extend([String::new(), heading]);
-        lines.extend(table);
-    }
+    let heading = "rate of the energy on the finest level, d ln E/dt (1/s)";
+    by_case(lines, heading, &rated, level::energy_rate());
 }

@@ -1,5 +1,7 @@
 //! Rows of a table by name, of which those that show the same are one.
 
+use crate::report::grouping::{distinct, grouped};
+
 /// Longest name that rows are given together.
 const LONGEST: usize = 44;
 
@@ -29,13 +31,7 @@ pub(crate) fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {
-    let mut found: Vec<(String, Vec<&str>)> = Vec::new();
-    for (name, value) in values {
-        match found.iter_mut().find(|(known, _)| *known == value) {
-            Some((_, names)) => names.push(name),
-            None => found.push((value, vec![name])),
-        }
-    }
+    let found = grouped(values.map(|(name, value)| (value, name)));
     let most = found.iter().map(|(_, names)| names.len()).max().unwrap_or(0);
     let single = found.len() == 1;
     found.into_iter().map(move |(value, names)| {
@@ -72,14 +68,7 @@ pub(crate) fn together(names: &[&str]) -> String {
 /// Names of all combinations of words: `mpm-{linear,ugimp}-{flip,apic}`.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
-        let mut found: Vec<&String> = Vec::new();
-        for name in names {
-            let word = name.get(k)?;
-            if !found.contains(&word) {
-                found.push(word);
-            }
-        }
-        Some(found)
+        names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)
     };
     let choices: Vec<Vec<&String>> = (0..first.len()).map(at).collect::<Option<_>>()?;
     let is_whole = names.iter().all(|name| name.len() == first.len())

@@ -3,19 +3,13 @@
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use super::verdicts;
-use crate::report::matrix::{COLUMNS, failures, findings};
+use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, findings};
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
-
-const HOW_TO_READ: &str = "The matrix has, for each suite, the orders that the methods of a basis \
-    come to, over all transfers and schemes. Instead of an order: `floor` the error stops falling, \
-    `grows` it grows with refinement, `breaks` a run fails, `unsettled` and `oscillates` no order \
-    can be told; `bounded` figures are held to bounds and not to an order; `stable`, `unstable` and \
-    `limit` are those of stability studies. A suite's report says why.";
 
 /// Suites at a glance: the result, and the matrix of problems and methods.
 pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     let mut lines = Vec::new();
-    let cases: Vec<CaseOutcome> = outcomes.iter().flat_map(|suite| suite.cases.clone()).collect();
+    let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
     row(&mut lines, "result", &verdicts::result(&cases));
     for suite in outcomes.iter().filter(|suite| !suite.passed()) {
         row(&mut lines, "NOT AS EXPECTED", &suite.suite);
@@ -36,7 +30,7 @@ pub fn glance(outcomes: &[SuiteOutcome]) -> String {
         }
     }
     lines.push(String::new());
-    paragraph_lines(&mut lines, HOW_TO_READ);
+    paragraph_lines(&mut lines, LEGEND);
     grouped(&mut lines, outcomes, matrix(outcomes));
     lines.join("\n") + "\n"
 }
@@ -50,7 +44,7 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
         for suite in suites {
             lines.extend([String::new(), format!("  {}: {}", suite.suite, suite.title)]);
             let rankings = super::cost::by_transfers(suite);
-            lines.extend(verdicts::table(&suite.cases, &rankings));
+            lines.extend(verdicts::table(&suite.cases, &rankings).lines());
         }
     }
     lines.join("\n") + "\n"
@@ -58,8 +52,8 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
 
 /// How often grid convergence indices cover the true error, which they are meant to do in 95 of 100
 /// cases.
-fn estimates(cases: &[CaseOutcome]) -> Option<String> {
-    let studies = cases.iter().filter_map(CaseOutcome::convergence);
+fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
+    let studies = cases.iter().filter_map(|case| case.convergence());
     let covered = |study: &Convergence| -> Vec<bool> {
         study.richardson.iter().filter_map(|triple| Some(study.covered(triple)?.1)).collect()
     };
@@ -74,17 +68,9 @@ fn estimates(cases: &[CaseOutcome]) -> Option<String> {
     })
 }
 
-/// Suites by group, groups and suites in the order of their names.
-pub(crate) fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
-    let mut groups: Vec<(&str, Vec<&SuiteOutcome>)> = Vec::new();
-    for suite in outcomes {
-        match groups.iter_mut().find(|(group, _)| *group == suite.group) {
-            Some((_, suites)) => suites.push(suite),
-            None => groups.push((&suite.group, vec![suite])),
-        }
-    }
-    groups.sort_by_key(|(group, _)| *group);
-    groups
+/// Suites by group, in the order of names.
+fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
+    by_group(outcomes, |suite| suite)
 }
 
 /// Lines of the matrix: headings, then one line for each suite in the order of the groups.

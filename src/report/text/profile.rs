@@ -4,15 +4,18 @@ use crate::subject::{Column, Holder, Profile};
 
 /// Rows of name and text.
 pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
-    let effects = profile.effects.join(", ");
-    let effects = if effects.is_empty() { "none".to_owned() } else { effects };
     vec![
-        ("effects", effects),
+        ("effects", effects(profile, "none")),
         ("a step", profile.passes.join(", ")),
         ("particle visits", visits(profile)),
         ("particle memory", memory(profile, Holder::Particle)),
         ("node memory", memory(profile, Holder::Node)),
     ]
+}
+
+/// The effects that are active, or the word for none.
+pub(crate) fn effects(profile: &Profile, none: &str) -> String {
+    if profile.effects.is_empty() { none.to_owned() } else { profile.effects.join(", ") }
 }
 
 /// Differences of two profiles: the lines of the first that the second has not, and those that it

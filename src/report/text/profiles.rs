@@ -1,5 +1,6 @@
 //! Memory and passes of a step, of all methods with all effects that suites put to them.
 
+use super::profile::effects;
 use super::prose::{hanging, paragraph_lines};
 use super::table::Table;
 use crate::subject::{Holder, Profile};
@@ -38,17 +39,9 @@ fn dimension(profile: &Profile) -> usize {
     position.map_or(0, |column| column.bytes / size_of::<f64>())
 }
 
-fn setting<'a>(case: &'a CaseOutcome, key: &str) -> Option<&'a str> {
-    case.settings.iter().find(|(known, _)| known == key).map(|(_, value)| value.as_str())
-}
-
 fn named(case: &CaseOutcome, keys: &[&str]) -> String {
-    let words: Vec<&str> = keys.iter().filter_map(|key| setting(case, key)).collect();
+    let words: Vec<&str> = keys.iter().filter_map(|key| case.setting(key)).collect();
     if words.is_empty() { case.subject.to_owned() } else { words.join(" ") }
-}
-
-fn effects(profile: &Profile) -> String {
-    if profile.effects.is_empty() { "nothing".to_owned() } else { profile.effects.join(", ") }
 }
 
 /// One row for each method and list of effects.
@@ -68,7 +61,7 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
             node[0].to_string(),
             node[1].to_string(),
             (visits / particles).to_string(),
-            effects(profile),
+            effects(profile, "nothing"),
         ])
     };
     let rows: BTreeSet<Vec<String>> = cases.iter().filter_map(|case| row(&case)).collect();

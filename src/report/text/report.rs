@@ -4,6 +4,7 @@
 //! depends on the machine.
 
 use super::merged::shared;
+use super::profile::effects;
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use super::{cost, verdicts};
@@ -74,10 +75,7 @@ fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     if !settings.is_empty() {
         row(lines, "methods", &settings.join("; "));
     }
-    let of_case = |case: &CaseOutcome| {
-        let effects = case.profile.as_ref()?.effects.join(", ");
-        Some(if effects.is_empty() { "none".to_owned() } else { effects })
-    };
+    let of_case = |case: &'_ CaseOutcome| Some(effects(case.profile.as_ref()?, "none"));
     let cases = cases.iter().filter_map(|case| Some((case.case.as_str(), of_case(case)?)));
     for (effects, names) in shared(cases) {
         row(lines, "effects", &format!("{effects}{names}"));

@@ -1,7 +1,7 @@
 //! Tables of a stability study.
 
-use super::merged::merged;
 use super::table::Table;
+use crate::report::columns::TableColumn;
 use crate::report::columns::stability::{self, limit_of, limit_text};
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
@@ -87,22 +87,20 @@ pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     study.rows.iter().filter_map(remark).collect()
 }
 
+/// The name of a case and a row of its study.
+type NamedRow<'a> = (&'a str, &'a StabilityRow);
+
 fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let columns = stability::trials(first);
-    let headings = columns.iter().map(|column| column.heading.to_string());
-    let headings = std::iter::once("case".to_owned()).chain(headings).collect();
-    let row = |name: &str, row: &StabilityRow| {
-        let cells = columns.iter().map(|column| column.cell(row).text);
-        std::iter::once(name.to_owned()).chain(cells).collect()
-    };
-    let of_study = |(name, study): &NamedSweep<'_>| {
-        let rows = study.rows.iter().filter(|row| row.trial.is_some());
-        rows.map(|one| row(name, one)).collect::<Vec<_>>()
-    };
-    let rows = merged(studies.iter().flat_map(of_study).collect());
+    let name = TableColumn::text("case", "case", |(name, _): &NamedRow<'_>| *name);
+    let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(*row)));
+    let columns: Vec<_> = std::iter::once(name.flush_left()).chain(of_row).collect();
+    let rows =
+        studies.iter().flat_map(|(name, study)| study.rows.iter().map(move |row| (*name, row)));
+    let tried = rows.filter(|(_, row)| row.trial.is_some());
     lines.push(String::new());
-    lines.extend(Table::of_cells(headings, rows).flush_left(&["verdict"]).lines());
+    lines.extend(Table::new(&columns, tried).merged().lines());
 }
 
 fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
@@ -119,7 +117,7 @@ fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
         let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
         if rows.iter().any(|row: &Vec<String>| row[1..].iter().any(|cell| cell != "-")) {
             lines.push(String::new());
-            lines.extend(Table::of_cells(headings, merged(rows)).lines());
+            lines.extend(Table::of_cells(headings, rows).merged().lines());
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Plain aligned tables.
 
+use super::merged::merged;
 use crate::report::columns::TableColumn;
 use std::borrow::Borrow;
 
@@ -45,11 +46,23 @@ impl Table {
         self.rows.len() == 1
     }
 
+    /// Rows that show the same as one, whose first cell has the names of all.
+    pub(crate) fn merged(mut self) -> Self {
+        let rows = self.rows.split_off(1);
+        self.rows.extend(merged(rows));
+        self
+    }
+
     /// Drops every column with dashes in all rows but the headings.
-    pub(crate) fn without_empty_columns(mut self) -> Self {
+    pub(crate) fn without_empty_columns(self) -> Self {
+        self.without_columns_of("-")
+    }
+
+    /// Drops every column that has but this cell below its heading.
+    pub(crate) fn without_columns_of(mut self, cell: &str) -> Self {
         let columns = self.rows[0].len();
         let kept: Vec<bool> =
-            (0..columns).map(|c| self.rows[1..].iter().any(|row| row[c] != "-")).collect();
+            (0..columns).map(|c| self.rows[1..].iter().any(|row| row[c] != cell)).collect();
         for row in &mut self.rows {
             let mut column = kept.iter();
             row.retain(|_| *column.next().unwrap_or(&true));
@@ -57,6 +70,11 @@ impl Table {
         let mut column = kept.iter();
         self.flush_left.retain(|_| *column.next().unwrap_or(&true));
         self
+    }
+
+    /// Number of columns.
+    pub(crate) fn columns(&self) -> usize {
+        self.rows[0].len()
     }
 
     /// The lines, each indented by two spaces.

@@ -1,19 +1,20 @@
 //! The head of a report: what came of each case, and what was expected of it.
 
 use super::cost::cheapest;
-use super::merged::{merged, together};
+use super::merged::together;
 use super::prose::{hanging, row};
 use super::table::Table;
-use crate::report::columns::{decimals, scientific};
+use crate::report::columns::{TableColumn, decimals, scientific};
+use crate::report::grouping::{distinct, grouped};
 use crate::report::study::KINDS;
-use crate::verify::{CaseOutcome, Floor, FloorCause, Interval, LevelOutcome, Ranking};
+use crate::verify::{CaseOutcome, Ranking};
 
 /// The target error whose cost stands beside each verdict.
 const TARGET: f64 = 1e-3;
 
 /// Verdicts, what is not as expected, expectations with their reasons, and remarks.
 pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[Ranking]) {
-    row(lines, "result", &result(cases));
+    row(lines, "result", &result(&cases.iter().collect::<Vec<_>>()));
     for case in cases {
         for unmet in &case.unmet {
             row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
@@ -24,7 +25,8 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
     }
     lines.push(String::new());
     let expectations = expectations(cases);
-    lines.extend(of_rows(merged(rows(cases, rankings, &expectations))));
+    let verdicts = Table::new(&columns(rankings, &expectations), cases);
+    lines.extend(verdicts.without_empty_columns().merged().lines());
     lines.push(String::new());
     for (k, expectation) in expectations.iter().enumerate() {
         hanging(lines, &letter(k), expectation);
@@ -33,7 +35,7 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
 }
 
 /// How many cases came as expected, in words.
-pub(crate) fn result(cases: &[CaseOutcome]) -> String {
+pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     let count = |word: &str| cases.iter().filter(|case| case.result() == word).count();
     let (expected, failing) =
         (count("pass"), cases.iter().filter(|case| case.passed() && case.fails()).count());
@@ -63,55 +65,47 @@ pub(crate) fn result(cases: &[CaseOutcome]) -> String {
 }
 
 /// The table of verdicts, a line for each case.
-pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Vec<String> {
-    of_rows(rows(cases, rankings, &[]))
+pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Table {
+    Table::new(&columns(rankings, &[]), cases).without_empty_columns()
 }
 
-fn of_rows(rows: Vec<Vec<String>>) -> Vec<String> {
-    let headings = [
-        "case",
-        "verdict",
-        "order",
-        "95 %",
-        "finest error",
-        "floor",
-        "for 1e-3",
-        "found",
-        "",
-        "result",
-    ];
-    let table = Table::of_cells(headings.map(str::to_owned).to_vec(), rows);
-    let left = ["verdict", "95 %", "floor", "found", "", "result"];
-    table.without_empty_columns().flush_left(&left).lines()
-}
+type CaseColumn<'a> = TableColumn<'a, CaseOutcome>;
 
-fn rows(cases: &[CaseOutcome], rankings: &[Ranking], expectations: &[String]) -> Vec<Vec<String>> {
-    let dash = || "-".to_owned();
-    let cells = |case: &CaseOutcome| {
-        let study = case.convergence();
-        let order = study.and_then(|study| study.judgement.order);
-        let finest = study.filter(|study| study.compared).and_then(|study| study.levels.last());
-        let error = |level: &LevelOutcome| match &level.run.failure {
-            Some(_) => "failed".to_owned(),
-            None => scientific(level.error),
-        };
-        let floor = study.and_then(|study| study.floor.as_ref()).and_then(Floor::cause);
-        let interval = |order: Interval| format!("[{:.2}, {:.2}]", order.low, order.high);
-        let expected = expectations.iter().position(|known| *known == case.expectation());
-        vec![
-            case.case.clone(),
-            case.verdict.clone(),
-            order.map_or_else(dash, |order| decimals(2)(order.value)),
-            order.map_or_else(dash, interval),
-            finest.map_or_else(dash, error),
-            floor.map_or_else(dash, |floor| FloorCause::name(floor).to_owned()),
-            cost(case, rankings).map_or_else(dash, |times| format!("{times:.2} x")),
-            if study.is_some() { dash() } else { case.reason.clone() },
-            expected.map_or_else(dash, letter),
-            outcome(case).to_owned(),
-        ]
-    };
-    cases.iter().map(cells).collect()
+/// Columns of verdicts, with letters for the expectations.
+fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColumn<'a>; 10] {
+    let order = |case: &CaseOutcome| case.convergence()?.judgement.order;
+    [
+        CaseColumn::text("case", "case", |case| case.case.clone()).flush_left(),
+        CaseColumn::text("verdict", "verdict", |case| case.verdict.clone()).flush_left(),
+        CaseColumn::text("order", "observed order", move |case| {
+            order(case).map(|order| decimals(2)(order.value))
+        }),
+        CaseColumn::text("95 %", "interval of the order", move |case| {
+            order(case).map(|order| format!("[{:.2}, {:.2}]", order.low, order.high))
+        })
+        .flush_left(),
+        CaseColumn::text("finest error", "judged error", |case| {
+            let level = case.convergence().filter(|study| study.compared)?.levels.last()?;
+            let failed = level.run.failure.is_some();
+            Some(if failed { "failed".to_owned() } else { scientific(level.error) })
+        }),
+        CaseColumn::text("floor", "axis whose error a floor is", |case| {
+            Some(case.convergence()?.floor.as_ref()?.cause()?.name())
+        })
+        .flush_left(),
+        CaseColumn::text("for 1e-3", "work over that of the cheapest", |case| {
+            cost(case, rankings).map(|times| format!("{times:.2} x"))
+        }),
+        CaseColumn::text("found", "figures of other studies", |case| {
+            case.convergence().is_none().then(|| case.reason.clone())
+        })
+        .flush_left(),
+        CaseColumn::text("", "expectation", |case| {
+            expectations.iter().position(|known| *known == case.expectation()).map(letter)
+        })
+        .flush_left(),
+        CaseColumn::text("result", "whether all is as expected", outcome).flush_left(),
+    ]
 }
 
 /// The work of a case for the target error, over that of the cheapest one.
@@ -133,13 +127,7 @@ fn outcome(case: &CaseOutcome) -> &'static str {
 
 /// The different expectations of a suite, in the order of its cases.
 fn expectations(cases: &[CaseOutcome]) -> Vec<String> {
-    let mut found = Vec::new();
-    for expectation in cases.iter().map(CaseOutcome::expectation) {
-        if !found.contains(&expectation) {
-            found.push(expectation);
-        }
-    }
-    found
+    distinct(cases.iter().map(CaseOutcome::expectation))
 }
 
 /// `a` to `z`, then `aa`.
@@ -150,21 +138,15 @@ fn letter(k: usize) -> String {
 
 /// Remarks on single cases beside their figures.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-    let of_case = |case: &CaseOutcome| {
-        let of_kinds = KINDS.iter().flat_map(|kind| kind.remarks(case));
-        let name = case.case.clone();
-        of_kinds.map(move |remark| vec![name.clone(), remark]).collect::<Vec<_>>()
+    let of_case = |case: &'_ CaseOutcome| {
+        let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));
+        remarks.collect::<Vec<_>>()
     };
-    let mut remarks: Vec<(Vec<&str>, String)> = Vec::new();
-    let rows: Vec<Vec<String>> = cases.iter().flat_map(of_case).collect();
-    for row in &rows {
-        match remarks.iter_mut().find(|(_, remark)| *remark == row[1]) {
-            Some((names, _)) => names.push(&row[0]),
-            None => remarks.push((vec![&row[0]], row[1].clone())),
-        }
-    }
-    for (names, remark) in &remarks {
-        hanging(lines, "-", &format!("{}: {remark}", together(names)));
+    let all = cases
+        .iter()
+        .flat_map(|case| of_case(case).into_iter().map(|remark| (remark, case.case.as_str())));
+    for (remark, names) in grouped(all) {
+        hanging(lines, "-", &format!("{}: {remark}", together(&names)));
     }
 }
 

@@ -1,7 +1,7 @@
 //! A convergence study in rows of name and value.
 
 use crate::study::describe::amplitude::amplitude;
-use crate::study::describe::statement::{Rows, push, rounded, scene};
+use crate::study::describe::statement::{Rows, push, scene, stated};
 use crate::study::describe::{heat, linearisation};
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::compile::wording::shown;
@@ -137,7 +137,7 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
     rows.retain(|(key, _)| has_walls || key != "walls");
-    push(&mut rows, "until", &format!("t = {} s", rounded(case.until)));
+    push(&mut rows, "until", &format!("t = {} s", stated(case.until)));
     push(&mut rows, "against", case.against.words());
     rows
 }

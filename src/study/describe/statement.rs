@@ -6,6 +6,7 @@ use crate::subject::PlaneState;
 use crate::suite::compile::load::fields::sources;
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::{Scene, Suite};
+use crate::verify::rounded;
 
 /// Parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
@@ -33,12 +34,12 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
 }
 
 fn corner(c: &[f64]) -> String {
-    c.iter().map(|x| rounded(*x).to_string()).collect::<Vec<_>>().join(", ")
+    c.iter().map(|x| stated(*x).to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// A number to six significant digits, as many as a problem is stated to.
-pub(crate) fn rounded(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
+/// A number to as many digits as a problem is stated to.
+pub(crate) fn stated(x: f64) -> f64 {
+    rounded(x, 6)
 }
 
 fn body(scene: &Scene) -> String {
@@ -48,7 +49,7 @@ fn body(scene: &Scene) -> String {
         (Some(outline), Some(_)) => outline.row(),
         (Some(outline), None) => outline.row() + ", free rims",
     };
-    format!("{body}, density {}", rounded(scene.density))
+    format!("{body}, density {}", stated(scene.density))
 }
 
 /// Several bodies, and what couples them.
@@ -120,7 +121,7 @@ fn initial_stress(scene: &Scene) -> String {
 /// The material's name and parameters: `linear elastic, E = 100 Pa, nu = 0`.
 fn material(plan: &MaterialPlan) -> String {
     let written = |(MaterialParameter { symbol, unit, .. }, value): (MaterialParameter, f64)| {
-        format!(", {symbol} = {} {unit}", rounded(value)).trim_end().to_owned()
+        format!(", {symbol} = {} {unit}", stated(value)).trim_end().to_owned()
     };
     let parameters: String = plan.parameters().into_iter().map(written).collect();
     plan.name().replace('_', " ") + &parameters

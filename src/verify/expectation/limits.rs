@@ -1,7 +1,7 @@
 //! Bounds on figures, for expectations that name no order: one level is enough for them.
 
 use crate::verify::conservation::{ConservationError, Conserved};
-use crate::verify::order::format_number::format_number;
+use crate::verify::order::format_number::{format_number, rounded};
 
 /// Bounds, themselves allowed. Every one that is given must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -65,7 +65,7 @@ impl Check {
 
     fn bound(&self) -> String {
         let most = if self.least { "at least" } else { "at most" };
-        format!("{} {most} {:e}", self.what, four_digits(self.limit))
+        format!("{} {most} {:e}", self.what, rounded(self.limit, DIGITS))
     }
 
     fn got(&self) -> String {
@@ -73,10 +73,8 @@ impl Check {
     }
 }
 
-/// A bound as a text shows it.
-fn four_digits(bound: f64) -> f64 {
-    format!("{bound:.3e}").parse().unwrap_or(bound)
-}
+/// Digits of a bound in a text.
+const DIGITS: usize = 4;
 
 impl Limits {
     /// Whether nothing is limited.
@@ -102,8 +100,10 @@ impl Limits {
             let drift = measured.drift.map(|drift| drift.of(*sum));
             if !drift.is_some_and(|drift| drift <= *limit) {
                 let (sum, got) = (sum.words(), drift.map_or("none".to_owned(), rounding));
-                let line =
-                    format!("expected drift of {sum} at most {:e}, got {got}", four_digits(*limit));
+                let line = format!(
+                    "expected drift of {sum} at most {:e}, got {got}",
+                    rounded(*limit, DIGITS)
+                );
                 let measured = drift.is_some_and(|drift| !drift.is_nan());
                 unmet.push(UnmetFigure { line, measured });
             }
@@ -131,7 +131,7 @@ impl Limits {
             }
         }
         parts.extend(grouped.into_iter().map(|(limit, sums)| {
-            format!("drift of {} at most {:e}", sums.join(", "), four_digits(limit))
+            format!("drift of {} at most {:e}", sums.join(", "), rounded(limit, DIGITS))
         }));
         parts.extend(self.energy_rate.map(rate_within));
         parts

@@ -21,6 +21,11 @@ pub(crate) fn format_number(x: f64) -> String {
     }
 }
 
+/// The number rounded to so many significant digits.
+pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
+}
+
 /// An order with its interval: `2.003 [1.991, 2.015]`.
 pub(crate) fn order(order: &Interval) -> String {
     let Interval { value, low, high } = order;
