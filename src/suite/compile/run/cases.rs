@@ -157,6 +157,12 @@ fn possible(
     spec: &MethodSpec,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
+    if let MethodSpec::Mpm { mass: Some(mass), .. } = spec
+        && mass.as_slice().contains(&MassName::Consistent)
+        && let Some(message) = against_consistent_mass(plan)
+    {
+        return Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message));
+    }
     match spec {
         MethodSpec::Fem { .. } if plan.scene.dimension() != 1 => {
             let d = plan.scene.dimension();
@@ -165,12 +171,6 @@ fn possible(
         MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => {
             Err(evaluator
                 .diagnostic(path, "the reference FEM is one bar, and the scene lists bodies"))
-        }
-        MethodSpec::Mpm { mass: Some(mass), .. }
-            if mass.as_slice().contains(&MassName::Consistent)
-                && let Some(message) = against_consistent_mass(plan) =>
-        {
-            Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message))
         }
         MethodSpec::Mpm { frame: Some(frame), .. }
             if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
