@@ -4,6 +4,8 @@
 //! comes from a file and is escaped: it can be no markup, mention nobody and end no table.
 
 use super::changes::{CheapestMove, Moved, Rank, ReportComparison};
+use super::escape::{code, prose};
+use super::pictures::Pictures;
 use super::row::{cases, notes, targets};
 use crate::report::columns::TableColumn;
 
@@ -12,6 +14,15 @@ const MOST_ROWS: usize = 40;
 
 /// The comment.
 pub fn markdown(comparison: &ReportComparison) -> String {
+    comment(comparison, "")
+}
+
+/// The comment with pictures side by side, whose files are found at the address `at`.
+pub fn illustrated(comparison: &ReportComparison, pictures: &Pictures, at: &str) -> String {
+    comment(comparison, &pictures.markdown(at))
+}
+
+fn comment(comparison: &ReportComparison, pictures: &str) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
     if !comparison.problems.is_empty() {
@@ -37,6 +48,7 @@ pub fn markdown(comparison: &ReportComparison) -> String {
         };
     }
     page += &cheapest(comparison);
+    page += pictures;
     let share = comparison.tolerance;
     page + &format!(
         "\n<sub>Figures count as equal within a share of {share}. Transfers between particles and nodes are the measure of work.</sub>\n"
@@ -83,26 +95,4 @@ fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
         table += &format!("\nand {more} more\n");
     }
     table
-}
-
-/// A code span, in which nothing is markup but its own end, and the bar of a table.
-fn code(text: &str) -> String {
-    let plain = |c: char| match c {
-        '`' => "'".to_owned(),
-        '|' => "\\|".to_owned(),
-        c if c.is_control() => "\u{fffd}".to_owned(),
-        c => c.to_string(),
-    };
-    format!("`{}`", text.chars().map(plain).collect::<String>())
-}
-
-/// Text without any markup; the arrow of a change is one.
-fn prose(text: &str) -> String {
-    let plain = |c: char| match c {
-        c if c.is_control() => "\u{fffd}".to_owned(),
-        c if "&<>|`*_[]()~@#!\\:/".contains(c) => format!("&#{};", u32::from(c)),
-        c => c.to_string(),
-    };
-    let arrows = text.split(" -> ").map(|part| part.chars().map(plain).collect::<String>());
-    arrows.collect::<Vec<_>>().join(" → ")
 }

@@ -13,10 +13,12 @@ mod changes;
 mod cheapest;
 mod document;
 mod equal_error;
+mod escape;
 mod json;
 mod markdown;
 mod number;
 mod pairs;
+mod pictures;
 mod problem;
 mod row;
 mod snapshots;
@@ -29,7 +31,8 @@ mod tests;
 pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use json::json;
-pub use markdown::markdown;
+pub use markdown::{illustrated, markdown};
+pub use pictures::Pictures;
 pub use text::text;
 
 /// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of

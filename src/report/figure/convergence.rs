@@ -25,6 +25,30 @@ pub struct ConvergencePlot {
     pub reference_orders: Vec<f64>,
 }
 
+/// The series of one figure and the levels among them that failed.
+struct PlottedLines<'a> {
+    lines: Vec<SeriesLine<'a>>,
+    failures: Vec<FailedLevel>,
+}
+
+impl<'a> PlottedLines<'a> {
+    fn new(figure: &'a ConvergencePlot) -> Self {
+        let lines: Vec<_> = figure.series.iter().enumerate().map(SeriesLine::new).collect();
+        let failures = series::failures(&lines);
+        Self { lines, failures }
+    }
+
+    /// Everything which legend and triangles must keep clear of.
+    fn paths(&self, plot: &Plot) -> Vec<Vec<Pt>> {
+        let lines = self.lines.iter().map(|line| line.path(plot).iter().map(|p| p.0).collect());
+        let failures = self.failures.iter().map(|failure| {
+            let at = failure.place(plot);
+            vec![(at.0, plot.frame.y), at]
+        });
+        lines.chain(failures).filter(|path: &Vec<Pt>| !path.is_empty()).collect()
+    }
+}
+
 /// Where legend and slope triangles have found their places.
 struct Arrangement {
     legend: Option<PlacedLegend>,
@@ -34,11 +58,20 @@ struct Arrangement {
 impl ConvergencePlot {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        let lines: Vec<SeriesLine> = self.series.iter().enumerate().map(SeriesLine::new).collect();
-        let failures = series::failures(&lines);
-        let plot = self.plot(&lines, &failures);
-        let paths = paths(&plot, &lines, &failures);
-        let legend = Legend::new(series::entries(&lines));
+        self.to_svg_beside(&[self])
+    }
+
+    /// The figure with axes, legend and slope triangles where they are in all of `figures`, itself
+    /// among them: drawings of the same series that are compared by eye.
+    pub(crate) fn to_svg_beside(&self, figures: &[&Self]) -> String {
+        let all: Vec<PlottedLines> =
+            figures.iter().map(|figure| PlottedLines::new(figure)).collect();
+        let PlottedLines { lines, failures } = PlottedLines::new(self);
+        let plot = self.plot(&all);
+        let paths: Vec<Vec<Pt>> = all.iter().flat_map(|one| one.paths(&plot)).collect();
+        let mut entries = series::names(&lines);
+        entries.extend(series::marks(all.iter().flat_map(|one| &one.lines)));
+        let legend = Legend::new(entries);
         let orders = self.orders();
         let arrangement = arrange(&plot, &paths, legend.as_ref(), &orders);
 
@@ -46,7 +79,7 @@ impl ConvergencePlot {
         let mut layers: Vec<SvgElement> = triangles.iter().flatten().map(Triangle::draw).collect();
         layers.extend(lines.iter().map(|line| line.draw(&plot)));
         layers.extend(failures.iter().map(|failure| failure.draw(&plot)));
-        if paths.is_empty() {
+        if lines.iter().all(|line| line.count() == 0) {
             layers.push(plot.placeholder("no data"));
         }
         if let (Some(legend), Some(placed)) = (&legend, &arrangement.legend) {
@@ -71,11 +104,11 @@ impl ConvergencePlot {
         self.reference_orders.iter().copied().filter(positive).collect()
     }
 
-    fn plot(&self, lines: &[SeriesLine], failures: &[FailedLevel]) -> Plot<'_> {
-        let sizes = lines.iter().flat_map(SeriesLine::sizes);
-        let errors = lines.iter().flat_map(SeriesLine::errors);
-        let x = Scale::log(sizes, Pad { lo: 0.06, hi: 0.06 });
-        let y = Scale::log(errors, Pad { lo: 0.06, hi: 0.06 + series::headroom(failures) });
+    fn plot(&self, all: &[PlottedLines]) -> Plot<'_> {
+        let lines = || all.iter().flat_map(|one| &one.lines);
+        let head = all.iter().map(|one| series::headroom(&one.failures)).fold(0.0, f64::max);
+        let x = Scale::log(lines().flat_map(SeriesLine::sizes), Pad { lo: 0.06, hi: 0.06 });
+        let y = Scale::log(lines().flat_map(SeriesLine::errors), Pad { lo: 0.06, hi: 0.06 + head });
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
         Plot::new(titles, x, y)
     }
@@ -87,16 +120,6 @@ fn omission(count: usize) -> String {
         "Without a place on logarithmic axes: {count} {points} (error zero or negative, or h not \
          positive)."
     )
-}
-
-/// Everything which legend and triangles must keep clear of.
-fn paths(plot: &Plot, lines: &[SeriesLine], failures: &[FailedLevel]) -> Vec<Vec<Pt>> {
-    let lines = lines.iter().map(|line| line.path(plot).iter().map(|p| p.0).collect());
-    let failures = failures.iter().map(|failure| {
-        let at = failure.place(plot);
-        vec![(at.0, plot.frame.y), at]
-    });
-    lines.chain(failures).filter(|path: &Vec<Pt>| !path.is_empty()).collect()
 }
 
 /// The first place of the legend beside which as many triangles fit as would without it; a place

@@ -67,12 +67,17 @@ pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
     rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / HEIGHT).min(LARGEST_HEAD)
 }
 
-/// The legend: every series, then every mark which occurs.
-pub(super) fn entries(lines: &[SeriesLine]) -> Vec<LegendEntry> {
-    let series = lines.iter().map(SeriesLine::entry);
-    let occurs = |mark| lines.iter().any(|l| l.levels.iter().any(|level| level.mark == mark));
+/// The series in the legend.
+pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
+    lines.iter().map(SeriesLine::entry).collect()
+}
+
+/// The marks in the legend: each which occurs.
+pub(super) fn marks<'a>(lines: impl IntoIterator<Item = &'a SeriesLine<'a>>) -> Vec<LegendEntry> {
+    let levels: Vec<&PlotLevel> = lines.into_iter().flat_map(|line| &line.levels).collect();
+    let occurs = |mark| levels.iter().any(|level| level.mark == mark);
     let marks = MARKS.iter().filter(|(mark, _)| occurs(*mark));
-    series.chain(marks.map(|&(mark, text)| LegendEntry::new(key(mark), text))).collect()
+    marks.map(|&(mark, text)| LegendEntry::new(key(mark), text)).collect()
 }
 
 /// The key of failed levels, where no named series has any.

@@ -6,7 +6,7 @@ use crate::subject::Totals;
 use crate::verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict};
 
 /// Most curves in one plot: a reader cannot tell more apart.
-const MOST_SERIES: usize = 6;
+pub(crate) const MOST_SERIES: usize = 6;
 
 /// Convergence plots, as many as keep each readable; the observed velocity of each case that
 /// watched one; the energies that were asked for.
@@ -56,7 +56,8 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Convergence
     }
 }
 
-fn spacing(axis: Axis) -> &'static str {
+/// Label of the axis of spacings.
+pub(crate) fn spacing(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",
         Axis::Time => "time step dt (s)",

@@ -85,8 +85,7 @@ impl WorkPrecision {
 
     /// The named lines, the front, the others, and the marks that occur.
     fn entries(&self, named: &[SeriesLine], lines: &[SeriesLine]) -> Vec<LegendEntry> {
-        let mut entries = series::entries(named);
-        let marks = entries.split_off(named.len());
+        let mut entries = series::names(named);
         if !self.front.is_empty() {
             entries.push(LegendEntry::new(band(&[(3.0, 0.0), (KEY - 3.0, 0.0)]), "Pareto front"));
         }
@@ -96,7 +95,7 @@ impl WorkPrecision {
             let text = if count == 1 { "1 other method".into() } else { format!("{count} others") };
             entries.push(LegendEntry::new(line.at("stroke-width", 1.2), &text));
         }
-        entries.extend(marks);
+        entries.extend(series::marks(named));
         if lines.iter().any(SeriesLine::has_failed) && !named.iter().any(SeriesLine::has_failed) {
             entries.push(series::failed_entry());
         }

@@ -58,6 +58,96 @@ fn markdown_is_a_comment() {
     assert!(found.out.contains("\n<details><summary>1 gone</summary>\n"), "{}", found.out);
 }
 
+/// The bar with an error of another size, as a solver that got worse has it.
+fn a_worse_run() -> Folder {
+    let folder = runs_of(BAR);
+    let text = folder.read("new.json");
+    let mut document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    document["suites"][0]["cases"][0]["levels"][3]["judged"] = serde_json::json!(1e-4);
+    folder.write("new.json", document.to_string());
+    folder
+}
+
+#[test]
+fn a_comment_shows_pictures_of_what_moved() {
+    let folder = a_worse_run();
+    let compare = ["compare", "old.json", "new.json", "--format", "markdown", "--pictures"];
+    let found = folder.call(&[&compare[..], &["drawn/here"]].concat());
+    assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
+    for file in ["drawn/here/01-short-bar-before.svg", "drawn/here/01-short-bar-after.svg"] {
+        assert!(found.out.contains(&format!("<img src=\"{file}\"")), "{}", found.out);
+        let svg = folder.read(file);
+        assert!(svg.contains("mpm-linear-flip-musl") && !svg.contains("fem-linear"), "{svg}");
+    }
+    let at = ["drawn", "--pictures-at", "https://example.org"];
+    let found = folder.call(&[&compare[..], &at[..]].concat());
+    assert!(found.out.contains("\"https://example.org/01-short-bar-before.svg\""), "{}", found.out);
+}
+
+#[test]
+fn pictures_that_cannot_be_written_are_an_error() {
+    let folder = a_worse_run();
+    let compare = ["compare", "old.json", "new.json", "--pictures", "old.json"];
+    let found = folder.call(&compare);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.starts_with("error: --pictures old.json: "), "{}", found.errors);
+    let found = folder.call(&["compare", "old.json", "new.json", "--pictures-at", "a"]);
+    assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
+}
+
+/// The step of the workflow that comments, in a repository with a remote one, with a `gh` that
+/// has the reports of the last run and keeps the comment.
+#[cfg(unix)]
+#[test]
+fn the_workflow_publishes_pictures_where_its_comment_looks_for_them() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = a_worse_run();
+    let text = include_str!("../../../examples/ci/github.yml");
+    let workflow: serde_json::Value = serde_yaml::from_str(text).expect("YAML");
+    let steps = workflow["jobs"]["suites"]["steps"].as_array().expect("steps");
+    let comments = |step: &&serde_json::Value| step["name"] == "Compare with the main branch";
+    let step = steps.iter().find(comments).expect("a step that comments");
+    folder.write("step", step["run"].as_str().expect("a script"));
+    folder.write(
+        "bin/gh",
+        "#!/bin/sh\ncase $1-$2 in\nrun-list) echo 7;;\n\
+         run-download) mkdir before; cp ../old.json before/report.json;;\n\
+         pr-comment) cp comment.md ..;;\nesac\n",
+    );
+    let program = folder.path().join("bin/gh");
+    std::fs::set_permissions(&program, PermissionsExt::from_mode(0o755)).expect("a program");
+    std::os::unix::fs::symlink(
+        env!("CARGO_BIN_EXE_mpm-verify"),
+        folder.path().join("bin/mpm-verify"),
+    )
+    .expect("a program");
+    let script = "set -e; git init -q --bare remote.git; git init -q here; cd here; \
+        git remote add origin \"$PWD/../remote.git\"; mkdir reports; cp ../new.json reports/report.json; \
+        git -c user.name=a -c user.email=a@b commit -q --allow-empty -m a; \
+        bash -eo pipefail ../step; \
+        git -C ../remote.git ls-tree -r --name-only pictures-of-pull-12";
+    let path = format!(
+        "{}:{}",
+        folder.path().join("bin").display(),
+        std::env::var("PATH").unwrap_or_default()
+    );
+    let ran = std::process::Command::new("bash")
+        .args(["-c", script])
+        .current_dir(folder.path())
+        .envs([("PATH", path.as_str()), ("PULL", "12"), ("GITHUB_RUN_ID", "34")])
+        .envs([("GITHUB_RUN_ATTEMPT", "1"), ("GITHUB_REPOSITORY", "me/solver")])
+        .env("GITHUB_SERVER_URL", "https://github.com")
+        .output()
+        .expect("bash");
+    let files = String::from_utf8_lossy(&ran.stdout);
+    assert_eq!(files, "34-1/01-short-bar-after.svg\n34-1/01-short-bar-before.svg\n", "{ran:?}");
+    let comment = folder.read("comment.md");
+    for file in files.lines() {
+        let address = format!("https://github.com/me/solver/raw/pictures-of-pull-12/{file}");
+        assert!(comment.contains(&format!("<img src=\"{address}\"")), "{comment}");
+    }
+}
+
 #[rstest]
 #[case::missing("nix.json", None, "this file cannot be read: ")]
 #[case::a_folder(".", None, "this file cannot be read: ")]
