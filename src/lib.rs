@@ -124,5 +124,6 @@ mod dimension;
 mod members;
 mod named;
 mod nearest;
+mod vtk;
 
 pub use nearest::nearest;

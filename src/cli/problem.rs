@@ -3,15 +3,17 @@
 use super::args::ProblemArgs;
 use super::status::{BAD_INPUT, PASSED};
 use super::{output, select};
-use mpm_verify::external::ProblemFormat;
 use mpm_verify::study::{exact_state, level_problem};
 use mpm_verify::suite::{ConvergencePlan, Suite};
 use std::io::{IsTerminal, stdout};
 
 /// Writes the initial state of a level, or its exact state at a time, to standard output.
 pub(super) fn problem(args: &ProblemArgs) -> u8 {
-    if args.format == ProblemFormat::Npz && stdout().is_terminal() {
-        output::complain("error: npz is not for a terminal: send it to a file, `> problem.npz`");
+    if args.format.is_binary() && stdout().is_terminal() {
+        let format = args.format.name();
+        output::complain(&format!(
+            "error: {format} is not for a terminal: send it to a file, `> problem.{format}`"
+        ));
         return BAD_INPUT;
     }
     let suites = select::suites(std::slice::from_ref(&args.suite));

@@ -3,12 +3,20 @@
 //! `nalgebra` needs bounds for determinants of a generic size; these free functions need none.
 
 use crate::dimension::with_dimension;
+use crate::subject::Entry;
 
 /// A vector in D dimensions.
 pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
 
 /// A D x D matrix.
 pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
+
+/// Row after row; a vector is a matrix of one column.
+impl<const R: usize, const C: usize> Entry for nalgebra::SMatrix<f64, R, C> {
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(self.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>()));
+    }
+}
 
 /// Determinant by expansion; D = 1, 2 or 3.
 ///

@@ -62,7 +62,7 @@ impl<const D: usize> Grid<D> {
     }
 
     /// The fields on the nodes.
-    pub fn columns(&self) -> [Column; 4] {
+    pub fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_nodes("mass", &self.mass),
             Column::of_nodes("velocity", &self.velocity),

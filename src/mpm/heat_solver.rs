@@ -7,7 +7,10 @@ use super::grid::Grid;
 use super::kernel::contract::Kernel;
 use super::kernel::tally::Tally;
 use super::particles::Particles;
-use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject};
+use super::state::columns::{fields, profile};
+use crate::subject::{
+    BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
+};
 
 /// A body at rest: nodal masses are mapped once, and a step integrates the state of the effects.
 pub struct HeatSolver<const D: usize> {
@@ -45,17 +48,14 @@ impl<const D: usize> HeatSolver<D> {
 
     /// The effects, and all columns for particles and nodes.
     pub fn profile(&self) -> Profile {
+        profile(&self.grid, &self.particles, &self.effects, &self.columns())
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
         let mut columns = self.particles.columns();
         columns.extend(self.effects.iter().flat_map(|effect| effect.columns()));
         columns.extend(self.grid.columns());
-        columns.retain(|column| column.entries > 0);
-        Profile {
-            effects: self.effects.iter().map(|effect| effect.name()).collect(),
-            particles: self.particles.len(),
-            nodes: self.grid.nodes(),
-            columns,
-            ..Profile::default()
-        }
+        columns
     }
 
     /// See [`Solver::take_visits`](super::solver::Solver::take_visits).
@@ -78,6 +78,10 @@ impl<const D: usize> Subject for HeatSolver<D> {
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         self.particles.sample(samples);
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        vec![fields(&self.grid, &self.particles, &self.columns())]
     }
 
     fn counters(&self) -> RunCounters {

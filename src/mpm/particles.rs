@@ -199,7 +199,7 @@ impl<const D: usize> Particles<D> {
     }
 
     /// The columns that are there.
-    pub fn columns(&self) -> Vec<Column> {
+    pub fn columns(&self) -> Vec<Column<'_>> {
         let all = [
             Column::of_particles("X", &self.x0),
             Column::of_particles("x", &self.x),
@@ -218,7 +218,7 @@ impl<const D: usize> Particles<D> {
             Column::of_particles("grad v", &self.grad_v),
             Column::of_particles("T", &self.temperature),
         ];
-        all.into_iter().filter(|column| column.entries > 0).collect()
+        all.into_iter().filter(|column| column.size.entries > 0).collect()
     }
 
     /// Number of particles.

@@ -12,7 +12,7 @@ use super::particles::Particles;
 use super::scheme::SchemeName;
 use super::stage::Stage;
 use super::transfer::Transfer;
-use crate::subject::{Column, Profile, Start};
+use crate::subject::{Column, Start};
 
 /// Parts of a solver of one body.
 pub struct Setup<const D: usize> {
@@ -59,9 +59,9 @@ impl<const D: usize> Setup<D> {
         self.effects.iter().flat_map(|effect| effect.state_passes()).copied().collect()
     }
 
-    /// The effects, and all columns for particles and nodes, with those `of_solver`; the factors of
-    /// a consistent mass matrix, computed anew in each step, are left out.
-    pub(super) fn profile(&self, of_solver: [Column; 2]) -> Profile {
+    /// All columns for particles and nodes, with those `of_solver`; the factors of a consistent
+    /// mass matrix, computed anew in each step, are left out.
+    pub(super) fn columns<'a>(&'a self, of_solver: [Column<'a>; 2]) -> Vec<Column<'a>> {
         let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
         let mut columns = particles.columns();
         columns.extend(of_solver);
@@ -70,13 +70,6 @@ impl<const D: usize> Setup<D> {
         columns.extend(effects.iter().flat_map(|effect| effect.columns()));
         columns.extend(grid.columns());
         columns.extend(boundary.iter().flat_map(|condition| condition.columns()));
-        columns.retain(|column| column.entries > 0);
-        Profile {
-            effects: effects.iter().map(|effect| effect.name()).collect(),
-            particles: particles.len(),
-            nodes: grid.nodes(),
-            columns,
-            ..Profile::default()
-        }
+        columns
     }
 }

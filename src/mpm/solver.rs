@@ -11,6 +11,7 @@ use super::particles::Particles;
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::Setup;
 use super::stage::Stage;
+use super::state::columns::profile;
 use super::state::initial;
 use super::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile};
@@ -86,8 +87,14 @@ impl<const D: usize> Solver<D> {
 
     /// The effects, and all columns for particles and nodes.
     pub fn profile(&self) -> Profile {
+        let Setup { grid, particles, effects, .. } = &self.setup;
+        profile(grid, particles, effects, &self.columns())
+    }
+
+    /// All columns for particles and nodes.
+    pub(super) fn columns(&self) -> Vec<Column<'_>> {
         let advected = Column::of_particles("advected x", &self.advected);
-        self.setup.profile([self.cell_tracker.columns(), advected])
+        self.setup.columns([self.cell_tracker.columns(), advected])
     }
 
     /// Parts of passes since the last call, with the particles visited; counted from the first call

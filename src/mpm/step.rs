@@ -4,8 +4,11 @@ use super::boundary::Side;
 use super::schedule::{Pass, StepSchedule};
 use super::setup::Setup;
 use super::solver::Solver;
+use super::state::columns::fields;
 use super::transfer::kick;
-use crate::subject::{Checkpoint, Failure, Reaction, RunCounters, Samples, Start, Subject, Totals};
+use crate::subject::{
+    BodyFields, Checkpoint, Failure, Reaction, RunCounters, Samples, Start, Subject, Totals,
+};
 
 impl<const D: usize> Solver<D> {
     pub(super) fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
@@ -68,6 +71,10 @@ impl<const D: usize> Subject for Solver<D> {
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         self.setup.particles.sample(samples);
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        vec![fields(&self.setup.grid, &self.setup.particles, &self.columns())]
     }
 
     fn totals(&self) -> Option<Totals> {

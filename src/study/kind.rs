@@ -3,8 +3,9 @@
 use super::cache::results::ResultCache;
 use super::describe::profiles::Dispensable;
 use super::describe::statement::{Rows, head};
+use crate::exact::Truth;
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::subject::Profile;
+use crate::subject::{Profile, Subject};
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::study_plan::StudyPlan;
@@ -49,6 +50,23 @@ pub struct StepWarning {
     pub is_too_long: bool,
 }
 
+/// A run that is to be shown.
+pub(crate) struct ShownRun<'a> {
+    /// Its name among those of its case: `64 cells`.
+    pub(crate) name: String,
+    /// The solver at t = 0.
+    pub(crate) subject: Box<dyn Subject>,
+    /// Lengths of the steps (s), taken in turn.
+    pub(crate) dt: Vec<f64>,
+    /// Number of steps.
+    pub(crate) steps: u64,
+    /// The truth, if there is one.
+    pub(crate) truth: Option<&'a dyn Truth>,
+}
+
+/// Callback that shows a run.
+pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), String>;
+
 /// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
     /// Units of progress of all cases.
@@ -57,6 +75,15 @@ pub(crate) trait CaseRunner: Send + Sync {
     /// Warnings before anything runs, without the name of the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
+    }
+
+    /// Calls `then` with the run of a case that shows most: the first one that broke or grew in
+    /// `outcome`, or the last.
+    ///
+    /// # Errors
+    /// Those of `then`, and one line that says why there is no such run.
+    fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), String> {
+        Err("its study has no runs to be shown".to_owned())
     }
 
     /// Runs the case with this index.

@@ -12,6 +12,7 @@
 //! handover         a level as a problem that any solver can be handed
 //! preflight        warnings about a suite before anything runs
 //! shard            parts of a run of about the same cost
+//! time_series      a case as files for ParaView: particles and grid over time
 //! ```
 
 pub(crate) mod build;
@@ -27,6 +28,7 @@ pub(crate) mod preflight;
 pub(crate) mod runner;
 pub(crate) mod shard;
 pub(crate) mod stability;
+pub(crate) mod time_series;
 
 pub use build::dispatch::subject;
 pub use build::setup::effects;
@@ -39,3 +41,4 @@ pub use kind::{CheckpointStores, Progress, StepWarning, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
 pub use runner::Runner;
 pub use shard::Shard;
+pub use time_series::SeriesFile;

@@ -4,6 +4,7 @@ use super::cache::results::ResultCache;
 use super::kind::{
     CaseRunner, CheckpointStores, Progress, RunContext, StepWarning, Storage, statement, study,
 };
+use super::time_series::{SeriesFile, time_series};
 use crate::external::SolverFactory;
 use crate::suite::model::Suite;
 use crate::suite::model::fingerprint::fingerprint;
@@ -89,6 +90,22 @@ impl<'a> Runner<'a> {
             statement,
             cases,
         }
+    }
+
+    /// Runs a case again and gives its particles and its grid over time to `write`, as files for
+    /// ParaView: on the first level (or row) that broke or grew in `outcome`, or on the finest.
+    ///
+    /// # Errors
+    /// Those of `write`, and one line that says why the case has nothing to show.
+    pub fn time_series(
+        &self,
+        outcome: &CaseOutcome,
+        write: &mut dyn FnMut(SeriesFile) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let known = self.suite.case_names().into_iter().position(|name| name == outcome.case);
+        let index = known.ok_or("there is no such case")?;
+        let name = format!("{}/{}", self.suite.name, outcome.case);
+        self.cases.shown(index, outcome, &mut |run| time_series(&name, run, write))
     }
 
     /// Runs the case with the given index.

@@ -6,6 +6,7 @@
 
 mod account;
 mod checkpoint;
+mod column;
 mod plane;
 mod profile;
 mod reaction;
@@ -14,8 +15,9 @@ mod totals;
 pub use account::Precision;
 pub(crate) use account::{HIGHEST_ORDER, LONGEST_NAME, is_solver_name};
 pub use checkpoint::{Checkpoint, Memory};
+pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, StateField};
 pub use plane::PlaneState;
-pub use profile::{Column, Holder, Profile};
+pub use profile::Profile;
 pub use reaction::Reaction;
 pub use totals::Totals;
 
@@ -41,6 +43,12 @@ pub trait Subject {
     /// Passes of a step in their order, as reports list them (`P2G(mass, momentum)`); empty from a
     /// subject that does not say.
     fn passes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Fields of each body, for files that viewers read; none from a subject that keeps no more
+    /// than its samples show.
+    fn fields(&self) -> Vec<BodyFields> {
         Vec::new()
     }
 

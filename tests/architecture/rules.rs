@@ -34,9 +34,10 @@ pub(crate) const WALLS: &[Wall] = &[
         may: &["subject", "named"],
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
+    Wall { around: "vtk", may: &["subject"], why: "a file shows fields, whoever computed them" },
     Wall {
         around: "external",
-        may: &["subject", "named"],
+        may: &["subject", "named", "vtk"],
         why: "a solver of another program is handed a problem, and must not see how it is judged",
     },
     Wall {

@@ -11,7 +11,7 @@ use mpm_verify::mpm::{
     Vector,
 };
 use mpm_verify::study;
-use mpm_verify::subject::{Column, Holder, Profile, Subject};
+use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
 use mpm_verify::suite::{ConvergencePlan, EffectName, Suite, embedded};
 use rstest::rstest;
 
@@ -147,10 +147,10 @@ fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Se
 /// The row for what is in `with` and not in `empty`.
 fn row_of(name: &str, empty: &Profile, with: &Profile) -> String {
     let kept = |holder: Holder| {
-        let held = |profile: &Profile| -> Vec<Column> {
+        let held = |profile: &Profile| -> Vec<ColumnSize> {
             profile.columns.iter().filter(|column| column.holder == holder).copied().collect()
         };
-        let text = |column: &Column| {
+        let text = |column: &ColumnSize| {
             let whole = column.entries == with.holders(holder);
             format!(
                 "{} {} B{}",

@@ -63,6 +63,11 @@ pub(in crate::cli) struct RunArgs {
     /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
     #[arg(long, value_name = "TIME", value_parser = seconds, requires = "resume")]
     pub(in crate::cli) checkpoint_every: Option<f64>,
+    /// Write particles and grid over time into this folder, as files for ParaView, of the cases
+    /// that did not come as expected, or of those that `--case` chooses: on the first level that
+    /// broke, or on the finest
+    #[arg(long, value_name = "DIR")]
+    pub(in crate::cli) vtu: Option<PathBuf>,
     /// Run again whenever one of the files changes, until Ctrl-C
     #[arg(long)]
     pub(in crate::cli) watch: bool,

@@ -4,6 +4,7 @@ mod files;
 mod interrupt;
 mod page;
 mod printing;
+mod series;
 
 use super::args::{ReportArgs, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
@@ -15,6 +16,7 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
+use series::Series;
 use std::path::Path;
 use std::time::Duration;
 
@@ -33,6 +35,8 @@ pub(super) fn run(args: &RunArgs) -> u8 {
 /// The suites that `args` choose, with the cache and the solver of the run.
 fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), String> {
     let kept = args.resume.as_deref().map(|folder| open(folder, args)).transpose()?;
+    let all = args.case.is_some();
+    let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
     let solver = solver::greeted(&args.judged.program)?;
     if let Some(solver) = &solver {
         suites = solver::judged(suites, solver, args.judged.gate);
@@ -51,7 +55,7 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
     }
     // Ctrl-C is the usual end of watching.
     let at_interrupt = (!args.watch).then(|| interrupt::note(args.resume.is_some()));
-    Ok((suites, Judging { kept, solver, at_interrupt }))
+    Ok((suites, Judging { kept, solver, series, at_interrupt }))
 }
 
 /// The cases whose names contain `text`; suites without one are left out.
@@ -110,8 +114,9 @@ pub(super) fn report(
     if let Some(note) = &judging.at_interrupt {
         bar.note_at_interrupt(note.clone());
     }
+    let mut shown = Ok(());
     let run = |suite| {
-        let outcome = one(suite, args, &judging, &bar);
+        let outcome = one(suite, args, &judging, &bar, &mut shown);
         bar.suspend(|| printing.of_suite(&outcome));
         outcome
     };
@@ -120,7 +125,7 @@ pub(super) fn report(
     printing.of_all(args, &sources, &outcomes);
     let written = args.out.as_deref().map_or(Ok(()), |folder| files::write(folder, &outcomes));
     let page = |file| page::write(file, &sources, &outcomes, refused.len());
-    let written = written.and(args.html.as_deref().map_or(Ok(()), page));
+    let written = written.and(args.html.as_deref().map_or(Ok(()), page)).and(shown);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
     }
@@ -162,6 +167,8 @@ fn extent(args: &ReportArgs) -> Extent {
 pub(super) struct Judging {
     kept: Option<ResultCache>,
     solver: Option<SolverProgram>,
+    /// Cases to be shown as files for ParaView.
+    series: Option<Series>,
     /// Note to who ends it by Ctrl-C.
     at_interrupt: Option<String>,
 }
@@ -169,11 +176,18 @@ pub(super) struct Judging {
 impl Judging {
     /// Results that are there.
     pub(super) fn of_kept(kept: ResultCache) -> Self {
-        Self { kept: Some(kept), solver: None, at_interrupt: None }
+        Self { kept: Some(kept), solver: None, series: None, at_interrupt: None }
     }
 }
 
-fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &RunProgress) -> SuiteOutcome {
+/// Runs a suite; `shown` is the first failure to write files that show cases.
+fn one(
+    suite: &Suite,
+    args: &ReportArgs,
+    judging: &Judging,
+    bar: &RunProgress,
+    shown: &mut Result<(), String>,
+) -> SuiteOutcome {
     bar.start(suite, extent(args));
     let (kept, solver) = (judging.kept.as_ref(), judging.solver.as_ref());
     let runner = Runner::over(suite, extent(args)).keeping(kept);
@@ -193,6 +207,9 @@ fn one(suite: &Suite, args: &ReportArgs, judging: &Judging, bar: &RunProgress) -
     let outcome = runner.run(&|| bar.inc());
     for warning in later.iter().filter(|warning| !outcome.cases[warning.case].passed()) {
         warn(warning);
+    }
+    if let (Some(series), Ok(())) = (&judging.series, &shown) {
+        *shown = series.write(&runner, &outcome, bar);
     }
     if suite.explores() && solver.is_none() && !args.print.quiet {
         let name = &suite.name;

@@ -23,6 +23,13 @@ named! {
     }
 }
 
+impl ProblemFormat {
+    /// Whether the file is no text.
+    pub fn is_binary(self) -> bool {
+        matches!(self, Self::Npz | Self::Vtu)
+    }
+}
+
 impl LevelProblem {
     /// The bytes of a file that holds the problem.
     ///
@@ -33,7 +40,7 @@ impl LevelProblem {
             ProblemFormat::Csv => Ok(csv::written(self).into_bytes()),
             ProblemFormat::Json => Ok(self.document().into_bytes()),
             ProblemFormat::Npz => npz::written(self).map_err(|error| error.to_string()),
-            ProblemFormat::Vtu => Ok(vtu::written(self).into_bytes()),
+            ProblemFormat::Vtu => Ok(vtu::written(self)),
         }
     }
 

@@ -29,7 +29,7 @@ impl<const D: usize> CellTracker<D> {
     }
 
     /// Columns for particles.
-    pub(in crate::mpm) fn columns(&self) -> Column {
+    pub(in crate::mpm) fn columns(&self) -> Column<'_> {
         Column::of_particles("cell", &self.cells)
     }
 

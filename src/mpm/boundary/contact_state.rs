@@ -1,6 +1,6 @@
 //! Contact state under Coulomb friction, of a node at a wall or of two bodies at a node.
 
-use crate::subject::{Checkpoint, Memory};
+use crate::subject::{Checkpoint, Entry, Memory};
 
 /// State of a contact by Coulomb's law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +12,8 @@ pub(in crate::mpm) enum ContactState {
     /// They move as one.
     Stick,
 }
+
+impl Entry for ContactState {}
 
 impl Memory for ContactState {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {

@@ -28,7 +28,7 @@ pub struct Advance {
 /// after.
 pub trait Boundary<const D: usize>: Send {
     /// Columns for nodes.
-    fn columns(&self) -> Vec<Column>;
+    fn columns(&self) -> Vec<Column<'_>>;
 
     /// Visits the state between two steps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}

@@ -27,7 +27,7 @@ impl Fixed {
 }
 
 impl<const D: usize> Boundary<D> for Fixed {
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_nodes("fixed", &self.nodes)]
     }
 

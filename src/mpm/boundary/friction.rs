@@ -53,7 +53,7 @@ impl Friction {
 }
 
 impl<const D: usize> Boundary<D> for Friction {
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_nodes("contact state", &self.nodes)]
     }
 

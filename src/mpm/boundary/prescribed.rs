@@ -47,7 +47,7 @@ pub(in crate::mpm) fn continued<const D: usize>(
 }
 
 impl<const D: usize> Boundary<D> for Prescribed<D> {
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_nodes("prescribed", &self.nodes)]
     }
 

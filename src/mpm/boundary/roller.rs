@@ -28,7 +28,7 @@ impl Roller {
 }
 
 impl<const D: usize> Boundary<D> for Roller {
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_nodes("roller", &self.nodes)]
     }
 

@@ -37,7 +37,7 @@ impl<const D: usize> Effect<D> for ArtificialViscosity {
         true
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("q", &self.q)]
     }
 

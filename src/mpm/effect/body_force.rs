@@ -51,7 +51,7 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
         "body_force"
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("b", &self.b)]
     }
 

@@ -12,7 +12,7 @@ pub trait Effect<const D: usize>: Send {
     fn name(&self) -> &'static str;
 
     /// Columns for particles or nodes.
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 

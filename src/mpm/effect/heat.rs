@@ -140,7 +140,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
         true
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         let source = self.source.as_ref().map_or(&[][..], |(_, amount)| amount);
         let mut columns = vec![
             Column::of_particles("grad T", &self.slope),

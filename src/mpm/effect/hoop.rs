@@ -29,7 +29,7 @@ impl<const D: usize> Effect<D> for Hoop<D> {
         true
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("grid v", &self.velocity)]
     }
 

@@ -29,7 +29,7 @@ impl<const D: usize> Effect<D> for PrescribedVelocity<D> {
         "velocity"
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("prescribed", &self.members)]
     }
 

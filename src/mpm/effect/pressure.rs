@@ -41,7 +41,7 @@ impl<const D: usize> Effect<D> for Pressure<D> {
         "pressure"
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("surface layer", &self.surface.layer)]
     }
 

@@ -34,7 +34,7 @@ impl<const D: usize> Effect<D> for SetForce<D> {
         "force"
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("force share", &self.shares)]
     }
 

@@ -59,7 +59,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
         true
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         match &self.law {
             ExpansionLaw::OfDeformation { elastic } => vec![Column::of_particles("Fe", elastic)],
             ExpansionLaw::InRateForm { before, .. } => {

@@ -70,7 +70,7 @@ impl<const D: usize> ThermalBoundary<D> {
     }
 
     /// Columns for particles and nodes.
-    pub(super) fn columns(&self) -> [Column; 3] {
+    pub(super) fn columns(&self) -> [Column<'_>; 3] {
         [
             Column::of_particles("face layer", &self.layer),
             Column::of_nodes("face nodes", &self.nodes),

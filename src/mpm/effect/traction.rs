@@ -52,7 +52,7 @@ impl<const D: usize> Effect<D> for Traction<D> {
         "traction"
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("surface layer", &self.surface.layer)]
     }
 

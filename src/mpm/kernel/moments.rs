@@ -26,7 +26,7 @@ impl<const D: usize> Moments<D> {
     }
 
     /// Columns for the checkpoint.
-    pub(in crate::mpm) fn columns(&self) -> [Column; 2] {
+    pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 2] {
         [Column::of_particles("mean", &self.mean), Column::of_particles("D", &self.second)]
     }
 }

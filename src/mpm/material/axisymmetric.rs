@@ -73,7 +73,7 @@ impl<const D: usize> Material<D> for Axisymmetric {
         true
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         let Particles { x, vol0, vol, sigma, def_grad, grad_v, .. } = &self.space;
         let mut columns = self.law.columns();
         columns.extend([

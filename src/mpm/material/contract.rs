@@ -86,7 +86,7 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// State of each particle that the law keeps.
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 

@@ -13,7 +13,7 @@ use super::linear_elastic::LinearElastic;
 use super::spectral::{assembled, half_log, spectral};
 use crate::mpm::algebra::{Matrix, Vector, det};
 use crate::mpm::particles::Particles;
-use crate::subject::{Checkpoint, Column, Memory};
+use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Isotropic elasto-plasticity with linear hardening.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +34,13 @@ struct Flowed {
     inverse_metric: Matrix<3>,
     /// Accumulated plastic strain, alpha.
     strain: f64,
+}
+
+/// The plastic strain alone.
+impl Entry for Flowed {
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.push(self.strain);
+    }
 }
 
 impl Flowed {
@@ -112,7 +119,7 @@ impl<const D: usize> Material<D> for J2 {
         true
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("plastic flow", &self.flowed)]
     }
 

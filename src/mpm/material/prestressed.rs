@@ -49,7 +49,7 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         self.law.keeps_stretch_across()
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         let mut columns = self.law.columns();
         if !self.stress.is_empty() {
             columns.push(Column::of_particles("S0", &self.stress));

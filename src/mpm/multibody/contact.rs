@@ -152,10 +152,12 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         Some("contact")
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         let all = |name, columns: &[Vec<Vector<D>>]| {
             let entries = columns.iter().map(Vec::len).sum();
-            Column { entries, ..Column::of_nodes::<Vector<D>>(name, &[]) }
+            let mut column = Column::of_nodes::<Vector<D>>(name, &[]);
+            column.size.entries = entries;
+            column
         };
         vec![
             Column::of_nodes("interface node", self.interface.nodes()),

@@ -10,7 +10,7 @@ pub(in crate::mpm) trait Coupling<const D: usize>: Send {
     fn name(&self) -> Option<&'static str>;
 
     /// Columns for nodes.
-    fn columns(&self) -> Vec<Column>;
+    fn columns(&self) -> Vec<Column<'_>>;
 
     /// State between two steps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}

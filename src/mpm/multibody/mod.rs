@@ -23,7 +23,9 @@ use super::kernel::tally::Tally;
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::Setup;
 use super::solver::Solver;
-use crate::subject::{Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals};
+use crate::subject::{
+    BodyFields, Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals,
+};
 use contact::Contact;
 use coupling::Coupling;
 use failure::among;
@@ -136,6 +138,10 @@ impl<const D: usize> Subject for Bodies<D> {
         if samples.deformation_gradient.len() != samples.len() * D * D {
             samples.deformation_gradient.clear();
         }
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        self.solvers.iter().flat_map(Subject::fields).collect()
     }
 
     fn totals(&self) -> Option<Totals> {

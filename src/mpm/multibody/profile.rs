@@ -1,7 +1,7 @@
 //! Profile of a step of several bodies: equal columns of all bodies are one column.
 
 use super::coupling::Coupling;
-use crate::subject::{Column, Profile};
+use crate::subject::{ColumnSize, Profile};
 
 /// One profile of all bodies and their coupling. Every body has a grid, so nodes are those of all.
 pub(in crate::mpm) fn of<const D: usize>(
@@ -21,15 +21,16 @@ pub(in crate::mpm) fn of<const D: usize>(
     }
     if let Some(coupling) = coupling {
         all.effects.extend(coupling.name());
-        all.columns.extend(coupling.columns().into_iter().filter(|column| column.entries > 0));
+        let sizes = coupling.columns().into_iter().map(|column| column.size);
+        all.columns.extend(sizes.filter(|column| column.entries > 0));
     }
     all
 }
 
 /// Adds the columns of one body to those of others, each to the one that is the same; a second of
 /// the same body (two walls) to the second.
-fn add(all: &mut Vec<Column>, body: Vec<Column>) {
-    let kind = |column: &Column| (column.name, column.holder, column.bytes);
+fn add(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
+    let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();
     let mut taken = vec![false; known];
     for column in body {

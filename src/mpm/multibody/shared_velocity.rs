@@ -43,7 +43,7 @@ impl<const D: usize> Coupling<D> for SharedVelocity {
         None
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_nodes("interface node", self.0.nodes())]
     }
 

@@ -2,6 +2,7 @@
 //! finite.
 
 pub(crate) mod checkpoint;
+pub(crate) mod columns;
 pub(crate) mod finite_check;
 pub(crate) mod initial;
 pub(crate) mod perturbation;

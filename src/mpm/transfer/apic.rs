@@ -35,7 +35,7 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         self.b = gradients.map(|(grad_v, second)| grad_v * second).collect();
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("B", &self.b)]
     }
 

@@ -53,7 +53,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 
     /// Columns for particles or nodes.
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 

@@ -44,7 +44,7 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
         self.nodal.resize(grid.nodes(), Vector::zeros());
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![
             Column::of_particles("mapped v", &self.mapped_back),
             Column::of_nodes("remainder", &self.remainder),

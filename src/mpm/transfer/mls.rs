@@ -27,7 +27,7 @@ impl<const D: usize> Transfer<D> for Mls<D> {
         self.apic.start(kernel, grid, particles);
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         self.apic.columns()
     }
 

@@ -33,7 +33,7 @@ impl<const D: usize> Transfer<D> for Tpic<D> {
         self.c.clone_from(&particles.grad_v);
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         let own = [Column::of_particles("C", &self.c)];
         own.into_iter().chain(self.moments.columns()).collect()
     }

@@ -42,7 +42,7 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
         self.nodal.resize(grid.nodes(), Vector::zeros());
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         vec![
             Column::of_particles("remainder", &self.remainder),
             Column::of_nodes("scratch", &self.nodal),

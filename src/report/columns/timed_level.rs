@@ -2,7 +2,7 @@
 
 use super::{Cell, TableColumn, short};
 use crate::report::json::number::number;
-use crate::subject::{Column as MemoryColumn, Holder, Profile};
+use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};
 
@@ -95,7 +95,7 @@ pub(crate) fn timing(timing: Timing) -> Value {
 
 /// Bytes that every particle has.
 fn bytes_of_a_particle(profile: &Profile) -> usize {
-    let whole = |column: &&MemoryColumn| {
+    let whole = |column: &&ColumnSize| {
         column.holder == Holder::Particle && column.entries == profile.particles
     };
     profile.columns.iter().filter(whole).map(|column| column.bytes).sum()

@@ -58,7 +58,7 @@ use super::cost;
 use crate::report::study::KINDS;
 use crate::report::study::kind::members;
 use crate::report::text::cost::by_transfers;
-use crate::subject::{Column, Holder, Profile};
+use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use serde_json::{Value, json};
 
@@ -110,12 +110,12 @@ fn case(outcome: &CaseOutcome) -> Value {
 /// Cost of a step.
 pub fn profile(profile: &Profile) -> Value {
     let visit = |(part, particles): &(&str, u64)| json!({"part": part, "particles": particles});
-    let column = |column: &Column| {
+    let column = |column: &ColumnSize| {
         let of = match column.holder {
             Holder::Particle => "particle",
             Holder::Node => "node",
         };
-        let Column { name, entries, bytes, .. } = column;
+        let ColumnSize { name, entries, bytes, .. } = column;
         json!({"name": name, "of": of, "entries": entries, "bytes": bytes})
     };
     json!({

@@ -1,6 +1,6 @@
 //! Cost of a step: effects, passes, visits and memory, in rows for reports and `explain`.
 
-use crate::subject::{Column, Holder, Profile};
+use crate::subject::{ColumnSize, Holder, Profile};
 
 /// Rows of name and text.
 pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
@@ -40,7 +40,7 @@ fn visits(profile: &Profile) -> String {
 /// `168 B: X 16, x 16, ...`, the columns with fewer entries than there are holders after them.
 fn memory(profile: &Profile, holder: Holder) -> String {
     let holders = profile.holders(holder);
-    let (whole, partial): (Vec<&Column>, Vec<&Column>) = profile
+    let (whole, partial): (Vec<&ColumnSize>, Vec<&ColumnSize>) = profile
         .columns
         .iter()
         .filter(|column| column.holder == holder)
@@ -52,7 +52,7 @@ fn memory(profile: &Profile, holder: Holder) -> String {
         texts.push(format!(": {}", listed.join(", ")));
     }
     for column in partial {
-        let Column { name, entries, bytes, .. } = column;
+        let ColumnSize { name, entries, bytes, .. } = column;
         texts.push(format!("; {name} {bytes} at {entries} of {holders}"));
     }
     texts.concat()
@@ -61,6 +61,7 @@ fn memory(profile: &Profile, holder: Holder) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::subject::Column;
 
     fn sample() -> Profile {
         Profile {
@@ -68,9 +69,9 @@ mod tests {
             particles: 20,
             nodes: 9,
             columns: vec![
-                Column::of_particles("v", &[0.0; 20]),
-                Column::of_particles("layer", &[0_u32; 4]),
-                Column::of_nodes("mass", &[0.0; 9]),
+                Column::of_particles("v", &[0.0; 20]).size,
+                Column::of_particles("layer", &[0_usize; 4]).size,
+                Column::of_nodes("mass", &[0.0; 9]).size,
             ],
             passes: vec!["P2G(mass)".to_owned(), "G2P(stress)".to_owned()],
             visits: vec![("p2g mass", 20), ("g2p velocity", 40), ("p2g point force", 4)],
@@ -85,7 +86,7 @@ mod tests {
         assert_eq!(text("a step"), "P2G(mass), G2P(stress)");
         let visits = "p2g mass, g2p velocity x 2, p2g point force at 4 of 20 particles";
         assert_eq!(text("particle visits"), visits);
-        assert_eq!(text("particle memory"), "8 B: v 8; layer 4 at 4 of 20");
+        assert_eq!(text("particle memory"), "8 B: v 8; layer 8 at 4 of 20");
         assert_eq!(text("node memory"), "8 B: mass 8");
     }
 

@@ -14,7 +14,7 @@ use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
 use crate::study::handover::{needs, subject_under};
-use crate::study::kind::{CaseRunner, Progress, RunContext, StepWarning, Study};
+use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, ShownRun, StepWarning, Study};
 use crate::subject::{Profile, Subject};
 use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::grammar::CrossingLevels;
@@ -22,7 +22,8 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Expectation, LevelOutcome, RunResult,
+    Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Convergence, Expectation, LevelOutcome,
+    RunResult,
 };
 use rayon::prelude::*;
 use std::sync::OnceLock;
@@ -92,6 +93,34 @@ impl CaseRunner for ConvergenceRunner<'_> {
         };
         outcome.settings.splice(0..0, solver.settings());
         outcome
+    }
+
+    fn shown(&self, case: usize, outcome: &CaseOutcome, show: ShowRun<'_>) -> Result<(), String> {
+        let (plan, case) = (self.plan, &self.plan.cases[case]);
+        let study: &Convergence = outcome.results().ok_or("it could not be run")?;
+        let broke = study.levels.iter().position(|level| level.run.failure.is_some());
+        let index = broke.unwrap_or(study.levels.len().saturating_sub(1));
+        let levels = plan.refine.levels(self.context.extent);
+        let level = *levels.get(index).ok_or("it has no levels")?;
+        let (level, _) = self.steps.of(plan, case, level)?;
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let same_method;
+        let truth = match case.against {
+            Against::Nothing => None,
+            Against::SameMethod(same) => {
+                same_method = self.same_method(case, same)?;
+                Some(same_method.as_ref())
+            }
+            Against::Exact | Against::Reference => Some(self.truth(case)?),
+        };
+        let RunContext { solver, suite, .. } = self.context;
+        show(ShownRun {
+            name: study.levels[index].name(plan.refine.axis),
+            subject: subject_under(solver, suite, plan, case, level)?,
+            dt: vec![clock.dt()],
+            steps: clock.steps,
+            truth,
+        })
     }
 }
 

@@ -5,7 +5,7 @@ use super::start::{bodies, perturb};
 use crate::study::build::dispatch::{perturbable, stable_time_step_of};
 use crate::study::build::setup::Body;
 use crate::study::convergence::stable_step::ROUNDS;
-use crate::study::kind::RunContext;
+use crate::study::kind::{RunContext, ShownRun};
 use crate::subject::{Perturbable, Subject};
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
 use crate::suite::model::method::Method;
@@ -107,15 +107,31 @@ impl CaseRun<'_> {
         keeper: &mut dyn CheckpointStore,
     ) -> Result<Trial, String> {
         let setup = self.setup(values)?;
-        let make = || -> Result<Box<dyn Subject>, String> {
-            if let Some(solver) = self.context.solver {
-                return handed::subject(solver, self.context.suite, &setup);
-            }
-            let mut subject = self.subject(&setup)?;
-            perturb(subject.as_mut(), &setup);
-            Ok(subject)
-        };
-        resume_trial(make, &setup.dt, setup.steps, &setup.scales, keeper)
+        resume_trial(|| self.started(&setup), &setup.dt, setup.steps, &setup.scales, keeper)
+    }
+
+    /// The subject of a run, at its start.
+    fn started(&self, setup: &RunSetup) -> Result<Box<dyn Subject>, String> {
+        if let Some(solver) = self.context.solver {
+            return handed::subject(solver, self.context.suite, setup);
+        }
+        let mut subject = self.subject(setup)?;
+        perturb(subject.as_mut(), setup);
+        Ok(subject)
+    }
+
+    /// The run with these values of the parameters, to be shown.
+    pub(super) fn shown(&self, values: &ParameterValues<'_>) -> Result<ShownRun<'static>, String> {
+        let setup = self.setup(values)?;
+        let said: Vec<String> =
+            values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        Ok(ShownRun {
+            name: said.join(", "),
+            subject: self.started(&setup)?,
+            dt: setup.dt,
+            steps: setup.steps,
+            truth: None,
+        })
     }
 
     /// The limit of the sought parameter: predicted and confirmed where the particles are frozen,

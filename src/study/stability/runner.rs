@@ -4,9 +4,9 @@ use super::run::CaseRun;
 use super::{handed, statement};
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::describe::statement::Rows;
-use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
 use crate::suite::model::stability::StabilityPlan;
-use crate::verify::{CaseOutcome, StabilityRow, StabilityStudy};
+use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -57,6 +57,19 @@ impl CaseRunner for StabilityRunner<'_> {
             Some(reason) => described(&run).not_applicable(vec![reason], "cannot be put to it:"),
             None => outcome(&run, rows),
         }
+    }
+
+    fn shown(&self, case: usize, outcome: &CaseOutcome, show: ShowRun<'_>) -> Result<(), String> {
+        let (plan, case) = (self.plan, &self.plan.cases[case]);
+        let study: &StabilityStudy = outcome.results().ok_or("it could not be run")?;
+        if study.sought.is_some() {
+            return Err("it looks for a limit, by many runs".to_owned());
+        }
+        let trial = |row: &StabilityRow| row.trial.as_ref().map(|trial| trial.verdict);
+        let grows = |row: &&StabilityRow| trial(row) != Some(Stability::Stable);
+        let row = study.rows.iter().find(grows).or(study.rows.last()).ok_or("it has no runs")?;
+        let run = CaseRun { plan, case, context: self.context };
+        show(run.shown(&[(&plan.swept, row.value)])?)
     }
 }
 

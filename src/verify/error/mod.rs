@@ -4,6 +4,7 @@ pub(crate) mod checkpoint_store;
 pub(crate) mod clock;
 pub(crate) mod declaration;
 pub(crate) mod error_scale;
+mod fields;
 pub(crate) mod judged_sum;
 pub(crate) mod lagrange;
 pub(crate) mod norm;

@@ -1,21 +1,20 @@
 //! Quantities that can be judged, each declared once.
 //!
-//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants below (to
-//! those of [`sums`](super::sums), where it has no values at labels), and the line of
-//! [`Quantity::declaration`] that joins them.
+//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants of
+//! [`fields`](super::fields) (of [`sums`](super::sums), where it has no values at labels), and the
+//! line of [`Quantity::declaration`] that joins them.
 //!
 //! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
 //! length: the square root of the sum of the squares of all components.
 
 use super::declaration::{Declaration, SolutionSize, SumDeclaration, SumNeed};
+use super::fields::{DEFORMATION_GRADIENT, DISPLACEMENT, STRESS, TEMPERATURE, VELOCITY};
 use super::norm::Norms;
 use super::sums::{ANGULAR_MOMENTUM, ENERGY, KINETIC_ENERGY, MOMENTUM, REACTION, STRAIN_ENERGY};
-use super::tensor_shape::TensorShape;
 use crate::exact::Truth;
 use crate::named::named;
 use crate::subject::Samples;
 use crate::verify::order::format_number::format_number;
-use std::borrow::Cow;
 
 named! {
     /// A field of a state, or a sum over the body.
@@ -46,70 +45,6 @@ named! {
         Reaction = "reaction",
     }
 }
-
-pub(super) const DISPLACEMENT: Declaration = Declaration {
-    unit: "m",
-    shape: TensorShape::Vector,
-    computed: |samples| Cow::from(&samples.displacement),
-    exact: |truth, label, t, into| {
-        truth.displacement(label, t, into);
-        true
-    },
-    exact_at_all: Some(|truth, d, labels, t, into| truth.displacements(d, labels, t, into)),
-    size: SolutionSize::Magnitude,
-    // The difference of two positions, each rounded.
-    rounding_size: |length| length,
-    is_primary: true,
-    is_optional: false,
-    is_of_motion: true,
-    needs_deformation_gradient: false,
-    sum: None,
-};
-
-const VELOCITY: Declaration = Declaration {
-    unit: "m/s",
-    computed: |samples| Cow::from(&samples.velocity),
-    exact: |truth, label, t, into| {
-        truth.velocity(label, t, into);
-        true
-    },
-    exact_at_all: None,
-    rounding_size: |_| f64::NAN,
-    is_primary: false,
-    ..DISPLACEMENT
-};
-
-const STRESS: Declaration = Declaration {
-    unit: "Pa",
-    shape: TensorShape::Tensor,
-    computed: |samples| Cow::from(&samples.stress),
-    exact: |truth, label, t, into| truth.stress(label, t, into),
-    is_optional: true,
-    ..VELOCITY
-};
-
-const DEFORMATION_GRADIENT: Declaration = Declaration {
-    unit: "",
-    computed: |samples| Cow::from(&samples.deformation_gradient),
-    exact: |truth, label, t, into| truth.deformation_gradient(label, t, into),
-    size: SolutionSize::FromIdentity,
-    rounding_size: |_| 1.0,
-    needs_deformation_gradient: true,
-    ..STRESS
-};
-
-const TEMPERATURE: Declaration = Declaration {
-    unit: "K",
-    shape: TensorShape::Scalar,
-    computed: |samples| Cow::from(&samples.temperature),
-    exact: |truth, label, t, into| {
-        truth.temperature(label, t).map(|value| into[0] = value).is_some()
-    },
-    size: SolutionSize::Range,
-    is_primary: true,
-    is_of_motion: false,
-    ..STRESS
-};
 
 impl Quantity {
     const fn declaration(self) -> &'static Declaration {
@@ -242,19 +177,32 @@ impl Quantity {
     /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject
     /// or the truth has no such quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
+        self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
+            Norms::of(&error, components, &samples.weight)
+        })
+    }
+
+    /// Numbers at each label, and `computed - exact` at the labels of `samples` at time `t`; none
+    /// if the subject or the truth has no such quantity.
+    pub(crate) fn differences(
+        self,
+        samples: &Samples,
+        truth: &dyn Truth,
+        t: f64,
+    ) -> Option<(usize, Vec<f64>)> {
         let components = self.components(samples.dimension);
         let computed = (self.declaration().computed)(samples);
         if components == 0 || computed.len() != components * samples.len() {
-            return Norms::NONE;
+            return None;
         }
         let mut error = vec![0.0; computed.len()];
         if !self.exact_at_all(truth, samples, t, &mut error) {
-            return Norms::NONE;
+            return None;
         }
         for (error, computed) in error.iter_mut().zip(computed.iter()) {
             *error = computed - *error;
         }
-        Norms::of(&error, components, &samples.weight)
+        Some((components, error))
     }
 }
 

@@ -17,6 +17,7 @@ mod problem;
 mod run;
 mod shards;
 mod steps;
+mod time_series;
 mod watch;
 
 pub(crate) use crate::common::folder::Folder;

@@ -62,17 +62,6 @@ fn json_has_the_keys_of_the_protocol() {
 }
 
 #[test]
-fn a_file_for_paraview_has_a_vertex_for_each_particle() {
-    let xml = problem(&["--format", "vtu", "--level", "1"]);
-    assert!(xml.contains("<Piece NumberOfPoints=\"16\" NumberOfCells=\"16\">"), "{xml}");
-    let first = xml.lines().skip_while(|line| !line.contains("\"position\"")).nth(1);
-    assert_eq!(first, Some("0.03125 0 0"));
-    for (tag, count) in [("DataArray", 13), ("PointData", 1), ("VTKFile", 1)] {
-        assert_eq!(xml.matches(&format!("</{tag}>")).count(), count, "{tag}");
-    }
-}
-
-#[test]
 fn arrays_for_numpy_are_a_zip_file() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);

@@ -5,6 +5,7 @@ pub(crate) mod effect;
 pub(crate) mod folder;
 pub(crate) mod interrupted;
 pub(crate) mod json_schema;
+pub(crate) mod vtk;
 
 use mpm_verify::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,

@@ -79,7 +79,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         self.place(grid, particles);
     }
 
-    fn columns(&self) -> Vec<Column> {
+    fn columns(&self) -> Vec<Column<'_>> {
         let points = self.points.iter().flat_map(Particles::columns);
         self.quadrature.columns().into_iter().chain(points).collect()
     }

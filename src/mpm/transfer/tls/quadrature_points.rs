@@ -4,7 +4,7 @@
 use crate::mpm::algebra::Vector;
 use crate::mpm::grid::Grid;
 use crate::mpm::particles::Particles;
-use crate::subject::Column;
+use crate::subject::{Column, Entry};
 
 /// Gauss's rule along an axis, exact for a cubic B-spline times a linear field.
 const RULE: [(f64, f64); 3] = [
@@ -46,9 +46,11 @@ pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
     first: Vec<usize>,
 }
 
+impl<const D: usize> Entry for QuadraturePoint<D> {}
+
 impl<const D: usize> QuadraturePoints<D> {
     /// Columns, with entries for points, particles and cells.
-    pub(in crate::mpm) fn columns(&self) -> [Column; 5] {
+    pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 5] {
         [
             Column::of_particles("quadrature point", &self.all),
             Column::of_particles("wrapped x", &self.x),

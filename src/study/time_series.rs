@@ -1,0 +1,141 @@
+//! A run as files for ParaView: particles and nodes of the grid at instants, and the time series
+//! that lists them.
+
+use super::kind::ShownRun;
+use crate::exact::Truth;
+use crate::subject::{BodyFields, Samples, StateField, Subject};
+use crate::verify::Quantity;
+use crate::vtk;
+
+/// Most instants of a series, besides its start.
+const INSTANTS: u64 = 20;
+
+/// A file of a time series.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeriesFile {
+    /// Path below the folder of all series: folders, and a name that ends in `.vtu` (particles),
+    /// `.vti` (nodes of the grid) or `.pvd` (the list of all).
+    pub path: String,
+    /// Contents.
+    pub bytes: Vec<u8>,
+}
+
+/// Runs `run` to its end, or until it fails, and writes its state at the start, at up to
+/// [`INSTANTS`] instants and at a failure; the list of the files, named `NAME.RUN.pvd`, comes last.
+///
+/// # Errors
+/// Those of `write`.
+pub(super) fn time_series(
+    name: &str,
+    run: ShownRun<'_>,
+    write: &mut dyn FnMut(SeriesFile) -> Result<(), String>,
+) -> Result<(), String> {
+    let ShownRun { name: level, mut subject, dt, steps, truth } = run;
+    let name = format!("{name}.{}", file_name(&level));
+    let folder = name.rsplit('/').next().unwrap_or(&name).to_owned();
+    let mut listed: Vec<(f64, usize, String)> = Vec::new();
+    let mut frame = |subject: &dyn Subject, number: u64, t: f64| -> Result<(), String> {
+        for (part, (file, bytes)) in files(subject, truth, t).into_iter().enumerate() {
+            let file = file.replace('#', &format!("{number:04}"));
+            write(SeriesFile { path: format!("{name}/{file}"), bytes })?;
+            listed.push((t, part, format!("{folder}/{file}")));
+        }
+        Ok(())
+    };
+    frame(subject.as_ref(), 0, 0.0)?;
+    let equal = dt.len() == 1;
+    let (mut lengths, mut t, mut number) = (dt.iter().cycle(), 0.0, 0);
+    for step in 1..=steps {
+        let dt = *lengths.next().unwrap_or(&f64::NAN);
+        let failed = subject.step(dt).is_err();
+        // Of equal steps without accumulated rounding.
+        t = if equal { dt * step as f64 } else { t + dt };
+        let passed = |step: u64| u128::from(step) * u128::from(INSTANTS) / u128::from(steps);
+        if failed || passed(step) > passed(step - 1) {
+            number += 1;
+            frame(subject.as_ref(), number, t)?;
+        }
+        if failed {
+            break;
+        }
+    }
+    let list = vtk::series(&listed);
+    write(SeriesFile { path: format!("{name}.pvd"), bytes: list.into_bytes() })
+}
+
+/// The files of one instant, with `#` for its number: particles, then grid, of one body after the
+/// other.
+fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(String, Vec<u8>)> {
+    let mut samples = Samples::default();
+    subject.sample(&mut samples);
+    let d = samples.dimension;
+    let position: Vec<f64> =
+        samples.label.iter().zip(&samples.displacement).map(|(x, u)| x + u).collect();
+    let common = common_fields(&samples, truth, t);
+    let bodies = match subject.fields() {
+        bodies if bodies.is_empty() => vec![BodyFields {
+            particles: samples.len(),
+            of_particles: sampled_fields(&samples),
+            ..BodyFields::default()
+        }],
+        bodies => bodies,
+    };
+    let (several, mut first, mut files) = (bodies.len() > 1, 0, Vec::new());
+    for (number, body) in bodies.into_iter().enumerate() {
+        let behind = first + body.particles;
+        let own = common.iter().map(|field| part(field, first..behind));
+        let fields = vtk::ranked(d, own.chain(body.of_particles).collect());
+        let tail = if several { format!(".body-{}", number + 1) } else { String::new() };
+        let points = vtk::points(d, &position[first * d..behind * d], &fields);
+        files.push((format!("particles-#{tail}.vtu"), points));
+        if !body.of_nodes.is_empty() {
+            let fields = vtk::ranked(d, body.of_nodes);
+            let grid = vtk::grid(&body.origin, body.h, &body.counts, &fields);
+            files.push((format!("grid-#{tail}.vti"), grid));
+        }
+        first = behind;
+    }
+    files
+}
+
+/// Fields of the particles of all bodies that no solver keeps: u, and the errors.
+fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
+    let components = samples.dimension;
+    let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
+    let fields = Quantity::ALL.iter().filter(|quantity| !quantity.is_sum());
+    let error = |quantity: &Quantity| {
+        let (components, numbers) = quantity.differences(samples, truth?, t)?;
+        Some(StateField { name: format!("error of {}", quantity.words()), components, numbers })
+    };
+    [u].into_iter().chain(fields.filter_map(error)).collect()
+}
+
+/// Fields of a subject that shows no more than its samples, with the names of our own.
+fn sampled_fields(samples: &Samples) -> Vec<StateField> {
+    let all = [
+        ("X", &samples.label),
+        ("v", &samples.velocity),
+        ("V0", &samples.weight),
+        ("sigma", &samples.stress),
+        ("F", &samples.deformation_gradient),
+        ("T", &samples.temperature),
+    ];
+    let field = |(name, numbers): (&str, &Vec<f64>)| {
+        let components = numbers.len().checked_div(samples.len()).filter(|n| *n > 0)?;
+        Some(StateField { name: name.to_owned(), components, numbers: numbers.clone() })
+    };
+    all.into_iter().filter_map(field).collect()
+}
+
+/// The entries of some particles.
+fn part(field: &StateField, particles: std::ops::Range<usize>) -> StateField {
+    let n = field.components;
+    let numbers = field.numbers[particles.start * n..particles.end * n].to_vec();
+    StateField { name: field.name.clone(), components: n, numbers }
+}
+
+/// The name of a run as part of that of a file: `dt = 0.001 s` is `dt-0.001-s`.
+fn file_name(run: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '.';
+    run.split(|c| !plain(c)).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
+}

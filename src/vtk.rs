@@ -1,0 +1,141 @@
+//! Files of VTK in its XML format, for ParaView: points and grids with data, and time series of
+//! them (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, since readers of
+//! text stop at the first NaN. The format is written here because the crate for it rests on parsers
+//! that coming versions of Rust refuse.
+
+use crate::subject::StateField;
+use std::fmt::Write;
+
+/// VTK's number of a cell that is a point.
+const VERTEX: u8 = 1;
+
+/// TensorRank of an entry of a field, which one dimension does not tell from its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TensorRank {
+    Scalar,
+    Vector,
+    Tensor,
+}
+
+impl TensorRank {
+    /// TensorRank of a field in `d` dimensions; of one number a scalar.
+    fn of(field: &StateField, d: usize) -> Self {
+        match field.components {
+            1 => Self::Scalar,
+            n if n == d => Self::Vector,
+            _ => Self::Tensor,
+        }
+    }
+}
+
+/// Points, each a vertex: positions (m) have `d` numbers.
+pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateField)]) -> Vec<u8> {
+    let n = positions.len() / d.max(1);
+    let mut file = VtkFile::default();
+    let line = format!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">\n<Points>\n");
+    file.xml += &line;
+    file.numbers("position", (TensorRank::Vector, d), positions);
+    file.xml += "</Points>\n<Cells>\n";
+    let count = |first: usize| (first..first + n).flat_map(|k| (k as u64).to_le_bytes());
+    file.array("connectivity", "Int64", 1, count(0).collect());
+    file.array("offsets", "Int64", 1, count(1).collect());
+    file.array("types", "UInt8", 1, vec![VERTEX; n]);
+    file.xml += "</Cells>\n";
+    file.point_data(d, fields);
+    file.written("UnstructuredGrid", "")
+}
+
+/// The points of the fields of a body, whose ranks follow from their numbers.
+pub(crate) fn ranked(d: usize, fields: Vec<StateField>) -> Vec<(TensorRank, StateField)> {
+    fields.into_iter().map(|field| (TensorRank::of(&field, d), field)).collect()
+}
+
+/// Nodes of a grid of cells of size `h` (m), `counts` along each axis from its lowest one at
+/// `origin` (m), the first axis first.
+pub(crate) fn grid(
+    origin: &[f64],
+    h: f64,
+    counts: &[usize],
+    fields: &[(TensorRank, StateField)],
+) -> Vec<u8> {
+    let last = |axis: usize| counts.get(axis).map_or(0, |count| count.saturating_sub(1));
+    let extent = format!("0 {} 0 {} 0 {}", last(0), last(1), last(2));
+    let start = |axis: usize| origin.get(axis).copied().unwrap_or(0.0);
+    let (x, y, z) = (start(0), start(1), start(2));
+    let place = format!(" WholeExtent=\"{extent}\" Origin=\"{x} {y} {z}\" Spacing=\"{h} {h} {h}\"");
+    let mut file = VtkFile::default();
+    file.xml += &format!("<Piece Extent=\"{extent}\">\n");
+    file.point_data(counts.len(), fields);
+    file.written("ImageData", &place)
+}
+
+/// A time series: the time (s) of each file, its part (one for each body and its grid) and its path
+/// from the series.
+pub(crate) fn series(files: &[(f64, usize, String)]) -> String {
+    let mut xml = head("Collection", "");
+    for (t, part, file) in files {
+        // Writing to a string does not fail.
+        let _ = writeln!(xml, "<DataSet timestep=\"{t}\" part=\"{part}\" file=\"{file}\"/>");
+    }
+    xml + "</Collection>\n</VTKFile>\n"
+}
+
+fn head(kind: &str, attributes: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" \
+         byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<{kind}{attributes}>\n"
+    )
+}
+
+/// The text of a file, and the numbers that follow it.
+#[derive(Default)]
+struct VtkFile {
+    xml: String,
+    appended: Vec<u8>,
+}
+
+impl VtkFile {
+    fn point_data(&mut self, d: usize, fields: &[(TensorRank, StateField)]) {
+        self.xml += "<PointData>\n";
+        for (rank, field) in fields {
+            self.numbers(&field.name, (*rank, d), &field.numbers);
+        }
+        self.xml += "</PointData>\n</Piece>\n";
+    }
+
+    /// Vectors get three components and tensors nine; what lies beyond the dimension is zero.
+    fn numbers(&mut self, name: &str, (rank, d): (TensorRank, usize), numbers: &[f64]) {
+        let (rows, deep, wide) = match rank {
+            TensorRank::Scalar => (1, 1, 1),
+            TensorRank::Vector => (1, 1, 3),
+            TensorRank::Tensor => (d, 3, 3),
+        };
+        let columns = if rank == TensorRank::Scalar { 1 } else { d };
+        let mut bytes = Vec::with_capacity(numbers.len() * 8);
+        for entry in numbers.chunks_exact((rows * columns).max(1)) {
+            for (i, j) in (0..deep).flat_map(|i| (0..wide).map(move |j| (i, j))) {
+                let number = if i < rows && j < columns { entry[i * columns + j] } else { 0.0 };
+                bytes.extend(number.to_le_bytes());
+            }
+        }
+        self.array(name, "Float64", deep * wide, bytes);
+    }
+
+    fn array(&mut self, name: &str, kind: &str, components: usize, bytes: Vec<u8>) {
+        let offset = self.appended.len();
+        let _ = writeln!(
+            self.xml,
+            "<DataArray Name=\"{name}\" type=\"{kind}\" NumberOfComponents=\"{components}\" \
+             format=\"appended\" offset=\"{offset}\"/>"
+        );
+        self.appended.extend((bytes.len() as u64).to_le_bytes());
+        self.appended.extend(bytes);
+    }
+
+    fn written(self, kind: &str, attributes: &str) -> Vec<u8> {
+        let xml = head(kind, attributes) + &self.xml;
+        let tail = format!("</{kind}>\n<AppendedData encoding=\"raw\">\n_");
+        let end = "\n</AppendedData>\n</VTKFile>\n";
+        [xml.as_bytes(), tail.as_bytes(), &self.appended, end.as_bytes()].concat()
+    }
+}

@@ -1,0 +1,135 @@
+//! `run --vtu`: cases as files for ParaView.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
+use crate::common::vtk::{attribute, numbers, parts};
+use serde_json::Value;
+use std::fs;
+
+/// Series in the folder `vtu`.
+fn series(folder: &Folder) -> Vec<String> {
+    let mut names = Vec::new();
+    for suite in fs::read_dir(folder.path().join("vtu")).expect("the folder of the series") {
+        let suite = suite.expect("an entry").path();
+        for entry in fs::read_dir(&suite).expect("the folder of a suite") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|end| end == "pvd") {
+                names.push(path.to_str().expect("a name").to_owned());
+            }
+        }
+    }
+    names.sort();
+    names
+}
+
+/// Files of the last instant of a series, particles first, and its time.
+fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
+    let list = fs::read_to_string(series).expect("the series");
+    let time = |line: &str| attribute(line, "timestep").parse::<f64>().expect("a time");
+    let lines: Vec<&str> = list.lines().filter(|line| line.starts_with("<DataSet")).collect();
+    let end = time(lines[lines.len() - 1]);
+    let folder = std::path::Path::new(series).parent().expect("a folder");
+    let read = |line: &&str| fs::read(folder.join(attribute(line, "file"))).expect("a file");
+    (lines.iter().filter(|line| time(line) == end).map(read).collect(), end)
+}
+
+/// What a reader sees there is what was judged.
+#[test]
+fn the_errors_of_the_particles_are_those_of_the_report() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    let arguments = ["run", "bar.yaml", "--case", "flip", "--vtu", "vtu", "--format", "json"];
+    let found = folder.call(&arguments);
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let all = series(&folder);
+    assert!(all.len() == 1 && all[0].ends_with("short-bar/mpm-linear-flip-musl.12-cells.pvd"));
+    let (files, end) = last(&all[0]);
+    let [particles, grid] = &files[..] else { panic!("{} files", files.len()) };
+    assert_eq!(end, 0.05);
+    let errors = numbers(particles, "error of displacement");
+    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    let report: Value = serde_json::from_str(&found.out).expect("JSON");
+    let levels = &report["suites"][0]["cases"][0]["levels"];
+    let told = levels[3]["errors"]["rms"].as_f64().expect("a number");
+    assert!((rms / told - 1.0).abs() < 1e-12, "{rms} of {told}");
+    // Position, and not the label: both have three components.
+    let (x, u) = (numbers(particles, "position"), numbers(particles, "u"));
+    let label = numbers(particles, "X");
+    assert_eq!((x.len(), u.len(), label.len()), (3 * 48, 48, 48));
+    assert!((0..48).all(|p| x[3 * p] == label[p] + u[p] && x[3 * p + 1] == 0.0));
+    let mass = |file: &[u8]| numbers(file, "mass").iter().sum::<f64>();
+    assert!((mass(grid) - 1.0).abs() < 1e-12 && (mass(particles) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_did_not_come_as_expected_is_shown_and_no_more() {
+    let folder = Folder::new();
+    folder.write("bars/short.yaml", BAR);
+    folder.write("bars/ambitious.yaml", &ambitious());
+    let found = folder.call(&["run", "bars", "--brief", "--vtu", "vtu"]);
+    assert_eq!(found.code, FAILED);
+    let all = series(&folder);
+    assert_eq!(all.len(), 2, "{all:?}");
+    for series in &all {
+        assert!(series.contains("/ambitious-bar/"), "{all:?}");
+        let shown = series.split("vtu/").nth(1).expect("a path below the folder");
+        assert!(found.errors.contains(shown), "{}", found.errors);
+    }
+    // FEM has no particles and no grid of nodes: its samples are shown.
+    let (files, _) = last(&all[0]);
+    assert_eq!((files.len(), numbers(&files[0], "error of velocity").len() % 12), (1, 0));
+}
+
+/// The state at a failure is the last one, whatever it is; on the level that broke.
+#[test]
+fn a_run_that_breaks_is_shown_up_to_there() {
+    let folder = Folder::new();
+    let case = "mpm-linear-apic-usl";
+    let found =
+        folder.call(&["run", "finite-strain-crossing", "--case", case, "--brief", "--vtu", "vtu"]);
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    let all = series(&folder);
+    let (files, end) = last(&all[0]);
+    // A period is 0.02 s.
+    assert!(end > 0.01 && end < 0.012, "{end}");
+    let least = numbers(&files[0], "F").into_iter().fold(f64::INFINITY, f64::min);
+    assert!(least <= 0.0, "{least}: nothing is inverted");
+}
+
+#[test]
+fn a_study_without_runs_says_so() {
+    let folder = Folder::new();
+    let found = folder.call(&["run", "grid-crossing", "--case", "linear", "--brief", "--vtu", "v"]);
+    assert_eq!(found.code, SOUND);
+    assert!(found.errors.contains("nothing to show: "), "{}", found.errors);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", BAR);
+    folder.write("taken", "a file");
+    let found = folder.call(&["run", "bar.yaml", "--case", "flip", "--vtu", "taken"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert!(found.errors.starts_with("error: --vtu "), "{}", found.errors);
+}
+
+/// Two dimensions: vectors get a third component, tensors nine in all.
+#[test]
+fn a_problem_has_a_vertex_for_each_particle() {
+    let folder = Folder::new();
+    let mut command = folder.command(&[
+        "problem",
+        "mms-axis-aligned-2d-cubic",
+        "--format",
+        "vtu",
+        "--level",
+        "1",
+    ]);
+    let file = command.output().expect("the program starts").stdout;
+    let n: usize = attribute(parts(&file).0, "NumberOfPoints").parse().expect("a number");
+    assert_eq!(numbers(&file, "position").len(), 3 * n);
+    assert_eq!(numbers(&file, "velocity").len(), 3 * n);
+    let f = numbers(&file, "deformation_gradient");
+    assert_eq!(f.len(), 9 * n);
+    assert!(f[0] > 0.5 && f[4] > 0.5 && f[2] == 0.0 && f[8] == 0.0, "{:?}", &f[..9]);
+}
