@@ -2,9 +2,9 @@
 
 #![no_main]
 
-#[path = "../scene.rs"]
+#[path = "../../it/fuzz_input/scene.rs"]
 mod scene;
-#[path = "../step_input.rs"]
+#[path = "../../it/fuzz_input/step_input.rs"]
 mod step_input;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| step_input::step(bytes));

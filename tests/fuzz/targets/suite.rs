@@ -2,7 +2,7 @@
 
 #![no_main]
 
-#[path = "../suite_input.rs"]
+#[path = "../../it/fuzz_input/suite_input.rs"]
 mod suite_input;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| suite_input::load(bytes));

@@ -1,6 +1,6 @@
 //! Slips of the finger: whatever one character does to a suite, loading it never panics.
 
-#[path = "../../fuzz/suite_input.rs"]
+#[path = "../fuzz_input/suite_input.rs"]
 mod suite_input;
 
 use super::load;

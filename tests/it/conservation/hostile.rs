@@ -2,9 +2,9 @@
 //! state in one, two and three dimensions. A step goes on with numbers only, or says which
 //! particle it cannot go on with; it never panics, and never keeps a NaN to itself.
 
-#[path = "../../fuzz/scene.rs"]
+#[path = "../fuzz_input/scene.rs"]
 mod scene;
-#[path = "../../fuzz/step_input.rs"]
+#[path = "../fuzz_input/step_input.rs"]
 mod step_input;
 
 use crate::common::in_dimension;
