@@ -39,7 +39,7 @@ fn draw(args: &ExplainArgs, file: &Path) -> u8 {
     let mut suites = select::suites(&args.targets.targets);
     let drawn = match (suites.pop(), suites.is_empty()) {
         (Some(Ok(suite)), true) => sketch_svg(&suite)
-            .ok_or_else(|| format!("error: --sketch: `{}` has no levels to draw", suite.name))
+            .ok_or_else(|| format!("error: --sketch: `{}` has no scene to draw", suite.name))
             .and_then(|svg| {
                 let failed = |error| format!("error: --sketch {}: {error}", file.display());
                 fs::write(file, svg).map_err(failed)

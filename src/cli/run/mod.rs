@@ -124,7 +124,7 @@ pub(super) fn report(
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
     let written = args.out.as_deref().map_or(Ok(()), |folder| files::write(folder, &outcomes));
-    let page = |file| page::write(file, &sources, &outcomes, refused.len());
+    let page = |file| page::write(file, &sources, &suites, &outcomes, refused.len());
     let written = written.and(args.html.as_deref().map_or(Ok(()), page)).and(shown);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);

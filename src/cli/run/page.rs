@@ -1,6 +1,8 @@
 //! `run --html`: the page of a run.
 
 use mpm_verify::report::page;
+use mpm_verify::study::describe::sketch::sketch_svg;
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::SuiteOutcome;
 use std::fmt::Display;
@@ -17,11 +19,12 @@ pub(super) fn prepare(file: &Path) -> Result<(), String> {
     made.map_err(|error| unwritable(file, &error))
 }
 
-/// Writes the page; outcomes are in the order of their sources, without those that were refused or
-/// left out.
+/// Writes the page; suites and outcomes are in the order of their sources, without those that were
+/// refused or left out.
 pub(super) fn write(
     file: &Path,
     sources: &[Source],
+    suites: &[Suite],
     outcomes: &[SuiteOutcome],
     refused: usize,
 ) -> Result<(), String> {
@@ -30,9 +33,15 @@ pub(super) fn write(
         name.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     };
     let names: Vec<String> = sources.iter().map(named).collect();
-    let parts = sources.iter().zip(&names).zip(outcomes);
+    let sketches: Vec<Option<String>> = suites.iter().map(sketch_svg).collect();
+    let parts = sources.iter().zip(&names).zip(outcomes).zip(&sketches);
     let parts: Vec<page::SuiteSource<'_>> = parts
-        .map(|((source, file), outcome)| page::SuiteSource { outcome, file, yaml: source.text() })
+        .map(|(((source, file), outcome), sketch)| page::SuiteSource {
+            outcome,
+            file,
+            yaml: source.text(),
+            sketch: sketch.as_deref(),
+        })
         .collect();
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable(file, &error))
 }

@@ -1,18 +1,28 @@
-//! The figures of a suite: whatever [`svg`](crate::report::svg()) draws.
+//! The figures of a suite: the sketch of its scene, and whatever [`svg`](crate::report::svg())
+//! draws.
 
 use super::html::Html;
 use super::inline;
+use super::source::SuiteSource;
 use crate::report::svg;
-use crate::verify::SuiteOutcome;
 
-/// All figures; nothing where there are none.
-pub(super) fn figures(outcome: &SuiteOutcome) -> Option<Html> {
-    let figure = |(number, figure): (usize, crate::report::Figure)| {
+/// All figures, the scene first; nothing where there are none.
+pub(super) fn figures(source: &SuiteSource<'_>) -> Option<Html> {
+    let outcome = source.outcome;
+    let scene = source.sketch.map(|svg| {
+        let id = format!("scene-{}", outcome.suite);
+        figure(&id, svg, "Scene and grid of the coarsest level")
+    });
+    let drawn = svg(outcome).into_iter().enumerate();
+    let drawn = drawn.map(|(number, drawn)| {
         let id = format!("figure-{}.{}", outcome.suite, number + 1);
-        let caption = Html::tag("figcaption", &[("class", "muted")], figure.file.as_str());
-        let svg = inline::svg(&figure.svg, &id);
-        Html::block("figure", &[("id", &id)], &[svg, caption])
-    };
-    let figures: Vec<Html> = svg(outcome).into_iter().enumerate().map(figure).collect();
+        figure(&id, &drawn.svg, &drawn.file)
+    });
+    let figures: Vec<Html> = scene.into_iter().chain(drawn).collect();
     (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
+}
+
+fn figure(id: &str, svg: &str, caption: &str) -> Html {
+    let caption = Html::tag("figcaption", &[("class", "muted")], caption);
+    Html::block("figure", &[("id", id)], &[inline::svg(svg, id), caption])
 }

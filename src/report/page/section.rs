@@ -24,7 +24,7 @@ pub(super) fn section(source: &SuiteSource<'_>) -> Html {
         &[("class", "muted")],
         format!("Source: {}. Fingerprint of the problem: {:016x}", outcome.source, outcome.meaning),
     ));
-    parts.extend(figure_list::figures(outcome));
+    parts.extend(figure_list::figures(source));
     parts.push(cases(outcome));
     parts.push(report(outcome));
     parts.push(file(source));

@@ -11,4 +11,6 @@ pub struct SuiteSource<'a> {
     pub file: &'a str,
     /// Text of the file.
     pub yaml: &'a str,
+    /// SVG sketch of the scene, where the suite has one.
+    pub sketch: Option<&'a str>,
 }

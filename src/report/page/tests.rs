@@ -35,7 +35,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
 }
 
 fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
-    let source = |outcome| SuiteSource { outcome, file: yaml, yaml };
+    let source = |outcome| SuiteSource { outcome, file: yaml, yaml, sketch: None };
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 

@@ -111,6 +111,12 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         None
     }
 
+    /// Force per reference area (Pa) on the undeformed face at the coordinates and the time that
+    /// `values` are; empty of a load on no face.
+    fn traction(&self, _values: &[f64]) -> Vec<f64> {
+        Vec::new()
+    }
+
     /// The conduction, if the load is one.
     fn heat(&self) -> Option<&SceneHeat> {
         None

@@ -109,7 +109,39 @@ fn what_a_mechanician_looks_for_comes_first() {
     let drawn = folder.call(&["explain", "bar.yaml", "--sketch", "bar.svg"]);
     assert_eq!((drawn.code, drawn.out.as_str()), (SOUND, ""), "{}", drawn.errors);
     let svg = folder.read("bar.svg");
-    assert!(svg.starts_with("<svg ") && svg.contains("left: fixed"), "{svg}");
-    let none = folder.call(&["explain", "courant-limit", "--sketch", "x.svg"]);
-    assert!(none.code != SOUND && none.errors.contains("has no levels to draw"));
+    assert!(svg.starts_with("<svg ") && svg.contains(">fixed</text>"), "{svg}");
+    let none = folder.call(&["explain", "grid-crossing", "--sketch", "x.svg"]);
+    assert!(none.code != SOUND && none.errors.contains("has no scene to draw"));
+}
+
+/// What the picture of a scene must show: rims with holes, materials, symbols of faces, directions of
+/// loads, and the rest in words.
+#[rstest]
+#[case::a_hole("expanding-ring", &["fill-rule=\"evenodd\"", "annulus about (0, 0)"], 2)]
+#[case::two_materials("bar-of-two-materials", &["#d55e00", ">body 2<", ">contact<"], 2)]
+#[case::friction_in_space("sliding-block-3d", &["seen along Z", ">gravity<", ">back, front<"], 1)]
+#[case::a_study_of_stability("courant-limit", &["stroke-dasharray=\"6 4\"", ">left, right<"], 1)]
+#[case::an_axis("axisymmetric-wave", &["stroke-dasharray=\"9 3 2 3\"", "<circle"], 1)]
+fn the_scene_is_drawn(#[case] name: &str, #[case] marks: &[&str], #[case] rims: usize) {
+    let folder = Folder::new();
+    let drawn = folder.call(&["explain", name, "--sketch", "scene.svg"]);
+    assert_eq!((drawn.code, drawn.errors.as_str()), (SOUND, ""));
+    let svg = folder.read("scene.svg");
+    for mark in marks {
+        assert!(svg.contains(mark), "{name}: no `{mark}` in\n{svg}");
+    }
+    let paths = svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    assert_eq!(paths.map(|path| path.matches('M').count()).sum::<usize>(), rims, "{svg}");
+}
+
+/// The load of Cook's membrane is one along its face.
+#[test]
+fn arrows_have_the_direction_of_tractions() {
+    let folder = Folder::new();
+    folder.call(&["explain", "cooks-membrane", "--sketch", "scene.svg"]);
+    let svg = folder.read("scene.svg");
+    let arrow = svg.split("stroke=\"#d55e00\" fill=\"none\">").nth(1).expect("an arrow");
+    let end = |key: &str| arrow.split(&format!(" {key}=\"")).nth(1)?.split('"').next();
+    assert_eq!(end("x1"), end("x2"));
+    assert!(end("x1").is_some() && end("y1") != end("y2"), "{arrow}");
 }

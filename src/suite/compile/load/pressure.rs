@@ -5,7 +5,7 @@ use super::fields::scalar;
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
-use crate::mpm::{Effect, Placement, Pressure};
+use crate::mpm::{Effect, Placement, Pressure, Side};
 #[cfg(feature = "schemas")]
 use crate::suite::model::face_schema::face_name;
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
@@ -75,6 +75,13 @@ impl SceneLoad for PressureLoad {
 
     fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
         Some(self)
+    }
+
+    fn traction(&self, values: &[f64]) -> Vec<f64> {
+        let (normal, side) = self.face.place();
+        let inwards = if side == Side::High { -1.0 } else { 1.0 };
+        let component = |axis| if axis == normal { inwards * self.value.eval(values) } else { 0.0 };
+        (0..values.len() - 1).map(component).collect()
     }
 
     /// In uniaxial strain a face keeps its area, so a pressure is a traction.

@@ -75,6 +75,10 @@ impl SceneLoad for TractionLoad {
         Some(self)
     }
 
+    fn traction(&self, values: &[f64]) -> Vec<f64> {
+        self.value.iter().map(|component| component.eval(values)).collect()
+    }
+
     fn tension(&self, x: f64, outwards: f64) -> Option<TimeFunction> {
         let value = self.value.first()?.clone();
         Some(Box::new(move |t| outwards * value.eval(&[x, t])))

@@ -1,0 +1,173 @@
+//! Conditions and loads on faces as the customary symbols.
+
+use super::arrows::{arrow, direction};
+use super::shape::rims;
+use super::view::View;
+use crate::exact::Region;
+use crate::report::figure::plot::style::{INK, PAPER, look};
+use crate::report::figure::plot::svg::{Pt, SvgElement};
+use crate::suite::model::SceneFace;
+use crate::suite::model::load::{ListedLoad, LoadTarget};
+
+/// Distance between hatches, rollers and arrows along a face.
+const STEP: f64 = 9.0;
+const ARROW_STEP: f64 = 26.0;
+
+/// How far symbols reach out from a face.
+const REACH: f64 = 8.0;
+const ARROW: f64 = 20.0;
+
+/// Share of a traction along the normal below which it is one along the face.
+const ALONG: f64 = 0.3;
+
+/// A face on the canvas: its ends, and the direction out of the body.
+struct Edge {
+    ends: [Pt; 2],
+    out: Pt,
+}
+
+impl Edge {
+    fn of(view: &View, face: &SceneFace) -> Self {
+        let scene = &view.scene;
+        let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
+        let [low, high] = ends(view, face, x);
+        let at = |along: f64| if face.axis == 0 { (x, along) } else { (along, x) };
+        let sign = if face.high { 1.0 } else { -1.0 };
+        let out = if face.axis == 0 { (sign, 0.0) } else { (0.0, -sign) };
+        Self { ends: [view.place(at(low)), view.place(at(high))], out }
+    }
+
+    fn length(&self) -> f64 {
+        let [a, b] = self.ends;
+        libm::hypot(b.0 - a.0, b.1 - a.1)
+    }
+
+    /// The point at a share of the way along the face, `away` pixels out of it.
+    fn at(&self, share: f64, away: f64) -> Pt {
+        let ([a, b], out) = (self.ends, self.out);
+        (a.0 + share * (b.0 - a.0) + away * out.0, a.1 + share * (b.1 - a.1) + away * out.1)
+    }
+
+    /// Places along the face, about `step` apart.
+    fn shares(&self, step: f64) -> impl Iterator<Item = f64> {
+        let count = libm::floor(self.length() / step).max(1.0) as usize;
+        (0..count).map(move |k| (k as f64 + 0.5) / count as f64)
+    }
+
+    /// Both ends of an arrow in `direction`: of one that presses the tip is at the face, of one
+    /// that pulls the tail, and one along the face lies beside it.
+    fn loaded(&self, share: f64, direction: Option<Pt>) -> (Pt, Pt) {
+        let (ux, uy) = direction.unwrap_or(self.out);
+        let (x, y) = (ARROW * ux, ARROW * uy);
+        let pull = ux * self.out.0 + uy * self.out.1;
+        if pull.abs() < ALONG {
+            let middle = self.at(share, 0.5 * REACH);
+            let tail = (middle.0 - 0.5 * x, middle.1 - 0.5 * y);
+            return (tail, (tail.0 + x, tail.1 + y));
+        }
+        let near = self.at(share, 2.0);
+        if pull > 0.0 { (near, (near.0 + x, near.1 + y)) } else { ((near.0 - x, near.1 - y), near) }
+    }
+
+    fn line(&self, away: f64, width: f64, colour: &str) -> SvgElement {
+        let line = SvgElement::line(self.at(0.0, away), self.at(1.0, away));
+        line.set("stroke", colour).at("stroke-width", width)
+    }
+
+    /// Strokes of a wall that starts `away` from the face.
+    fn hatching(&self, away: f64, group: &mut SvgElement) {
+        let lean = 0.5 * REACH / self.length();
+        for share in self.shares(STEP) {
+            let (from, to) = (self.at(share + lean, away), self.at(share - lean, away + REACH));
+            group.add(&SvgElement::line(from, to).set("stroke", INK).at("stroke-width", 1.0));
+        }
+    }
+}
+
+/// The first two components of the traction (Pa) of a load at a share of the way along its face.
+fn traction(view: &View, load: &ListedLoad, (face, share): (&SceneFace, f64), t: f64) -> Pt {
+    let scene = &view.scene;
+    let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
+    let [low, high] = ends(view, face, x);
+    let along = low + share * (high - low);
+    let mut values = View::in_scene(scene, if face.axis == 0 { (x, along) } else { (along, x) });
+    values.push(t);
+    let found = load.traction(&values);
+    let component = |axis: usize| found.get(axis).copied().unwrap_or(0.0);
+    (component(0), component(1))
+}
+
+/// Ends of a face (m) along the other axis: of a body with an outline, the part of the rim that
+/// lies on the face.
+fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
+    let (scene, other) = (&view.scene, 1 - face.axis);
+    if scene.mapped.is_some() {
+        let tolerance = 1e-9 * (scene.to[face.axis] - scene.from[face.axis]);
+        let pair = |point: &Pt| if face.axis == 0 { *point } else { (point.1, point.0) };
+        let on_face = rims(view, scene).concat().iter().map(pair).collect::<Vec<Pt>>();
+        let on_face = on_face.iter().filter(|point| (point.0 - x).abs() <= tolerance);
+        let (low, high) = on_face.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
+            (low.min(point.1), high.max(point.1))
+        });
+        if low < high {
+            return [low, high];
+        }
+    }
+    match scene.dimension() {
+        1 => [0.0, view.h],
+        _ => [scene.from[other], scene.to[other]],
+    }
+}
+
+/// Symbols of the condition and the loads of a face in the plane.
+pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
+    let edge = Edge::of(view, face);
+    let mut group = SvgElement::new("g");
+    match face.condition() {
+        "fixed" => {
+            group.add(&edge.line(0.0, 2.5, INK));
+            edge.hatching(0.0, &mut group);
+        }
+        "roller" => {
+            group.add(&edge.line(0.0, 1.5, INK));
+            for share in edge.shares(STEP) {
+                let (x, y) = edge.at(share, 0.5 * REACH);
+                let roller = SvgElement::new("circle").at("cx", x).at("cy", y).at("r", 3.0);
+                group.add(&roller.set("fill", PAPER).set("stroke", INK));
+            }
+            group.add(&edge.line(REACH, 1.5, INK));
+        }
+        "friction" => {
+            // A wall beside the body, which can leave it.
+            group.add(&edge.line(3.0, 1.5, INK));
+            edge.hatching(3.0, &mut group);
+        }
+        "periodic" => group.add(&edge.line(0.0, 2.0, INK).set("stroke-dasharray", "6 4")),
+        // It moves in any direction, which words say.
+        "velocity" => group.add(&edge.line(0.0, 4.0, look(2).colour)),
+        _ => {}
+    }
+    for load in view.scene.loads_on(LoadTarget::Face(number)) {
+        for share in edge.shares(ARROW_STEP) {
+            let (tail, tip) =
+                edge.loaded(share, direction(|t| traction(view, load, (face, share), t)));
+            group.add(&arrow(tail, tip, look(1).colour));
+        }
+    }
+    group
+}
+
+/// A set of particles that a load names: the box, dashed, with its name.
+pub(super) fn set(view: &View, set: &Region) -> SvgElement {
+    let across = if view.scene.dimension() == 1 { (0.0, view.h) } else { (set.from[1], set.to[1]) };
+    let low = view.place((set.from[0], across.0));
+    let high = view.place((set.to[0], across.1));
+    let mut group = SvgElement::new("g");
+    let frame = SvgElement::new("rect").at("x", low.0).at("y", high.1);
+    let frame = frame.at("width", high.0 - low.0).at("height", low.1 - high.1);
+    let frame = frame.set("fill", "none").set("stroke", look(1).colour);
+    group.add(&frame.at("stroke-width", 1.5).set("stroke-dasharray", "5 3"));
+    let name = (0.5 * (low.0 + high.0), high.1 - 5.0);
+    group.add(&SvgElement::text(name, "middle", &set.name));
+    group
+}

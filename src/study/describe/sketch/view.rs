@@ -1,0 +1,106 @@
+//! The part of the plane that a sketch shows, and where a place lies on the canvas.
+
+use crate::report::figure::plot::svg::Pt;
+use crate::suite::model::grid_size::grid_axis;
+use crate::suite::model::stability::StabilityPlan;
+use crate::suite::model::{ConvergencePlan, Scene, Suite};
+
+/// Width of the canvas.
+pub(super) const WIDTH: f64 = 440.0;
+
+/// Distance of the grid from the edges of the canvas.
+pub(super) const MARGIN: f64 = 52.0;
+
+/// Most and least height of the grid on the canvas; a bar has the least.
+const HIGHEST: f64 = 260.0;
+const LOWEST: f64 = 34.0;
+
+/// The grid of the coarsest level in the plane of the first two axes.
+pub(super) struct View {
+    pub(super) scene: Scene,
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+    /// Cell size (m).
+    pub(super) h: f64,
+}
+
+impl View {
+    /// The view of a suite's scene; a stability study has that of its first row.
+    pub(super) fn of(suite: &Suite) -> Option<Self> {
+        if let Some(plan) = suite.plan::<ConvergencePlan>() {
+            return Some(Self::over(plan.scene.clone(), plan.refine.levels.first()?.h));
+        }
+        let plan = suite.plan::<StabilityPlan>()?;
+        let first = [(plan.swept.as_str(), *plan.values.first()?)];
+        let setup = plan.template.setup(&first).ok()?;
+        Some(Self::over(setup.scene, setup.level.h))
+    }
+
+    fn over(scene: Scene, h: f64) -> Self {
+        // A bar is drawn as one cell high.
+        let (mut from, mut to) = ([0.0; 2], [0.0, h]);
+        for axis in 0..scene.dimension().min(2) {
+            let (start, cells) = grid_axis(&scene, axis, h);
+            (from[axis], to[axis]) = (start, start + cells * h);
+        }
+        Self { scene, from, to, h }
+    }
+
+    /// Lengths (m) of the grid along the first two axes.
+    pub(super) fn size(&self) -> [f64; 2] {
+        [self.to[0] - self.from[0], self.to[1] - self.from[1]]
+    }
+
+    /// Pixels per metre along both axes. They differ for what would be too low to be seen.
+    pub(super) fn scale(&self) -> [f64; 2] {
+        let size = self.size();
+        let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);
+        match self.scene.dimension() {
+            1 => [(WIDTH - 2.0 * MARGIN) / size[0], LOWEST / size[1]],
+            _ => [equal, equal.max(LOWEST / size[1])],
+        }
+    }
+
+    /// Whether lengths along both axes can be compared.
+    pub(super) fn is_to_scale(&self) -> bool {
+        let [across, up] = self.scale();
+        self.scene.dimension() == 1 || across == up
+    }
+
+    /// Height (px) of the grid with its margins.
+    pub(super) fn height(&self) -> f64 {
+        self.size()[1] * self.scale()[1] + 2.0 * MARGIN
+    }
+
+    /// The pixel of a place (m).
+    pub(super) fn place(&self, (x, y): Pt) -> Pt {
+        let (scale, size) = (self.scale(), self.size());
+        let left = 0.5 * (WIDTH - size[0] * scale[0]);
+        let bottom = self.height() - MARGIN;
+        (left + (x - self.from[0]) * scale[0], bottom - (y - self.from[1]) * scale[1])
+    }
+
+    /// Low and high end of a body along the second axis (m).
+    pub(super) fn rise(&self, body: &Scene) -> Pt {
+        if body.dimension() == 1 { (0.0, self.h) } else { (body.from[1], body.to[1]) }
+    }
+
+    /// A place of the plane as one of the scene: on the line of a bar, in the middle of a third
+    /// axis.
+    pub(super) fn in_scene(body: &Scene, (x, y): Pt) -> Vec<f64> {
+        let coordinate = |axis: usize| match axis {
+            0 => x,
+            1 => y,
+            _ => 0.5 * (body.from[axis] + body.to[axis]),
+        };
+        (0..body.dimension()).map(coordinate).collect()
+    }
+
+    /// Whether a body covers a place of the plane.
+    pub(super) fn covers(body: &Scene, place: Pt) -> bool {
+        let place = Self::in_scene(body, place);
+        let inside = |(axis, x): (usize, &f64)| (body.from[axis]..=body.to[axis]).contains(x);
+        place.iter().enumerate().all(inside)
+            && body.outline.as_ref().is_none_or(|outline| outline.holds(&place))
+    }
+}
