@@ -34,6 +34,7 @@ pub(crate) mod study;
 pub(crate) mod suite;
 pub(crate) mod sweep;
 
+mod colour_scale;
 mod convergence;
 mod history;
 mod levels;

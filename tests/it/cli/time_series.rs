@@ -64,7 +64,7 @@ fn the_errors_of_the_particles_are_those_of_the_report() {
 fn what_did_not_come_as_expected_is_shown_and_no_more() {
     let folder = Folder::new();
     folder.write("bars/short.yaml", BAR);
-    folder.write("bars/ambitious.yaml", &ambitious());
+    folder.write("bars/ambitious.yaml", ambitious());
     let found = folder.call(&["run", "bars", "--brief", "--vtu", "vtu"]);
     assert_eq!(found.code, FAILED);
     let all = series(&folder);

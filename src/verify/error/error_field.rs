@@ -1,0 +1,115 @@
+//! Errors over the body at the end of a run, thinned for a picture.
+
+use super::norm::{larger, length};
+use super::quantity::Quantity;
+use crate::exact::Truth;
+use crate::subject::Samples;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Squares along the longer side of a plane, and parts of a line: what a picture can show.
+const SQUARES: f64 = 20.0;
+const PARTS: f64 = 80.0;
+
+/// The largest error in each part of the body. Of three dimensions the first two are seen, and the
+/// error is the largest along the third.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ErrorField {
+    /// Whether it is a plane, and not a line.
+    pub is_plane: bool,
+    /// Size of a part (m).
+    pub size: f64,
+    /// Position now (m) and magnitude of the error of the particle that is farthest off, for each
+    /// part with particles; NaN where one has no error that is a number.
+    pub parts: Vec<[f64; 3]>,
+}
+
+impl ErrorField {
+    /// The errors of `of` in `samples` against `truth` at time `t` (s); none if there is no such
+    /// error, and if no particle has a place.
+    pub(super) fn of(of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Option<Self> {
+        let (components, errors) = of.differences(samples, truth, t)?;
+        let d = samples.dimension;
+        let places = samples.label.chunks(d).zip(samples.displacement.chunks(d)).map(|(x, u)| {
+            let place = |axis: usize| Some(x.get(axis)? + u.get(axis)?);
+            [place(0).unwrap_or(f64::NAN), place(1).unwrap_or(0.0)]
+        });
+        let seen: Vec<([f64; 2], f64)> = places
+            .zip(errors.chunks(components).map(length))
+            .filter(|(place, _)| place.iter().all(|x| x.is_finite()))
+            .collect();
+        let low =
+            seen.iter().fold([f64::INFINITY; 2], |low, (x, _)| [0, 1].map(|i| low[i].min(x[i])));
+        let high = seen
+            .iter()
+            .fold([f64::NEG_INFINITY; 2], |high, (x, _)| [0, 1].map(|i| high[i].max(x[i])));
+        let length = (high[0] - low[0]).max(high[1] - low[1]);
+        let size = length / if d > 1 { SQUARES } else { PARTS };
+        if !(size > 0.0 && size.is_finite()) {
+            return None;
+        }
+        let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
+        for (x, error) in seen {
+            let part = [1, 0].map(|axis| libm::floor((x[axis] - low[axis]) / size) as i64);
+            let worst = parts.entry(part).or_insert([x[0], x[1], error]);
+            if larger(worst[2], error).to_bits() != worst[2].to_bits() {
+                *worst = [x[0], x[1], error];
+            }
+        }
+        Some(Self { is_plane: d > 1, size, parts: parts.into_values().collect() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    struct AtRest;
+
+    impl Truth for AtRest {
+        fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+
+        fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+    }
+
+    /// A square of `n` particles a side, displaced by its number times 1e-6.
+    fn square(n: usize) -> Samples {
+        let mut samples = Samples::default();
+        for p in 0..n * n {
+            let label = [(p % n) as f64, (p / n) as f64].map(|x| x / n as f64);
+            samples.push(&label, &[p as f64 * 1e-6, 0.0], &[0.0, 0.0], 1.0);
+        }
+        samples
+    }
+
+    #[rstest]
+    #[case::each_in_its_own_part(10, 100)]
+    #[case::several_in_a_part(100, 441)]
+    fn every_part_has_its_worst_error(#[case] n: usize, #[case] most: usize) {
+        let field = ErrorField::of(Quantity::Displacement, &square(n), &AtRest, 0.0).unwrap();
+        assert!(field.is_plane && field.parts.len() <= most, "{}", field.parts.len());
+        let largest = field.parts.iter().map(|part| part[2]).fold(0.0, f64::max);
+        assert_eq!(largest, (n * n - 1) as f64 * 1e-6);
+    }
+
+    /// A particle without a place is left out; one without an error marks its part.
+    #[test]
+    fn nan_is_seen() {
+        let mut samples = square(10);
+        samples.velocity[1] = f64::NAN;
+        samples.displacement[40] = f64::NAN;
+        let field = ErrorField::of(Quantity::Velocity, &samples, &AtRest, 0.0).unwrap();
+        assert_eq!(field.parts.len(), 99);
+        assert_eq!(field.parts.iter().filter(|part| part[2].is_nan()).count(), 1);
+    }
+
+    #[test]
+    fn a_single_particle_is_no_field() {
+        assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
+    }
+}
