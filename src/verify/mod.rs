@@ -46,6 +46,7 @@ pub use cost::{
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
 pub(crate) use error::declaration::SumNeed;
+pub use error::error_field::ErrorField;
 pub use error::error_scale::ErrorScale;
 pub use error::judged_sum::JudgedSum;
 pub use error::norm::Norms;

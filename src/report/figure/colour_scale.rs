@@ -47,6 +47,7 @@ impl ColourScale {
         let middle = if is_logarithmic { libm::sqrt(low * high) } else { 0.5 * (low + high) };
         [low, middle, high].map(|value| match high.abs() {
             _ if is_logarithmic => format!("{value:.0e}"),
+            most if most < 1e-2 => format!("{value:.1e}"),
             most if most < 0.995 => format!("{value:.4}"),
             _ => format!("{value:.2}"),
         })

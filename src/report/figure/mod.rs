@@ -1,8 +1,9 @@
 //! Figures as standalone SVG documents.
 //!
-//! Four kinds are drawn: the [`ConvergencePlot`] plot (error against cell size, both axes
+//! Five kinds are drawn: the [`ConvergencePlot`] plot (error against cell size, both axes
 //! logarithmic), the [`WorkPrecision`] diagram (error against work), the [`HistoryPlot`] plot
-//! (curves over linear axes) and the [`Map`] (numbers over colours). All are pure functions of
+//! (curves over linear axes), the [`Map`] (numbers over colours) and the [`ErrorMap`] (errors over
+//! bodies). All are pure functions of
 //! their input, so that a figure can be compared byte by byte: every coordinate is printed with two
 //! decimals and every transcendental comes from `libm`.
 //!
@@ -36,6 +37,7 @@ pub(crate) mod sweep;
 
 mod colour_scale;
 mod convergence;
+mod error_map;
 mod history;
 mod levels;
 mod map;
@@ -43,6 +45,7 @@ mod series;
 mod work;
 
 pub use convergence::ConvergencePlot;
+pub use error_map::ErrorMap;
 pub use history::{Curve, HistoryPlot};
 pub use levels::{Mark, PlotPoint};
 pub use map::{Map, MapField};

@@ -1,17 +1,23 @@
 //! The figures of convergence and internal-force studies.
 
 use super::drawing::Figure;
-use super::{ConvergencePlot, Curve, HistoryPlot, Mark, PlotPoint, PlotSeries};
+use super::{ConvergencePlot, Curve, ErrorMap, HistoryPlot, Mark, PlotPoint, PlotSeries};
 use crate::subject::Totals;
-use crate::verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict};
+use crate::verify::{
+    Axis, Convergence, ErrorField, InternalForce, LevelOutcome, SuiteOutcome, Verdict,
+};
 
 /// Most curves in one plot: a reader cannot tell more apart.
 pub(crate) const MOST_SERIES: usize = 6;
 
-/// Convergence plots, as many as keep each readable; the observed velocity of each case that
-/// watched one; the energies that were asked for.
+/// Most panels in one figure of errors over bodies.
+const MOST_PANELS: usize = 24;
+
+/// Convergence plots, as many as keep each readable; where the errors are; the observed velocity of
+/// each case that watched one; the energies that were asked for.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
+    figures.extend(error_maps(outcome));
     figures.extend(histories(outcome));
     figures.extend(energies(outcome));
     figures
@@ -63,6 +69,31 @@ pub(crate) fn spacing(axis: Axis) -> &'static str {
         Axis::Time => "time step dt (s)",
         Axis::Particles => "particle spacing h/ppc^(1/D) (m)",
     }
+}
+
+/// Where the error of each case is, on the finest level.
+fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let field = |(name, study): (&str, &Convergence)| {
+        let level = study.levels.last()?;
+        let name = match level.run.failure {
+            Some(_) => format!("{name}, where it broke"),
+            None => name.to_owned(),
+        };
+        Some((name, level.run.field.clone()?))
+    };
+    let studies = studies(outcome);
+    let Some((_, first)) = studies.first() else { return Vec::new() };
+    let of = first.of.at_labels();
+    let label = format!("error of {} ({})", of.words(), of.unit()).replace(" ()", "");
+    let fields: Vec<_> = studies.iter().copied().filter_map(field).collect();
+    let parts = fields.chunks(MOST_PANELS).enumerate();
+    let figure = |(i, part): (usize, &[(String, ErrorField)])| {
+        let number = if fields.len() > MOST_PANELS { format!("-{}", i + 1) } else { String::new() };
+        let title = format!("{}: error on the finest level", outcome.title);
+        let svg = ErrorMap { title, label: label.clone(), panels: part.to_vec() }.to_svg();
+        Figure { file: format!("{}-error{number}.svg", outcome.suite), svg }
+    };
+    parts.map(figure).collect()
 }
 
 /// The slope that a reader should see beside a series that converges: its observed order, or the

@@ -231,6 +231,7 @@ mod tests {
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let counters = RunCounters::new(0);
         let run = RunResult {
+            field: None,
             errors: Norms::ZERO,
             max_rms: 0.0,
             at_end: Norms::ZERO,

@@ -151,13 +151,15 @@ impl<'a> ConvergenceRunner<'a> {
         } else {
             self.truth(case)?
         };
-        let levels: Result<Vec<LevelOutcome>, String> = plan
-            .refine
-            .levels(self.context.extent)
+        let all = plan.refine.levels(self.context.extent);
+        let count = all.len();
+        let levels: Result<Vec<LevelOutcome>, String> = all
             .par_iter()
-            .map(|level| {
+            .enumerate()
+            .map(|(index, level)| {
+                let shown = index + 1 == count && case.against != Against::Nothing;
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let outcome = self.level(case, truth, level)?;
+                    let outcome = self.level(case, truth, level, shown)?;
                     Ok(LevelOutcome { stable_time_step: limit, ..outcome })
                 });
                 progress();
@@ -166,18 +168,19 @@ impl<'a> ConvergenceRunner<'a> {
             .collect();
         let levels = levels?;
         let judgement = judge_levels(plan, case, expectation, &levels);
-        let again = |level| self.level(case, truth, level);
+        let again = |level| self.level(case, truth, level, false);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
         let error_scale = error_scale(plan, case, truth);
         Ok(judged(plan, case, expectation, levels, judgement, floor, error_scale))
     }
 
-    /// One level of a case against `truth`.
+    /// One level of a case against `truth`, which keeps its errors over the body or not.
     fn level(
         &self,
         case: &Case,
         truth: &dyn Truth,
         level: LevelPlan,
+        keeps_field: bool,
     ) -> Result<LevelOutcome, String> {
         let plan = self.plan;
         let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
@@ -186,7 +189,7 @@ impl<'a> ConvergenceRunner<'a> {
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
         let run = |store: &mut dyn CheckpointStore| {
             let make = || subject_under(self.context.solver, suite, plan, case, level);
-            run_of(plan, truth, (&clock, store), make)
+            run_of(plan, truth, (&clock, store), keeps_field, make)
         };
         let broken = |found: &RunResult| found.failure.is_some();
         let found = self.context.cached(&key, &name, broken, run)?;
@@ -229,11 +232,12 @@ fn run_of(
     plan: &ConvergencePlan,
     truth: &dyn Truth,
     (clock, keeper): (&Clock, &mut dyn CheckpointStore),
+    keeps_field: bool,
     make: impl FnMut() -> Result<Box<dyn Subject>, String>,
 ) -> Result<RunResult, String> {
     let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
     let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
-    let comparison = Comparison { of: plan.of, sum, observe, at_rest: rest };
+    let comparison = Comparison { of: plan.of, sum, observe, at_rest: rest, keeps_field };
     verify::resume(make, truth, clock, &comparison, keeper)
 }
 

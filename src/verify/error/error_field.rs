@@ -19,8 +19,8 @@ pub struct ErrorField {
     pub is_plane: bool,
     /// Size of a part (m).
     pub size: f64,
-    /// Position now (m) and magnitude of the error of the particle that is farthest off, for each
-    /// part with particles; NaN where one has no error that is a number.
+    /// Position now (m) and largest magnitude of the error in each part with particles; NaN where
+    /// one has no error that is a number. A part is a square of many particles, or one particle.
     pub parts: Vec<[f64; 3]>,
 }
 
@@ -48,14 +48,19 @@ impl ErrorField {
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
+        // Parts smaller than particles: each particle is one.
+        let volume = samples.weight.iter().sum::<f64>() / samples.len() as f64;
+        let spacing = libm::pow(volume, 1.0 / d as f64);
+        let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
         for (x, error) in seen {
-            let part = [1, 0].map(|axis| libm::floor((x[axis] - low[axis]) / size) as i64);
-            let worst = parts.entry(part).or_insert([x[0], x[1], error]);
-            if larger(worst[2], error).to_bits() != worst[2].to_bits() {
-                *worst = [x[0], x[1], error];
-            }
+            let part = [0, 1].map(|axis| libm::floor((x[axis] - low[axis]) / size));
+            let place = [0, 1].map(|axis| low[axis] + (part[axis] + 0.5) * size);
+            let [x, y] = if is_coarse { x } else { place };
+            let worst = parts.entry(part.map(|k| k as i64)).or_insert([x, y, error]);
+            worst[2] = larger(worst[2], error);
         }
+        let size = if is_coarse { spacing } else { size };
         Some(Self { is_plane: d > 1, size, parts: parts.into_values().collect() })
     }
 }

@@ -3,6 +3,7 @@
 pub(crate) mod checkpoint_store;
 pub(crate) mod clock;
 pub(crate) mod declaration;
+pub(crate) mod error_field;
 pub(crate) mod error_scale;
 mod fields;
 pub(crate) mod judged_sum;

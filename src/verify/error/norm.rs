@@ -90,8 +90,14 @@ impl Norms {
     }
 }
 
-fn length(error: &[f64]) -> f64 {
+/// Euclidean length.
+pub(super) fn length(error: &[f64]) -> f64 {
     error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
+}
+
+/// Largest length of vectors in `dimension` dimensions; NaN if any is.
+pub(super) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
+    vectors.chunks_exact(dimension.max(1)).map(length).fold(0.0, larger)
 }
 
 /// The larger of two lengths; NaN if either is (`f64::max` would drop it).

@@ -103,6 +103,12 @@ impl Quantity {
         self.sum().is_some()
     }
 
+    /// The quantity with values at labels that is shown for it: of a sum the displacement.
+    #[must_use]
+    pub fn at_labels(self) -> Self {
+        if self.is_sum() { Self::default() } else { self }
+    }
+
     /// Need of a sum, besides a body that moves; none of a field.
     pub(crate) fn sum_need(self) -> Option<SumNeed> {
         self.sum().map(|sum| sum.needs)

@@ -2,8 +2,9 @@
 
 use super::checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed};
 use super::clock::Clock;
+use super::error_field::ErrorField;
 use super::judged_sum::{JudgedSum, over_instants};
-use super::norm::{Norms, larger};
+use super::norm::{Norms, larger, largest_length};
 use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
 use super::run_result::RunResult;
@@ -24,6 +25,8 @@ pub struct Comparison<'a> {
     /// The truth is a state of rest, and errors are taken at the end only: a speed (m/s) that
     /// the remaining ones are compared with.
     pub at_rest: Option<f64>,
+    /// Whether the errors over the body are kept.
+    pub keeps_field: bool,
 }
 
 /// The share of a run, at its end, in which a body must be at rest. An instant would not do: a
@@ -133,8 +136,10 @@ impl<'a> RunMonitor<'a> {
         }
         if let Some(speed) = self.comparison.at_rest {
             if t >= (1.0 - LAST) * clock.until {
-                let residual_speed =
-                    larger(self.residual_speed.unwrap_or(0.0), fastest(&self.samples) / speed);
+                let residual_speed = larger(
+                    self.residual_speed.unwrap_or(0.0),
+                    largest_length(&self.samples.velocity, self.samples.dimension) / speed,
+                );
                 self.residual_speed = Some(residual_speed);
             }
             if step < clock.steps {
@@ -165,6 +170,7 @@ impl<'a> RunMonitor<'a> {
             self.truth.displacement(place, clock.until, &mut exact);
             u.iter().zip(&exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
         };
+        let field = self.field(clock.until);
         RunResult {
             errors: self.errors,
             max_rms: self.max_rms,
@@ -179,13 +185,23 @@ impl<'a> RunMonitor<'a> {
             observed_error: place.zip(displacement.as_ref()).map(distance),
             displacement,
             residual_speed: self.residual_speed,
+            field,
             history: self.history.map(|(_, history)| history),
         }
     }
 
+    /// The errors over the body at time `t` (s), of what has values at labels.
+    fn field(&self, t: f64) -> Option<ErrorField> {
+        let Comparison { of, keeps_field, .. } = *self.comparison;
+        keeps_field.then(|| ErrorField::of(of.at_labels(), &self.samples, self.truth, t))?
+    }
+
     /// A run that broke has no error, only a reason.
-    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
+    fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
+        subject.sample(&mut self.samples);
+        let field = self.field(t);
         RunResult {
+            field,
             errors: Norms::NONE,
             max_rms: f64::NAN,
             at_end: Norms::NONE,
@@ -235,12 +251,6 @@ impl Memory for RunMonitor<'_> {
             checkpoint.visit(&mut history.velocity);
         }
     }
-}
-
-/// Largest speed (m/s) of a label; NaN if any is.
-fn fastest(samples: &Samples) -> f64 {
-    let speed = |v: &[f64]| v.iter().fold(0.0, |all, v| libm::hypot(all, *v));
-    samples.velocity.chunks_exact(samples.dimension.max(1)).map(speed).fold(0.0, larger)
 }
 
 /// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.

@@ -1,5 +1,6 @@
 //! Results of one run: all that is judged, reported and kept of it.
 
+use super::error_field::ErrorField;
 use super::norm::Norms;
 use super::observer::History;
 use crate::subject::{RunCounters, Totals};
@@ -34,6 +35,8 @@ pub struct RunResult {
     pub failure: Option<String>,
     /// The observed label, if one was asked for and the run came to its end.
     pub history: Option<History>,
+    /// Errors over the body at the end, or at the failure, if they were asked for.
+    pub field: Option<ErrorField>,
     /// Displacement at the observed place at the end (m), if it could be interpolated.
     pub displacement: Option<Vec<f64>>,
     /// Its distance (m) from the exact one.

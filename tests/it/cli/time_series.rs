@@ -84,9 +84,11 @@ fn what_did_not_come_as_expected_is_shown_and_no_more() {
 fn a_run_that_breaks_is_shown_up_to_there() {
     let folder = Folder::new();
     let case = "mpm-linear-apic-usl";
-    let found =
-        folder.call(&["run", "finite-strain-crossing", "--case", case, "--brief", "--vtu", "vtu"]);
+    let words = ["run", "finite-strain-crossing", "--case", case, "--brief", "--vtu", "vtu"];
+    let found = folder.call(&[&words[..], &["--out", "out"]].concat());
     assert_eq!(found.code, SOUND, "{}", found.errors);
+    let picture = folder.read("out/finite-strain-crossing-error.svg");
+    assert!(picture.contains(">mpm-linear-apic-usl, where it broke<"), "{picture}");
     let all = series(&folder);
     let (files, end) = last(&all[0]);
     // A period is 0.02 s.

@@ -1,0 +1,173 @@
+//! The error of each part of the body, a panel for each case: all of one scale of lengths and one
+//! of colours, so that cases can be compared by eye.
+
+use super::colour_scale::{ColourScale, colour};
+use super::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH};
+use super::plot::svg::{SvgElement, number};
+use super::plot::text;
+use crate::verify::ErrorField;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const LEFT: f64 = 14.0;
+const TOP: f64 = 18.0;
+const GAP: f64 = 16.0;
+/// Panels of planes beside each other.
+const PLANES: usize = 3;
+/// Highest panel of a plane, and height of that of a line.
+const HIGHEST: f64 = 260.0;
+const LINE: f64 = 14.0;
+/// Shades that are told apart: a part is drawn in the nearest.
+const SHADES: f64 = 24.0;
+
+/// Errors over the bodies of several cases.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ErrorMap {
+    /// Title above the panels.
+    pub title: String,
+    /// Label of the colours: the quantity and its unit.
+    pub label: String,
+    /// Name and errors of each case.
+    pub panels: Vec<(String, ErrorField)>,
+}
+
+/// Place of the bodies in their panels.
+struct BodyWindow {
+    low: [f64; 2],
+    high: [f64; 2],
+    /// Pixels of a metre.
+    zoom: f64,
+    width: f64,
+    height: f64,
+}
+
+impl ErrorMap {
+    fn is_plane(&self) -> bool {
+        self.panels.iter().any(|(_, field)| field.is_plane)
+    }
+
+    fn window(&self) -> BodyWindow {
+        let parts = || self.panels.iter().flat_map(|(_, field)| &field.parts);
+        let margin = self.panels.iter().map(|(_, field)| 0.5 * field.size).fold(0.0, f64::max);
+        let low =
+            [0, 1].map(|i| parts().map(|part| part[i]).fold(f64::INFINITY, f64::min) - margin);
+        let high =
+            [0, 1].map(|i| parts().map(|part| part[i]).fold(f64::NEG_INFINITY, f64::max) + margin);
+        let columns = if self.is_plane() { PLANES } else { 1 };
+        let width = (WIDTH - 2.0 * LEFT - GAP * (columns - 1) as f64) / columns as f64;
+        let zoom = width / (high[0] - low[0]);
+        let zoom = if self.is_plane() { zoom.min(HIGHEST / (high[1] - low[1])) } else { zoom };
+        let height = if self.is_plane() { zoom * (high[1] - low[1]) } else { LINE };
+        BodyWindow { low, high, zoom, width, height }
+    }
+
+    /// The figure as a standalone SVG document.
+    pub fn to_svg(&self) -> String {
+        let window = self.window();
+        let columns = if self.is_plane() { PLANES } else { 1 };
+        let heading = text::wrap(&self.title, 1.12 * TITLE, WIDTH - 2.0 * LEFT, 3);
+        let top = TOP + 17.0 * heading.len() as f64 + 6.0;
+        let row = window.height + 18.0 + if self.is_plane() { GAP } else { 4.0 };
+        let bottom = top + row * self.panels.len().div_ceil(columns) as f64;
+        let errors = self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
+        let scale = ColourScale::of(errors.filter(|error| *error > 0.0));
+        let height = bottom + 44.0;
+        let mut svg = SvgElement::new("svg")
+            .set("xmlns", "http://www.w3.org/2000/svg")
+            .set("viewBox", &format!("0 0 {} {}", number(WIDTH), number(height)))
+            .at("width", WIDTH)
+            .at("height", height)
+            .set("role", "img")
+            .set("font-family", FONT)
+            .at("font-size", TEXT)
+            .set("fill", INK);
+        svg.add(&SvgElement::new("title").content(&self.title));
+        svg.add(
+            &SvgElement::new("rect").at("width", WIDTH).at("height", height).set("fill", PAPER),
+        );
+        for (i, line) in heading.iter().enumerate() {
+            let at = (WIDTH / 2.0, TOP + 4.0 + 17.0 * i as f64);
+            let line = SvgElement::text(at, "middle", line).at("font-size", TITLE);
+            svg.add(&line.set("font-weight", "bold"));
+        }
+        for (k, (name, field)) in self.panels.iter().enumerate() {
+            let x = LEFT + (window.width + GAP) * (k % columns) as f64;
+            let y = top + row * (k / columns) as f64;
+            let mut panel = SvgElement::group_at((x, y));
+            let name = text::shorten(name, TEXT, window.width);
+            panel.add(&SvgElement::text((0.0, 12.0), "start", &name));
+            drawn(&mut panel, field, &window, scale);
+            svg.add(&panel);
+        }
+        let label = text::width(&self.label, TEXT) + 8.0;
+        svg.add(&scale.bar((LEFT + label, bottom + 6.0), &self.label));
+        svg.render() + "\n"
+    }
+}
+
+/// A path of squares for each shade; crosses where an error is no number.
+fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale: ColourScale) {
+    let BodyWindow { low, high, zoom, width, height } = window;
+    let mut paths: BTreeMap<i64, String> = BTreeMap::new();
+    let side = libm::ceil((field.size * zoom).max(2.0));
+    let tall = if field.is_plane { side } else { *height };
+    for [x, y, error] in &field.parts {
+        let across = libm::round((x - low[0]) * zoom - 0.5 * side);
+        let down = if field.is_plane { (high[1] - y) * zoom - 0.5 * side } else { 0.0 };
+        let down = libm::round(down) + 18.0;
+        // An error of zero has the darkest shade, one that is no number none.
+        let share = if *error > 0.0 { scale.share(*error) } else { 0.0 };
+        let shade = if error.is_finite() { libm::round(share * SHADES) as i64 } else { -1 };
+        let path = paths.entry(shade).or_default();
+        // Writing to a string does not fail.
+        let _ = match shade {
+            -1 => write!(path, "M{across} {down}l{side} {tall}m0-{tall}l-{side} {tall}"),
+            _ => write!(path, "M{across} {down}h{side}v{tall}h-{side}z"),
+        };
+    }
+    let frame = SvgElement::new("rect").at("y", 18.0).at("width", *width).at("height", *height);
+    panel.add(&frame.set("fill", "none").set("stroke", GRID));
+    for (shade, path) in paths {
+        let squares = SvgElement::new("path").set("d", &path);
+        panel.add(&match shade {
+            -1 => squares.set("stroke", NEUTRAL),
+            _ => squares.set("fill", &colour(shade as f64 / SHADES).0),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map(parts: Vec<[f64; 3]>, is_plane: bool) -> String {
+        let field = ErrorField { is_plane, size: 0.5, parts };
+        let panels = vec![("one".to_owned(), field.clone()), ("two".to_owned(), field)];
+        ErrorMap { title: "A body".to_owned(), label: "error (m)".to_owned(), panels }.to_svg()
+    }
+
+    #[test]
+    fn the_largest_error_is_light_and_nan_is_crossed_out() {
+        let svg = map(vec![[0.0, 0.0, 1e-6], [1.0, 0.0, 1.0], [1.0, 1.0, f64::NAN]], true);
+        for fill in ["#002051", "#fdea45"] {
+            assert!(svg.contains(&format!("z\" fill=\"{fill}\"")), "{svg}");
+        }
+        assert_eq!(svg.matches(&format!("stroke=\"{NEUTRAL}\"")).count(), 2, "{svg}");
+        assert!(svg.contains(">1e-6<") && svg.contains(">1e-3<"), "{svg}");
+    }
+
+    #[test]
+    fn a_line_is_a_strip() {
+        let svg = map(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 2.0]], false);
+        assert!(svg.contains("v14h-"), "{svg}");
+    }
+
+    /// No coordinate is NaN.
+    #[test]
+    fn nothing_to_see_is_no_nan() {
+        for parts in [vec![[0.0, 0.0, 0.0]], vec![[0.0, 0.0, f64::NAN]]] {
+            let svg = map(parts, true);
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+    }
+}
