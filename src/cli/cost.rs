@@ -123,12 +123,12 @@ fn varied(what: Vary) -> Over {
 }
 
 fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), String> {
-    let (suite, title) = (&timed.outcome.suite, &timed.outcome.title);
+    let outcome = &timed.outcome;
     let seconds = "seconds of the steps, one thread";
     let transfers = "particle-node transfers";
-    let mut figures = report::cost_figures(suite, title, &timed.by_seconds(), seconds, "seconds");
+    let mut figures = report::cost_figures(outcome, &timed.by_seconds(), seconds, "seconds");
     let counted = timed.by_transfers();
-    figures.extend(report::cost_figures(suite, title, &counted, transfers, "transfers"));
+    figures.extend(report::cost_figures(outcome, &counted, transfers, "transfers"));
     for figure in figures {
         let path = folder.join(&figure.file);
         fs::write(&path, figure.svg)

@@ -117,8 +117,9 @@ fn pair(number: usize, suite: &str, cases: &[CasePair<'_>]) -> PicturePair {
 }
 
 fn plot(title: String, cases: &[CasePair<'_>], side: usize) -> ConvergencePlot {
-    let series = |pair: &CasePair<'_>| PlotSeries {
+    let series = |(look, pair): (usize, &CasePair<'_>)| PlotSeries {
         name: pair[side].name.clone(),
+        look,
         points: pair[side].levels.iter().map(point).collect(),
     };
     let [_, first] = cases[0];
@@ -131,7 +132,7 @@ fn plot(title: String, cases: &[CasePair<'_>], side: usize) -> ConvergencePlot {
         title,
         x_label: axis.map_or("spacing", |axis| spacing(*axis)).to_owned(),
         y_label: judged.unwrap_or_else(|| "error".to_owned()),
-        series: cases.iter().map(series).collect(),
+        series: cases.iter().enumerate().map(series).collect(),
         reference_orders: slopes(cases),
     }
 }

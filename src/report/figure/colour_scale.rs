@@ -1,8 +1,10 @@
 //! Colours of numbers, from dark to light in steps of equal lightness, so that they survive grey
 //! print.
 
+use super::plot::scale::{Pad, Scale};
 use super::plot::style::{INK, PAPER};
 use super::plot::svg::SvgElement;
+use super::plot::ticks::{self, Tick};
 
 /// Height of the bar of colours, with its labels.
 const BAR: f64 = 12.0;
@@ -15,11 +17,7 @@ const SPAN: f64 = 1e3;
 
 /// Colours of values.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ColourScale {
-    low: f64,
-    high: f64,
-    is_logarithmic: bool,
-}
+pub(super) struct ColourScale(Scale);
 
 impl ColourScale {
     /// The scale from the smallest to the largest finite value.
@@ -28,29 +26,14 @@ impl ColourScale {
         let (low, high) = finite
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         let (low, high) = if low < high { (low, high) } else { (0.0, 1.0) };
-        Self { low, high, is_logarithmic: low > 0.0 && high / low > SPAN }
+        let (ends, none) = ([low, high].into_iter(), Pad { lo: 0.0, hi: 0.0 });
+        let is_logarithmic = low > 0.0 && high / low > SPAN;
+        Self(if is_logarithmic { Scale::log(ends, none) } else { Scale::linear(ends, none) })
     }
 
     /// The share of the way from dark to light.
     pub(super) fn share(self, value: f64) -> f64 {
-        let [value, low, high] = if self.is_logarithmic {
-            [value, self.low, self.high].map(libm::log)
-        } else {
-            [value, self.low, self.high]
-        };
-        (value - low) / (high - low)
-    }
-
-    /// The values at both ends of the bar and in its middle, as labels.
-    fn labels(self) -> [String; 3] {
-        let Self { low, high, is_logarithmic } = self;
-        let middle = if is_logarithmic { libm::sqrt(low * high) } else { 0.5 * (low + high) };
-        [low, middle, high].map(|value| match high.abs() {
-            _ if is_logarithmic => format!("{value:.0e}"),
-            most if most < 1e-2 => format!("{value:.1e}"),
-            most if most < 0.995 => format!("{value:.4}"),
-            _ => format!("{value:.2}"),
-        })
+        self.0.fraction(value)
     }
 
     /// The colours with their numbers, in a bar whose `label` stands before it.
@@ -65,10 +48,17 @@ impl ColourScale {
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
         }
-        let places = [(0.0, "start"), (0.5, "middle"), (1.0, "end")];
-        for ((share, anchor), value) in places.into_iter().zip(self.labels()) {
-            let at = (x + share * BAR_WIDTH, y + BAR + 15.0);
-            group.add(&SvgElement::text(at, anchor, &value));
+        let mut numbers = SvgElement::new("g").set("class", "ticks");
+        for Tick { at, label } in ticks::choose(&self.0, BAR_WIDTH, |label| label.width() + 12.0) {
+            let Some(label) = label else { continue };
+            let x = x + at * BAR_WIDTH;
+            let (top, bottom) = (y + BAR, y + BAR + 4.0);
+            group.add(&SvgElement::line((x, top), (x, bottom)).set("stroke", INK));
+            numbers.add(&label.draw((x, y + BAR + 16.0), "middle"));
+        }
+        group.add(&numbers);
+        if let Some(factor) = self.0.factor() {
+            group.add(&factor.draw((x + BAR_WIDTH + 8.0, y + BAR - 2.0), "start"));
         }
         group.add(&SvgElement::text((x - 8.0, y + BAR - 2.0), "end", label));
         group
@@ -105,8 +95,20 @@ mod tests {
     fn values_over_decades_have_colours_by_their_logarithms() {
         let scale = ColourScale::of([1e-2, 1.0, 1e8, f64::INFINITY].into_iter());
         assert!((scale.share(1e3) - 0.5).abs() <= 1e-12);
-        assert_eq!(scale.labels(), ["1e-2", "1e3", "1e8"]);
         let scale = ColourScale::of([0.0, 1e8].into_iter());
         assert_eq!(scale.share(5e7), 0.5);
+    }
+
+    #[test]
+    fn numbers_beside_colours_are_round() {
+        let numbers = |values: [f64; 2]| {
+            let ColourScale(scale) = ColourScale::of(values.into_iter());
+            let ticks = ticks::choose(&scale, BAR_WIDTH, |label| label.width() + 12.0);
+            let labels = ticks.iter().filter_map(|tick| tick.label.as_ref());
+            labels.map(ToString::to_string).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(numbers([12.7, 50_843_013.70]), "10^2 10^3 10^4 10^5 10^6 10^7");
+        assert_eq!(numbers([0.013, 0.87]), "0.2 0.4 0.6 0.8");
+        assert_eq!(numbers([0.0, 50_843_013.70]), "0 1 2 3 4 5");
     }
 }

@@ -33,7 +33,7 @@ struct PlottedLines<'a> {
 
 impl<'a> PlottedLines<'a> {
     fn new(figure: &'a ConvergencePlot) -> Self {
-        let lines: Vec<_> = figure.series.iter().enumerate().map(SeriesLine::new).collect();
+        let lines: Vec<_> = figure.series.iter().map(SeriesLine::new).collect();
         let failures = series::failures(&lines);
         Self { lines, failures }
     }
@@ -58,16 +58,26 @@ struct Arrangement {
 impl ConvergencePlot {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        self.to_svg_beside(&[self])
+        self.drawn(&[self], &[self])
+    }
+
+    /// The figure with the axes that hold all of `figures`, itself among them.
+    pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
+        self.drawn(&figures.iter().collect::<Vec<_>>(), &[self])
     }
 
     /// The figure with axes, legend and slope triangles where they are in all of `figures`, itself
     /// among them: drawings of the same series that are compared by eye.
     pub(crate) fn to_svg_beside(&self, figures: &[&Self]) -> String {
-        let all: Vec<PlottedLines> =
-            figures.iter().map(|figure| PlottedLines::new(figure)).collect();
+        self.drawn(figures, figures)
+    }
+
+    /// The figure with the axes of `among`, and legend and triangles where they hide nothing in any
+    /// of `beside`.
+    fn drawn(&self, among: &[&Self], beside: &[&Self]) -> String {
+        let all = plotted(beside);
         let PlottedLines { lines, failures } = PlottedLines::new(self);
-        let plot = self.plot(&all);
+        let plot = self.plot(&plotted(among));
         let paths: Vec<Vec<Pt>> = all.iter().flat_map(|one| one.paths(&plot)).collect();
         let mut entries = series::names(&lines);
         entries.extend(series::marks(all.iter().flat_map(|one| &one.lines)));
@@ -112,6 +122,10 @@ impl ConvergencePlot {
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
         Plot::new(titles, x, y)
     }
+}
+
+fn plotted<'a>(figures: &[&'a ConvergencePlot]) -> Vec<PlottedLines<'a>> {
+    figures.iter().map(|figure| PlottedLines::new(figure)).collect()
 }
 
 fn omission(count: usize) -> String {

@@ -2,7 +2,7 @@
 
 use super::drawing::Figure;
 use super::{Mark, PlotPoint, PlotSeries, WorkPrecision};
-use crate::verify::{Ranked, Ranking, Sample, pareto_front};
+use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
 /// Most lines with a colour and a name: a reader cannot tell more apart.
@@ -14,25 +14,33 @@ const SAME: f64 = 0.02;
 /// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the
 /// name of the file.
 pub fn cost_figures(
-    suite: &str,
-    title: &str,
+    outcome: &SuiteOutcome,
     rankings: &[Ranking],
     work: &str,
     unit: &str,
 ) -> Vec<Figure> {
+    let SuiteOutcome { suite, title, cases, .. } = outcome;
+    // Those that vary a setting come behind the cases of the suite.
+    let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
+    let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
+    for row in rows {
+        if !methods.contains(&row.method.name.as_str()) {
+            methods.push(&row.method.name);
+        }
+    }
     let figure = |(i, ranking): (usize, &Ranking)| {
         let number = if rankings.len() > 1 { format!("-{}", i + 1) } else { String::new() };
         let title = match rankings.len() {
             1 => title.to_owned(),
             _ => format!("{title}, {}", ranking.problem),
         };
-        let svg = diagram(ranking, title, work).to_svg();
+        let svg = diagram(ranking, title, work, &methods).to_svg();
         Figure { file: format!("{suite}-work-{unit}{number}.svg"), svg }
     };
     rankings.iter().enumerate().map(figure).collect()
 }
 
-fn diagram(ranking: &Ranking, title: String, work: &str) -> WorkPrecision {
+fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> WorkPrecision {
     let mut groups: Vec<(&Ranked, usize)> = Vec::new();
     for row in &ranking.rows {
         match groups.iter_mut().find(|(first, _)| coincide(first, row)) {
@@ -52,6 +60,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str) -> WorkPrecision {
             0 => row.method.name.clone(),
             more => format!("{} (and {more} alike)", row.method.name),
         },
+        look: methods.iter().position(|method| *method == row.method.name).unwrap_or(0),
         points: points(row),
     };
     WorkPrecision {

@@ -13,7 +13,7 @@ const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 const GAP: f64 = 16.0;
 /// Panels of planes beside each other.
-const PLANES: usize = 3;
+const PLANES: usize = 2;
 /// Highest panel of a plane, and height of that of a line.
 const HIGHEST: f64 = 260.0;
 const LINE: f64 = 14.0;
@@ -71,7 +71,7 @@ impl ErrorMap {
         let bottom = top + row * self.panels.len().div_ceil(columns) as f64;
         let errors = self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
         let scale = ColourScale::of(errors.filter(|error| *error > 0.0));
-        let height = bottom + 44.0;
+        let height = bottom + 60.0;
         let mut svg = SvgElement::new("svg")
             .set("xmlns", "http://www.w3.org/2000/svg")
             .set("viewBox", &format!("0 0 {} {}", number(WIDTH), number(height)))
@@ -99,8 +99,9 @@ impl ErrorMap {
             drawn(&mut panel, field, &window, scale);
             svg.add(&panel);
         }
-        let label = text::width(&self.label, TEXT) + 8.0;
-        svg.add(&scale.bar((LEFT + label, bottom + 6.0), &self.label));
+        let label = text::shorten(&self.label, TEXT, WIDTH - 2.0 * LEFT);
+        svg.add(&SvgElement::text((LEFT, bottom + 14.0), "start", &label));
+        svg.add(&scale.bar((LEFT, bottom + 22.0), ""));
         svg.render() + "\n"
     }
 }
@@ -153,7 +154,7 @@ mod tests {
             assert!(svg.contains(&format!("z\" fill=\"{fill}\"")), "{svg}");
         }
         assert_eq!(svg.matches(&format!("stroke=\"{NEUTRAL}\"")).count(), 2, "{svg}");
-        assert!(svg.contains(">1e-6<") && svg.contains(">1e-3<"), "{svg}");
+        assert!(svg.contains(">\u{2212}6<") && svg.contains(">\u{2212}4<"), "{svg}");
     }
 
     #[test]

@@ -27,6 +27,9 @@ pub struct HistoryPlot {
 pub struct Curve {
     /// Name in the legend; a curve without a name has no entry.
     pub name: String,
+    /// Number of its colour: the same for a method in all figures of a suite. The exact solution
+    /// has a colour of its own.
+    pub look: usize,
     /// The points in drawing order; one which is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,
     /// Whether this is the exact solution, drawn as a thick light line.
@@ -48,9 +51,12 @@ const MARKER_DISTANCE: f64 = 2.4 * RADIUS;
 impl HistoryPlot {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        let plot = self.plot();
-        // The exact solution has an appearance of its own: it takes none from the others.
-        let mut numerical = 0..;
+        self.to_svg_among(std::slice::from_ref(self))
+    }
+
+    /// The figure with the axes that hold all of `figures`, itself among them.
+    pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
+        let plot = self.plot(figures);
         let lines: Vec<CurveLine> = self
             .curves
             .iter()
@@ -59,7 +65,7 @@ impl HistoryPlot {
                 look: if curve.exact {
                     Look { colour: EXACT, ..look(0) }
                 } else {
-                    look(numerical.next().unwrap_or(0))
+                    look(curve.look)
                 },
                 runs: runs(&curve.points, &plot),
             })
@@ -81,8 +87,20 @@ impl HistoryPlot {
         plot.document(&layers, legend_area, &[])
     }
 
-    fn plot(&self) -> Plot<'_> {
-        let drawn = || self.curves.iter().flat_map(|c| &c.points).filter(|&&p| is_finite(p));
+    /// Length of the vertical axis that the curves need.
+    pub(crate) fn rise(&self) -> f64 {
+        let finite = self.points().map(|point| point.1);
+        let (low, high) = finite
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+        f64::max(high - low, 0.0)
+    }
+
+    fn points(&self) -> impl Iterator<Item = &Pt> {
+        self.curves.iter().flat_map(|curve| &curve.points).filter(|point| is_finite(**point))
+    }
+
+    fn plot(&self, figures: &[Self]) -> Plot<'_> {
+        let drawn = || figures.iter().flat_map(Self::points);
         let x = Scale::linear(drawn().map(|p| p.0), Pad { lo: 0.02, hi: 0.02 });
         let y = Scale::linear(drawn().map(|p| p.1), Pad { lo: 0.06, hi: 0.06 });
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };

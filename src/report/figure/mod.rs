@@ -19,6 +19,7 @@
 //!     y_label: "velocity (m/s)".into(),
 //!     curves: vec![Curve {
 //!         name: "exact".into(),
+//!         look: 0,
 //!         points: vec![(0.0, 1.0), (0.5, -1.0), (1.0, 1.0)],
 //!         exact: true,
 //!         markers: false,

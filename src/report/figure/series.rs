@@ -13,6 +13,8 @@ use super::plot::svg::{Pt, SvgElement};
 pub struct PlotSeries {
     /// Name in the legend.
     pub name: String,
+    /// Number of its colour and marker: the same for a method in all figures of a suite.
+    pub look: usize,
     /// The levels in any order.
     pub points: Vec<PlotPoint>,
 }
@@ -112,9 +114,10 @@ fn fill(mark: Mark) -> Fill {
 }
 
 impl<'a> SeriesLine<'a> {
-    /// The series at `index` in the order of the figure.
-    pub(super) fn new((index, series): (usize, &'a PlotSeries)) -> Self {
-        Self { name: &series.name, look: look(index), grey: false, levels: levels(&series.points) }
+    /// A series in its colour.
+    pub(super) fn new(series: &'a PlotSeries) -> Self {
+        let look = look(series.look);
+        Self { name: &series.name, look, grey: false, levels: levels(&series.points) }
     }
 
     /// A series that is there for comparison: a thin line without markers.

@@ -13,6 +13,9 @@ pub(crate) const MOST_SERIES: usize = 6;
 /// Most panels in one figure of errors over bodies.
 const MOST_PANELS: usize = 24;
 
+/// Ratio of the highest to the lowest of curves up to which they share an axis.
+const MOST_ALIKE: f64 = 3.0;
+
 /// Convergence plots, as many as keep each readable; where the errors are; the observed velocity of
 /// each case that watched one; the energies that were asked for.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
@@ -29,21 +32,30 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
     studies.filter(|(_, study)| study.compared).collect()
 }
 
+/// The errors over the spacings, all on the same axes. A single level shows no order: it has a
+/// number in the table.
 fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
-    let studies = studies(outcome);
+    let mut studies = studies(outcome);
+    studies.retain(|(_, study)| study.levels.len() > 1);
     let plots = studies.len().div_ceil(MOST_SERIES).max(1);
-    let parts = studies.chunks(studies.len().div_ceil(plots).max(1)).enumerate();
-    let figure = |(i, part): (usize, &[(&str, &Convergence)])| {
+    let parts = studies.chunks(studies.len().div_ceil(plots).max(1));
+    let drawn: Vec<ConvergencePlot> = parts.map(|part| plot(outcome, part)).collect();
+    let figure = |(i, one): (usize, &ConvergencePlot)| {
         let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
-        let svg = plot(outcome, part).to_svg();
-        Figure { file: format!("{}{number}.svg", outcome.suite), svg }
+        Figure { file: format!("{}{number}.svg", outcome.suite), svg: one.to_svg_among(&drawn) }
     };
-    parts.map(figure).collect()
+    drawn.iter().enumerate().map(figure).collect()
+}
+
+/// Number of a case in its suite, which gives it its colour in all figures.
+fn look(outcome: &SuiteOutcome, case: &str) -> usize {
+    outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
 
 fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> ConvergencePlot {
     let series = |(name, study): &(&str, &Convergence)| PlotSeries {
         name: (*name).to_owned(),
+        look: look(outcome, name),
         points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
     };
     let mut orders: Vec<f64> = studies.iter().filter_map(|(_, study)| reference(study)).collect();
@@ -124,21 +136,24 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
         let seen: Vec<_> = study
             .levels
             .iter()
-            .filter(|level| level.run.failure.is_none())
-            .filter_map(|level| Some((level, level.run.history.as_ref()?)))
+            .enumerate()
+            .filter(|(_, level)| level.run.failure.is_none())
+            .filter_map(|(k, level)| Some((k, level, level.run.history.as_ref()?)))
             .collect();
-        let (_, first) = *seen.first()?;
+        let (_, _, first) = *seen.first()?;
         let pick = [0, seen.len() / 2, seen.len() - 1];
         let mut curves = vec![Curve {
             name: "exact".to_owned(),
+            look: 0,
             points: first.velocity.iter().map(|[t, _, exact]| (*t, *exact)).collect(),
             exact: true,
             markers: false,
         }];
-        for (i, (level, history)) in seen.iter().enumerate() {
+        for (i, (look, level, history)) in seen.iter().enumerate() {
             if pick.contains(&i) {
                 curves.push(Curve {
                     name: level.name(study.axis),
+                    look: *look,
                     points: history.velocity.iter().map(|[t, v, _]| (*t, *v)).collect(),
                     exact: false,
                     markers: false,
@@ -147,10 +162,20 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
         }
         let title = format!("{}: velocity near X = {} m, {name}", outcome.title, study.place()?);
         let (x_label, y_label) = ("time (s)".to_owned(), "velocity (m/s)".to_owned());
-        let svg = HistoryPlot { title, x_label, y_label, curves }.to_svg();
-        Some(Figure { file: format!("{}-{name}-velocity.svg", outcome.suite), svg })
+        let file = format!("{}-{name}-velocity.svg", outcome.suite);
+        Some((file, HistoryPlot { title, x_label, y_label, curves }))
     };
-    studies(outcome).into_iter().filter_map(figure).collect()
+    let (files, plots): (Vec<String>, Vec<HistoryPlot>) =
+        studies(outcome).into_iter().filter_map(figure).unzip();
+    // Beside a method that runs away the others would be flat.
+    let rises = || plots.iter().map(HistoryPlot::rise);
+    let least = rises().fold(f64::INFINITY, f64::min);
+    let alike = rises().fold(0.0, f64::max) <= MOST_ALIKE * least;
+    let draw = |plot: &HistoryPlot| {
+        if alike { plot.to_svg_among(&plots) } else { plot.to_svg() }
+    };
+    let figure = |(file, plot): (String, &HistoryPlot)| Figure { file, svg: draw(plot) };
+    files.into_iter().zip(&plots).map(figure).collect()
 }
 
 /// The energy over time, relative to that of the start, on the finest level of every case that is
@@ -161,7 +186,8 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
         let start = account.first()?.1.energy()?;
         let point = |(t, totals): &(f64, Totals)| Some((*t, totals.energy()? / start));
         let points = account.iter().map(point).collect::<Option<Vec<_>>>()?;
-        Some(Curve { name: name.to_owned(), points, exact: false, markers: false })
+        let look = look(outcome, name);
+        Some(Curve { name: name.to_owned(), look, points, exact: false, markers: false })
     };
     let curves: Vec<Curve> = studies(outcome).into_iter().filter_map(curve).collect();
     if curves.is_empty() {
@@ -182,13 +208,15 @@ pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
             let points = rows.iter().map(|row| (row.position, row.predicted)).collect();
             curves.push(Curve {
                 name: "predicted".to_owned(),
+                look: 0,
                 points,
                 exact: true,
                 markers: false,
             });
         }
         let points = rows.iter().map(|row| (row.position, row.force)).collect();
-        curves.push(Curve { name: case.case.clone(), points, exact: false, markers: true });
+        let (name, look) = (case.case.clone(), look(outcome, &case.case));
+        curves.push(Curve { name, look, points, exact: false, markers: true });
     }
     if curves.is_empty() {
         return None;

@@ -10,7 +10,6 @@ use crate::verify::SuiteOutcome;
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| kind.figures(outcome)).collect();
     let (rankings, work) = (by_transfers(outcome), "particle-node transfers");
-    let SuiteOutcome { suite, title, .. } = outcome;
-    figures.extend(cost::cost_figures(suite, title, &rankings, work, "transfers"));
+    figures.extend(cost::cost_figures(outcome, &rankings, work, "transfers"));
     figures
 }

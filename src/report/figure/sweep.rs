@@ -64,25 +64,30 @@ fn curves(
     figure: RunFigure,
 ) -> Vec<Named> {
     let plots = studies.len().div_ceil(MOST_CURVES);
-    let parts = studies.chunks(studies.len().div_ceil(plots.max(1)).max(1)).enumerate();
+    let in_each = studies.len().div_ceil(plots.max(1)).max(1);
+    let parts = studies.chunks(in_each).enumerate();
     let plot = |(i, part): (usize, &[(&str, &StabilityStudy)])| {
-        let curve = |(name, study): &(&str, &StabilityStudy)| Curve {
+        let curve = |(k, (name, study)): (usize, &(&str, &StabilityStudy))| Curve {
             name: (*name).to_owned(),
+            look: i * in_each + k,
             points: study.rows.iter().map(|row| (row.value, value(row, figure))).collect(),
             exact: false,
             markers: true,
         };
-        let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
-        let svg = HistoryPlot {
+        HistoryPlot {
             title: title(outcome, figure),
             x_label: part.first().map_or(String::new(), |(_, study)| study.swept.clone()),
             y_label: figure.head().to_owned(),
-            curves: part.iter().map(curve).collect(),
-        };
-        let file = format!("{}-{}{number}.svg", outcome.suite, figure.name());
-        (file, svg.to_svg())
+            curves: part.iter().enumerate().map(curve).collect(),
+        }
     };
-    parts.map(plot).collect()
+    let figures: Vec<HistoryPlot> = parts.map(plot).collect();
+    let drawn = figures.iter().enumerate().map(|(i, one)| {
+        let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
+        let file = format!("{}-{}{number}.svg", outcome.suite, figure.name());
+        (file, one.to_svg_among(&figures))
+    });
+    drawn.collect()
 }
 
 fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Named {

@@ -33,7 +33,7 @@ const BAND: f64 = 11.0;
 impl WorkPrecision {
     /// The figure as a standalone SVG document, in dark colours where the reader prefers them.
     pub fn to_svg(&self) -> String {
-        let named = self.series.iter().enumerate().map(SeriesLine::new);
+        let named = self.series.iter().map(SeriesLine::new);
         let lines: Vec<SeriesLine> =
             self.others.iter().map(SeriesLine::in_grey).chain(named).collect();
         let failures = series::failures(&lines);

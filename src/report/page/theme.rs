@@ -152,8 +152,11 @@ mod tests {
             error: *h,
             mark,
         });
-        let series =
-            |k: usize| PlotSeries { name: k.to_string(), points: points.clone().collect() };
+        let series = |k: usize| PlotSeries {
+            name: k.to_string(),
+            look: k,
+            points: points.clone().collect(),
+        };
         let label = || "x".to_owned();
         let plot = ConvergencePlot {
             title: label(),
@@ -164,6 +167,7 @@ mod tests {
         };
         let curve = Curve {
             name: label(),
+            look: 0,
             points: vec![(0.0, 0.0), (1.0, 1.0)],
             exact: true,
             markers: true,

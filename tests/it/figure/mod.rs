@@ -59,7 +59,7 @@ fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
         error: 0.1 / f64::from(i),
         mark,
     });
-    let one = PlotSeries { name: "one".to_owned(), points: points.collect() };
+    let one = PlotSeries { name: "one".to_owned(), look: 0, points: points.collect() };
     let svg = samples::convergence(vec![one], &[2.0]).to_svg();
     for (mark, key) in KEYS {
         assert_eq!(svg.contains(key), marks.contains(&mark), "{key}");
@@ -75,7 +75,7 @@ fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
 #[case(&[(5e-324, f64::MAX), (f64::MAX, 5e-324)])]
 fn degenerate_series(#[case] points: &[(f64, f64)]) {
     let points = points.iter().map(|&(h, error)| PlotPoint { h, error, mark: Mark::Window });
-    let one = PlotSeries { name: "one".to_owned(), points: points.collect() };
+    let one = PlotSeries { name: "one".to_owned(), look: 0, points: points.collect() };
     let svg = samples::convergence(vec![one], &[2.0]).to_svg();
     assert_eq!(well_formed(&svg), Ok(()));
     assert!(without_bad_numbers(&svg));
@@ -92,6 +92,7 @@ fn what_has_no_place_is_noted() {
 fn a_failure_at_the_same_size_stands_below_the_other() {
     let failed = |name: &str| PlotSeries {
         name: name.to_owned(),
+        look: 0,
         points: vec![PlotPoint { h: 0.1, error: f64::NAN, mark: Mark::Failed }],
     };
     let svg = samples::convergence(vec![failed("one"), failed("two")], &[]).to_svg();
@@ -134,6 +135,7 @@ proptest! {
     ) {
         let series = points.into_iter().map(|points| PlotSeries {
             name: text.clone(),
+            look: 0,
             points: points.into_iter().map(|(h, error, mark)| PlotPoint { h, error, mark }).collect(),
         });
         let svg = samples::convergence(series.collect(), &orders).to_svg();
@@ -149,6 +151,7 @@ proptest! {
     ) {
         let curves = points.into_iter().map(|(points, (exact, markers))| Curve {
             name: text.clone(),
+            look: 0,
             points,
             exact,
             markers,

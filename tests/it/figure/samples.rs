@@ -14,10 +14,13 @@ fn series(name: &str, count: usize, error: impl Fn(usize, f64) -> (f64, Mark)) -
         let (error, mark) = error(i, h);
         PlotPoint { h, error, mark }
     };
-    PlotSeries { name: name.to_owned(), points: sizes(count).enumerate().map(point).collect() }
+    let points = sizes(count).enumerate().map(point).collect();
+    PlotSeries { name: name.to_owned(), look: 0, points }
 }
 
 pub(super) fn convergence(series: Vec<PlotSeries>, orders: &[f64]) -> ConvergencePlot {
+    let series = series.into_iter().enumerate();
+    let series = series.map(|(look, one)| PlotSeries { look, ..one }).collect();
     ConvergencePlot {
         title: "Vibrating bar, one element per cell".to_owned(),
         x_label: "cell size h (m)".to_owned(),
@@ -74,10 +77,13 @@ fn curve(name: &str, count: i32, exact: bool, f: impl Fn(f64) -> f64) -> Curve {
         let t = 2.0 * f64::from(i) / f64::from(count);
         (t, f(t))
     };
-    Curve { name: name.to_owned(), points: (0..=count).map(at).collect(), exact, markers: false }
+    let points = (0..=count).map(at).collect();
+    Curve { name: name.to_owned(), look: 0, points, exact, markers: false }
 }
 
 pub(super) fn history(y_label: &str, curves: Vec<Curve>) -> HistoryPlot {
+    let curves = curves.into_iter().enumerate();
+    let curves = curves.map(|(look, one)| Curve { look, ..one }).collect();
     HistoryPlot {
         title: "Free end of the bar".to_owned(),
         x_label: "time t (s)".to_owned(),

@@ -47,10 +47,12 @@ fn without_others_and_front_there_are_no_keys_of_them() {
 fn a_failure_of_a_method_without_a_name_is_explained_too() {
     let sound = PlotSeries {
         name: "sound".to_owned(),
+        look: 0,
         points: vec![PlotPoint { h: 1.0, error: 0.1, mark: Mark::Window }],
     };
     let failed = PlotSeries {
         name: "failed".to_owned(),
+        look: 1,
         points: vec![PlotPoint { h: 2.0, error: f64::NAN, mark: Mark::Failed }],
     };
     let figure = WorkPrecision { series: vec![sound], others: vec![failed], ..diagram() };
@@ -67,7 +69,7 @@ proptest! {
     ) {
         let points: Vec<PlotPoint> =
             points.into_iter().map(|(h, error, mark)| PlotPoint { h, error, mark }).collect();
-        let one = PlotSeries { name: "one".to_owned(), points };
+        let one = PlotSeries { name: "one".to_owned(), look: 0, points };
         let (series, others) = (vec![one.clone(), one.clone()], vec![one]);
         let svg = WorkPrecision { series, others, front, ..diagram() }.to_svg();
         prop_assert_eq!(well_formed(&svg), Ok(()));

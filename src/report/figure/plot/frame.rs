@@ -1,7 +1,7 @@
 //! The frame of a figure: title, axes, grid, and the document around them.
 
 use super::label::Label;
-use super::scale::{Scale, ScaleKind};
+use super::scale::Scale;
 use super::space::Rect;
 use super::style::{FONT, GRID, HEIGHT, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH};
 use super::svg::{Pt, SvgElement, number};
@@ -37,11 +37,8 @@ struct PlotAxis {
 
 impl PlotAxis {
     fn new(scale: Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Self {
-        let factor = match scale.kind() {
-            ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
-            _ => None,
-        };
-        Self { scale, ticks: ticks::choose(&scale, length, extent), factor }
+        let ticks = ticks::choose(&scale, length, extent);
+        Self { scale, ticks, factor: scale.factor() }
     }
 
     fn labels(&self) -> impl Iterator<Item = (f64, &Label)> {
@@ -197,12 +194,16 @@ impl<'a> Plot<'a> {
                     .set("font-weight", "bold"),
             );
         }
+        let ticks = || SvgElement::new("g").set("class", "ticks");
+        let (mut below, mut beside) = (ticks(), ticks());
         for (at, label) in self.x.labels() {
-            group.add(&label.draw((x + at * w, bottom + 18.0), "middle"));
+            below.add(&label.draw((x + at * w, bottom + 18.0), "middle"));
         }
         for (at, label) in self.y.labels() {
-            group.add(&label.draw((x - 7.0, bottom - at * h + 4.0), "end"));
+            beside.add(&label.draw((x - 7.0, bottom - at * h + 4.0), "end"));
         }
+        group.add(&below);
+        group.add(&beside);
         let foot = bottom + 40.0;
         let mut room = w;
         if let Some(factor) = &self.x.factor {

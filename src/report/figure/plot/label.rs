@@ -65,7 +65,7 @@ mod tests {
     fn exponents_are_raised() {
         let svg = Label::power("10", -3).draw((0.0, 0.0), "end").render();
         assert!(
-            svg.contains(">10<tspan dy=\"-5.00\" font-size=\"9.00\">\u{2212}3</tspan>"),
+            svg.contains(">10<tspan dy=\"-5.00\" font-size=\"11.00\">\u{2212}3</tspan>"),
             "{svg}"
         );
     }

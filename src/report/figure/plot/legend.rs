@@ -50,9 +50,6 @@ const LONGEST: f64 = 330.0;
 const INSET: f64 = 10.0;
 /// Distance from the data; a marker reaches about six pixels from its centre.
 const CLEAR: f64 = 11.0;
-/// A wider legend outside the frame is put below it: at the side it would halve the scale at
-/// which the figure is printed.
-const WIDE: f64 = 180.0;
 
 impl Legend {
     /// A legend of `entries`; nothing if there are none.
@@ -76,12 +73,8 @@ impl Legend {
             .chain(std::iter::once_with(|| self.outside(frame)))
     }
 
+    /// Below the frame: at its side it would halve the scale at which the figure is printed.
     fn outside(&self, frame: &Rect) -> PlacedLegend {
-        let (w, h) = self.size(1);
-        if w <= WIDE {
-            let area = Rect { x: WIDTH, y: frame.y, w, h };
-            return PlacedLegend { columns: 1, area };
-        }
         let columns =
             (1..=4).rev().find(|&columns| self.size(columns).0 <= WIDTH - 2.0 * INSET).unwrap_or(1);
         let (w, h) = self.size(columns);
@@ -175,16 +168,15 @@ mod tests {
     }
 
     #[test]
-    fn a_full_frame_sends_the_legend_outside() {
+    fn a_full_frame_sends_the_legend_below() {
         let lines: Vec<Vec<Pt>> = (0..8)
             .map(|i| 30.0 + 50.0 * f64::from(i))
             .map(|y| vec![(60.0, y), (620.0, y)])
             .collect();
         let space = Space::new(FRAME, &lines);
-        let short = legend("short", 3).places(&FRAME, &space).next().unwrap();
-        assert!(short.area.x >= WIDTH);
-        let long = legend("a name which takes some forty characters", 3);
-        let long = long.places(&FRAME, &space).next().unwrap();
-        assert!(long.area.y >= HEIGHT && long.area.right() <= WIDTH);
+        for name in ["short", "a name which takes some forty characters"] {
+            let placed = legend(name, 3).places(&FRAME, &space).next().unwrap();
+            assert!(placed.area.y >= HEIGHT && placed.area.right() <= WIDTH, "{name}");
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! From values to positions along an axis.
 
+use super::label::Label;
+
 /// The working coordinate of an axis: what is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScaleKind {
@@ -78,6 +80,14 @@ impl Scale {
     /// Which working coordinate the axis uses.
     pub(crate) fn kind(&self) -> ScaleKind {
         self.kind
+    }
+
+    /// The power of ten that all labels share, where they do.
+    pub(crate) fn factor(&self) -> Option<Label> {
+        match self.kind {
+            ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
+            _ => None,
+        }
     }
 
     /// Both ends in working coordinates.

@@ -1,16 +1,16 @@
 //! Sizes, colours, and what tells one series from another.
 
-/// Width of a figure in pixels, before a legend outside the frame widens it.
-pub(crate) const WIDTH: f64 = 640.0;
+/// Width of a figure in pixels: on a narrow screen its texts still have 9 pixels.
+pub(crate) const WIDTH: f64 = 440.0;
 /// Height of a figure in pixels, before a legend or notes below the axes lengthen it.
-pub(crate) const HEIGHT: f64 = 440.0;
+pub(crate) const HEIGHT: f64 = 340.0;
 
 /// The font stack: sans-serif faces with the same metrics as far as possible.
 pub(crate) const FONT: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
 /// Size of labels and legend texts.
 pub(crate) const TEXT: f64 = 12.0;
 /// Size of exponents.
-pub(crate) const SUPERSCRIPT: f64 = 9.0;
+pub(crate) const SUPERSCRIPT: f64 = 11.0;
 /// Size of the title.
 pub(crate) const TITLE: f64 = 13.0;
 

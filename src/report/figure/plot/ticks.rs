@@ -18,8 +18,8 @@ const SHORT: f64 = 1.5;
 /// Between these powers of ten a short logarithmic axis shows plain numbers.
 const WRITTEN_OUT: (f64, f64) = (-3.0, 4.0);
 
-/// The digits at which a decade is ticked, in tenths.
-const DIGITS: [i32; 9] = [10, 20, 30, 40, 50, 60, 70, 80, 90];
+/// The digits at which a decade is ticked.
+const DIGITS: [i32; 9] = [1, 2, 3, 4, 5, 6, 7, 8, 9];
 
 /// With more decades than this the ticks within them would merge.
 const TICKED_DECADES: f64 = 8.0;
@@ -79,61 +79,57 @@ fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
 /// Ticks at powers of ten, every `stride`-th labelled.
 fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     let within = if stride == 1 && scale.span() <= TICKED_DECADES { &DIGITS } else { &DIGITS[..1] };
-    log_ticks(scale, within, |tenths, power| {
-        (tenths == 10 && power % stride == 0).then(|| Label::power("10", power))
+    log_ticks(scale, within, |digit, power| {
+        (digit == 1 && power % stride == 0).then(|| Label::power("10", power))
     })
 }
 
-/// Labels at 1, 2 and 5 times a power of ten, or more of them where these are fewer than three.
+/// Labels at 1, 2 and 5 times a power of ten, or at more digits where these are fewer than three.
 fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
     // One notation for the whole axis.
     let (lo, hi) = scale.ends();
     let written_out = lo >= WRITTEN_OUT.0 && hi <= WRITTEN_OUT.1;
     let labelled = |ticked: &[i32], shown: &[i32]| {
-        log_ticks(scale, ticked, |tenths, power| {
-            shown.contains(&tenths).then(|| short_label(tenths, power, written_out))
+        log_ticks(scale, ticked, |digit, power| {
+            shown.contains(&digit).then(|| short_label(digit, power, written_out))
         })
     };
-    let few = labelled(&DIGITS, &[10, 20, 50]);
+    let few = labelled(&DIGITS, &[1, 2, 5]);
     let mut choices = Vec::new();
     if few.iter().filter(|t| t.label.is_some()).count() < 3 {
-        let dense = [10, 15, 20, 30, 40, 50, 60, 70, 80, 90];
-        choices.push(labelled(&dense, &[10, 15, 20, 30, 40, 50, 70]));
+        choices.push(labelled(&DIGITS, &DIGITS));
+        choices.push(labelled(&DIGITS, &[1, 2, 3, 5, 7]));
     }
     choices.push(few);
-    choices.push(labelled(&DIGITS, &[10]));
+    choices.push(labelled(&DIGITS, &[1]));
     choices
 }
 
-fn short_label(tenths: i32, power: i32, written_out: bool) -> Label {
-    let whole = tenths % 10 == 0;
-    let factor = f64::from(tenths) / 10.0;
+fn short_label(digit: i32, power: i32, written_out: bool) -> Label {
     if written_out {
-        let decimals = i32::from(!whole) - power;
-        let value = factor * libm::pow(10.0, f64::from(power));
-        return Label::decimal(value, decimals.max(0) as usize);
+        let value = f64::from(digit) * libm::pow(10.0, f64::from(power));
+        return Label::decimal(value, (-power).max(0) as usize);
     }
-    match tenths {
-        10 => Label::power("10", power),
-        _ => Label::power(&format!("{factor}×10"), power),
+    match digit {
+        1 => Label::power("10", power),
+        _ => Label::power(&format!("{digit}×10"), power),
     }
 }
 
-/// Ticks at the given multiples (in tenths) of all powers of ten on the axis.
+/// Ticks at the given multiples of all powers of ten on the axis.
 fn log_ticks(
     scale: &Scale,
-    tenths: &[i32],
+    digits: &[i32],
     label: impl Fn(i32, i32) -> Option<Label>,
 ) -> Vec<Tick> {
     let (lo, hi) = scale.ends();
     let mut ticks = Vec::new();
     for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
-        for &tenths in tenths {
-            let digit = libm::log10(f64::from(tenths) / 10.0);
-            let at = scale.fraction_of_working(f64::from(power) + digit);
+        for &digit in digits {
+            let at = scale.fraction_of_working(f64::from(power) + libm::log10(f64::from(digit)));
             // The ends are ticked even where rounding puts them just outside.
             if (-1e-9..=1.0 + 1e-9).contains(&at) {
-                let label = label(tenths, power);
+                let label = label(digit, power);
                 ticks.push(Tick { at, label });
             }
         }
@@ -172,11 +168,11 @@ mod tests {
     #[rstest]
     #[case(0.1, 1.0, "0.1 0.2 0.5 1")]
     #[case(0.015, 0.3, "0.02 0.05 0.1 0.2")]
-    #[case(0.3, 0.95, "0.3 0.4 0.5 0.7")]
+    #[case(0.3, 0.95, "0.3 0.4 0.5 0.6 0.7 0.8 0.9")]
     #[case(0.05, 0.2, "0.05 0.1 0.2")]
     #[case(5e-4, 2e-3, "5×10^-4 10^-3 2×10^-3")]
-    #[case(0.06, 0.3, "0.07 0.1 0.15 0.2 0.3")]
-    #[case(1e6, 4e6, "10^6 1.5×10^6 2×10^6 3×10^6 4×10^6")]
+    #[case(0.06, 0.3, "0.07 0.1 0.2 0.3")]
+    #[case(1e6, 4e6, "10^6 2×10^6 3×10^6 4×10^6")]
     #[case(30.0, 600.0, "50 100 200 500")]
     #[case(1e-7, 1e-6, "10^-7 2×10^-7 5×10^-7 10^-6")]
     #[case(0.001, 1.0, "10^-3 10^-2 10^-1 10^0")]

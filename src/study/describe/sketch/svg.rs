@@ -1,8 +1,8 @@
 //! The sketch as an SVG document.
 
-use super::view::{View, WIDTH};
+use super::view::View;
 use super::{arrows, face, shape};
-use crate::report::figure::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT};
+use crate::report::figure::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, WIDTH};
 use crate::report::figure::plot::svg::{Pt, SvgElement, number};
 use crate::report::figure::plot::text::wrap;
 use crate::study::describe::statement::{self, stated};

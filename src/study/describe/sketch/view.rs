@@ -1,12 +1,10 @@
 //! The part of the plane that a sketch shows, and where a place lies on the canvas.
 
+use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
 use crate::suite::model::grid_size::grid_axis;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
-
-/// Width of the canvas.
-pub(super) const WIDTH: f64 = 440.0;
 
 /// Distance of the grid from the edges of the canvas.
 pub(super) const MARGIN: f64 = 52.0;
