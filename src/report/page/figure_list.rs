@@ -1,10 +1,15 @@
 //! The figures of a suite: the sketch of its scene, and whatever [`svg`](crate::report::svg())
 //! draws.
 
+use super::cells::scrolled;
 use super::html::Html;
 use super::inline;
 use super::source::SuiteSource;
+use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
 use crate::report::svg;
+
+/// Smallest size of a text on the screen (px).
+const LEGIBLE: f64 = 9.0;
 
 /// All figures, the scene first; nothing where there are none.
 pub(super) fn figures(source: &SuiteSource<'_>) -> Option<Html> {
@@ -22,7 +27,15 @@ pub(super) fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
 }
 
-fn figure(id: &str, svg: &str, caption: &str) -> Html {
-    let caption = Html::tag("figcaption", &[("class", "muted")], caption);
-    Html::block("figure", &[("id", id)], &[inline::svg(svg, id), caption])
+/// A figure; one that is wider than others scrolls where its texts would become too small.
+fn figure(id: &str, svg: &str, name: &str) -> Html {
+    let caption = Html::tag("figcaption", &[("class", "muted")], name);
+    let width = inline::width(svg).unwrap_or(WIDTH);
+    if width <= WIDTH {
+        return Html::block("figure", &[("id", id)], &[inline::svg(svg, id), caption]);
+    }
+    let least = format!("<svg style=\"min-width:{:.0}px\"", width * LEGIBLE / SUPERSCRIPT);
+    let figure = inline::svg(svg, id).into_string().replacen("<svg", &least, 1);
+    let figure = scrolled(&format!("Figure {name}"), Html::trusted(figure));
+    Html::block("figure", &[("id", id), ("class", "broad")], &[figure, caption])
 }

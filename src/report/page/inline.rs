@@ -27,6 +27,12 @@ pub(super) fn svg(document: &str, prefix: &str) -> Html {
     Html::trusted(inline)
 }
 
+/// Width of a document in its own pixels.
+pub(super) fn width(document: &str) -> Option<f64> {
+    let (_, view) = document.split_once(" viewBox=\"")?;
+    view.split([' ', '"']).nth(2)?.parse().ok()
+}
+
 /// The ids of a document, each once.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
