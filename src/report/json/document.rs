@@ -70,7 +70,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
 }
 
 /// The commit that is tested, where a CI service says so.
-fn commit() -> Option<String> {
+pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)
 }

@@ -2,7 +2,8 @@
 //!
 //! It is read without JavaScript; a small script only sorts and filters its tables and unfolds what
 //! a link leads to. Figures are inline SVG, coloured anew for light and dark (`theme`). Nothing on
-//! the page depends on the time or the machine: the same run gives the same bytes.
+//! the page depends on the time or the machine, but for the commit that a CI service names: the
+//! same run gives the same bytes.
 //!
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.
@@ -27,6 +28,7 @@ mod tests;
 
 pub use source::SuiteSource;
 
+use crate::report::json::document::commit;
 use crate::report::matrix::by_group;
 use crate::verify::CaseOutcome;
 use html::Html;
@@ -105,11 +107,11 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
 }
 
 fn foot() -> Html {
-    let words = concat!(
-        "mpm-verify ",
-        env!("CARGO_PKG_VERSION"),
-        ". An expected failure is as binding as an expected order: FAIL says that a case is not as its \
-         suite expects."
+    let commit = commit().map_or_else(String::new, |commit| format!(", commit {commit}"));
+    let words = format!(
+        "mpm-verify {}{commit}. An expected failure is as binding as an expected order: FAIL says \
+         that a case is not as its suite expects.",
+        env!("CARGO_PKG_VERSION")
     );
     Html::block("footer", &[], &[Html::tag("p", &[("class", "muted")], words)])
 }

@@ -117,6 +117,22 @@ fn whatever_a_suite_reports_is_on_the_page() {
     }
 }
 
+/// Version, title, source, fingerprint and reasons: the circumstances of a result.
+#[test]
+fn the_page_says_what_was_run() {
+    let mut outcome = outcome("a", " b", &[]);
+    outcome.title = "a title".to_owned();
+    outcome.source = "a source".to_owned();
+    outcome.meaning = 0xabc;
+    outcome.cases[0].because = "a reason".to_owned();
+    let page = of(&[outcome], "");
+    let version = format!("mpm-verify {}", env!("CARGO_PKG_VERSION"));
+    for words in [&version, ": a title</h2>", "a source", "0000000000000abc", "because a reason"] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(commit().is_none_or(|commit| page.contains(&format!(", commit {commit}. "))));
+}
+
 #[test]
 fn the_finding_comes_first() {
     let sound = of(&[outcome("a", "x", &[])], "");
