@@ -16,7 +16,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 use crate::verify::Scales;
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
@@ -57,19 +57,33 @@ impl SetupTemplate {
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
+    /// The words of the scene, which no value of a parameter changes.
+    pub(crate) fn words(&self) -> Result<SceneWords<'_>, Diagnostic> {
+        SceneWords::read(&self.source, &self.spec.scene)
+    }
+
     /// The run with these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
-        setup(&self.evaluator(values)?, &self.source, &self.spec)
+        self.setup_of(&self.words()?, values)
+    }
+
+    /// The same, of words that have been read: for many values.
+    pub(crate) fn setup_of(
+        &self,
+        words: &SceneWords<'_>,
+        values: &ParameterValues<'_>,
+    ) -> Result<RunSetup, Diagnostic> {
+        setup(&self.evaluator(values)?, words, &self.spec)
     }
 }
 
 /// The set-up that `spec` describes.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
-    source: &Source,
+    words: &SceneWords<'_>,
     spec: &StabilitySpec,
 ) -> Result<RunSetup, Diagnostic> {
-    let scene = whole::scene(evaluator, &SceneWords::read(source, &spec.scene)?)?;
+    let scene = whole::scene(evaluator, words)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");
