@@ -44,3 +44,26 @@ impl Comparator for ReportDrift {
         Box::new(self.clone())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Whoever has planted a change by hand is told which file, and how a change is accepted.
+    #[test]
+    fn a_difference_says_which_file_and_how_it_is_accepted() {
+        let folder = std::env::temp_dir().join(format!("mpm-verify-drift-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("a folder");
+        let said = |suite: &str| {
+            let failed = compare(suite, "error  1.0e-3\n", &folder).expect_err("a difference");
+            failed.message().unwrap_or_default().to_owned()
+        };
+        fs::write(folder.join("bar.snap"), "---\n---\nerror  1.1e-3\n").expect("a snapshot");
+        let (kept, new) = (said("bar"), said("beam"));
+        fs::remove_dir_all(&folder).expect("the folder");
+        assert!(kept.starts_with("the report of bar has drifted from "), "{kept}");
+        assert!(kept.contains("`INSTA_UPDATE=always cargo test bar`"), "{kept}");
+        assert!(new.starts_with("the report of beam is not yet kept as "), "{new}");
+    }
+}
