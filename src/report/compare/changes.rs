@@ -1,6 +1,7 @@
 //! Changes between two runs.
 
 use super::equal_error::EqualError;
+use super::shared_words::SharedWord;
 
 /// Kind of a change, the most important first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,6 +87,8 @@ pub struct ReportComparison {
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
+    /// Words that tell the cases that got worse from the others.
+    pub(super) shared_words: Vec<SharedWord>,
     /// Target errors whose least work moved, the more expensive first.
     pub(super) cheapest: Vec<CheapestMove>,
     /// Cases of both runs that are the same.
@@ -190,6 +193,15 @@ impl ReportComparison {
     /// Changes of this rank.
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
+    }
+
+    /// Words in common of the cases that got worse, with the share of the cases that have them.
+    pub(super) fn in_common(&self) -> Option<String> {
+        let part = |SharedWord { word, worse, all }: &SharedWord| {
+            format!("{worse} of all {all} cases with `{word}` in their names")
+        };
+        let parts: Vec<String> = self.shared_words.iter().map(part).collect();
+        (!parts.is_empty()).then(|| format!("worse are {}", parts.join(", ")))
     }
 
     /// Summary in one line: `2 less accurate, 1 new, 816 unchanged`.

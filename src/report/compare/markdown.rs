@@ -25,6 +25,9 @@ pub fn illustrated(comparison: &ReportComparison, pictures: &Pictures, at: &str)
 fn comment(comparison: &ReportComparison, pictures: &str) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
+    if let Some(line) = comparison.in_common() {
+        page += &format!("\n{}\n", prose(&line));
+    }
     if !comparison.problems.is_empty() {
         page += "\n**Another problem, so that figures are not compared**\n\n";
     }

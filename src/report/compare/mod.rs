@@ -21,6 +21,7 @@ mod pairs;
 mod pictures;
 mod problem;
 mod row;
+mod shared_words;
 mod snapshots;
 mod stability;
 mod text;

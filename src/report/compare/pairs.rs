@@ -2,9 +2,10 @@
 
 use super::changes::{Moved, Rank, ReportComparison, ratio_moved};
 use super::document::{CaseDocument, ReportDocument, name};
+use super::shared_words::shared_words;
 use super::stability::StabilityMove;
 use super::{accuracy, cheapest, equal_error, problem, stability};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// See [`compare`](super::compare()).
 pub(super) fn compare(
@@ -34,7 +35,16 @@ pub(super) fn compare(
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
     let cheapest = cheapest::compare(old, new, tolerance, is_of_another);
-    ReportComparison { problems, moved, cheapest, unchanged, tolerance }
+    let worse: BTreeSet<&str> = moved
+        .iter()
+        .filter(|moved| moved.rank.is_worse())
+        .map(|moved| moved.name.as_str())
+        .collect();
+    let names: Vec<String> = new.cases().map(|(suite, case)| name(suite, case)).collect();
+    let cases: Vec<(&str, bool)> =
+        names.iter().map(|name| (name.as_str(), worse.contains(name.as_str()))).collect();
+    let shared_words = shared_words(&cases);
+    ReportComparison { problems, moved, shared_words, cheapest, unchanged, tolerance }
 }
 
 /// A case whose problem is another one: only whether it meets its expectations can be compared.

@@ -30,6 +30,23 @@ fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String;
         let values: Vec<&str> = values.collect();
         if values.is_empty() { "nothing".to_owned() } else { values.join("; ") }
     };
-    let rows = keys.map(|key| [key.clone(), of(old, key), of(new, key)]);
-    rows.filter(|[_, old, new]| old != new).collect()
+    let rows = keys.map(|key| (key.clone(), of(old, key), of(new, key)));
+    let moved = rows.filter(|(_, old, new)| old != new);
+    let row = |(key, old, new): (String, String, String)| {
+        let [old, new] = shortened(&old, &new).unwrap_or([old, new]);
+        [key, old, new]
+    };
+    moved.map(row).collect()
+}
+
+/// The values that differ, of two lists of `name = value`.
+fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
+    let [old, new] = [old, new].map(|list| list.split(", ").collect::<Vec<&str>>());
+    if old.len() != new.len() {
+        return None;
+    }
+    let pairs = old.into_iter().zip(new).filter(|(old, new)| old != new);
+    let (old, new): (Vec<&str>, Vec<&str>) = pairs.unzip();
+    let is_list = old.iter().chain(&new).all(|part| part.contains(" = "));
+    is_list.then(|| [old.join(", "), new.join(", ")])
 }

@@ -54,6 +54,34 @@ fn figures_of_another_problem_are_not_compared() {
     assert_eq!(rank(&broken), Some(Rank::Broken));
 }
 
+#[rstest]
+#[case::one_of_several("E = 1, nu = 0, rho = 2", "E = 1, nu = 0.3, rho = 2", "nu = 0 -> nu = 0.3")]
+#[case::another_list("E = 1, nu = 0", "E = 1", "E = 1, nu = 0 -> E = 1")]
+#[case::no_list("box (0, 1) m", "box (0, 2) m", "box (0, 1) m -> box (0, 2) m")]
+fn a_change_of_the_problem_shows_what_differs(
+    #[case] old: &str,
+    #[case] new: &str,
+    #[case] words: &str,
+) {
+    let case = case("a", 1.0, 1.0);
+    let found = compare(&stating(old, &case), &stating(new, &case), TOLERANCE);
+    assert!(text(&found).contains(&format!("  bar: parameters {words}\n")), "{}", text(&found));
+}
+
+#[test]
+fn what_got_worse_is_told_by_the_words_of_its_names() {
+    let names = ["linear-apic", "cubic-apic", "cpdi-apic", "cpdi-flip"];
+    let with = |c: f64| {
+        let worse = |name: &&str| if name.ends_with("apic") { c } else { 1.0 };
+        document(&names.map(|name| case(name, worse(&name), 1.0)))
+    };
+    let found = compare(&with(1.0), &with(2.0), TOLERANCE);
+    let line = "worse: 3 less accurate, 1 unchanged\n\
+                worse are 3 of all 3 cases with `apic` in their names\n";
+    assert!(text(&found).starts_with(line), "{}", text(&found));
+    assert!(markdown(&found).contains("with &#96;apic&#96; in"), "{}", markdown(&found));
+}
+
 #[test]
 fn only_levels_that_count_are_compared() {
     let mut before = case("a", 1.0, 1.0);

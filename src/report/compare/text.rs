@@ -8,6 +8,7 @@ use crate::report::text::table::{Table, printable};
 pub fn text(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "worse" } else { "nothing worse" };
     let mut lines = vec![format!("{head}: {}", comparison.headline())];
+    lines.extend(comparison.in_common().map(|line| printable(&line)));
     if !comparison.problems.is_empty() {
         lines.extend([
             String::new(),
