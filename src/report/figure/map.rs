@@ -8,6 +8,7 @@ use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
 use super::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE};
 use super::plot::svg::{SvgElement, number};
 use super::plot::text;
+use crate::verify::rounded;
 
 /// A table of numbers over coloured fields.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,11 @@ const ROW: f64 = 17.0;
 const FIELD: f64 = 62.0;
 /// Between rows whose names begin with another word.
 const GAP: f64 = 5.0;
+
+/// A swept value as the head of a column: a third has five digits, not sixteen.
+pub(crate) fn column_head(value: f64) -> String {
+    rounded(value, 5).to_string()
+}
 
 impl Map {
     /// The figure as a standalone SVG document.
@@ -141,6 +147,14 @@ mod tests {
             rows: vec![("a & b".to_owned(), values.iter().map(field).collect())],
         }
         .to_svg()
+    }
+
+    #[test]
+    fn heads_of_columns_are_short() {
+        assert_eq!(
+            [1.0 / 3.0, 0.4999, 1e-9].map(column_head),
+            ["0.33333", "0.4999", "0.000000001"]
+        );
     }
 
     #[test]

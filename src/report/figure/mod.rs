@@ -31,6 +31,7 @@
 
 pub(crate) mod cost;
 pub(crate) mod drawing;
+pub(crate) mod map;
 pub(crate) mod plot;
 pub(crate) mod study;
 pub(crate) mod suite;
@@ -41,7 +42,6 @@ mod convergence;
 mod error_map;
 mod history;
 mod levels;
-mod map;
 mod series;
 mod work;
 

@@ -1,5 +1,6 @@
 //! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
 
+use super::map::column_head;
 use super::{Curve, HistoryPlot, Map, MapField};
 use crate::report::text::stability::merged_fields;
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
@@ -104,7 +105,7 @@ fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunF
         x_label: first.map_or(String::new(), |study| study.swept.clone()),
         z_label: figure.head().to_owned(),
         columns: first
-            .map_or(Vec::new(), |study| study.rows.iter().map(|r| r.value.to_string()).collect()),
+            .map_or(Vec::new(), |study| study.rows.iter().map(|r| column_head(r.value)).collect()),
         rows: merged_fields(studies.iter().map(row).collect()),
     };
     let file = format!("{}-{}.svg", outcome.suite, figure.name());

@@ -34,8 +34,9 @@ fn figure(id: &str, svg: &str, name: &str) -> Html {
     if width <= WIDTH {
         return Html::block("figure", &[("id", id)], &[inline::svg(svg, id), caption]);
     }
-    let least = format!("<svg style=\"min-width:{:.0}px\"", width * LEGIBLE / SUPERSCRIPT);
-    let figure = inline::svg(svg, id).into_string().replacen("<svg", &least, 1);
+    let least = width * LEGIBLE / SUPERSCRIPT;
+    let style = format!("<svg style=\"min-width:{least:.0}px;max-width:{width:.0}px\"");
+    let figure = inline::svg(svg, id).into_string().replacen("<svg", &style, 1);
     let figure = scrolled(&format!("Figure {name}"), Html::trusted(figure));
     Html::block("figure", &[("id", id), ("class", "broad")], &[figure, caption])
 }

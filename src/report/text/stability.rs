@@ -3,6 +3,7 @@
 use super::table::Table;
 use crate::report::columns::TableColumn;
 use crate::report::columns::stability::{self, limit_of, limit_text};
+use crate::report::figure::map::column_head;
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
@@ -30,7 +31,7 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
         title: outcome.title.clone(),
         x_label: first.swept.clone(),
         z_label: format!("limit of {sought}"),
-        columns: first.rows.iter().map(|row| row.value.to_string()).collect(),
+        columns: first.rows.iter().map(|row| column_head(row.value)).collect(),
         rows: merged_fields(studies.iter().map(row).collect()),
     };
     Some(map.to_svg())
