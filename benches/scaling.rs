@@ -39,7 +39,11 @@ fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [
 /// Two lines of the figure.
 fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) -> Vec<PlotSeries> {
     let name = |pass| format!("{D}d {} {} {pass}", method.0.name(), method.1.name());
-    let mut lines = ["p2g", "g2p"].map(|pass| PlotSeries { name: name(pass), points: Vec::new() });
+    let mut lines = [(0, "p2g"), (1, "g2p")].map(|(look, pass)| PlotSeries {
+        name: name(pass),
+        look,
+        points: Vec::new(),
+    });
     for &count in counts {
         let times = measure::<D>(method, count);
         for (line, time) in lines.iter_mut().zip(times) {

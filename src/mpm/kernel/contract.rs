@@ -79,14 +79,6 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     /// Moments of the weights of each particle.
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>);
 
-    /// `matrix_p <- matrix_p D_p^-1`.
-    fn divide_by_inertia(
-        &self,
-        grid: &Grid<D>,
-        particles: &Particles<D>,
-        matrices: &mut [Matrix<D>],
-    );
-
     /// Calls `entry` with i, j and `m_p N_i(x_p) N_j(x_p)` (kg) for every particle and every pair
     /// of its nodes: the consistent mass matrix.
     fn mass_entries(
@@ -115,7 +107,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Vector<D>],
     );
 
-    /// Visits of particles by the passes; the preparation of a pass (`divide_by_inertia`) is none.
+    /// Visits of particles by the passes.
     fn tally(&self) -> &Tally;
 
     /// Largest number of nodes of a particle.

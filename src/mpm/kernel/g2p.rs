@@ -1,8 +1,9 @@
 //! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
 
 use super::batch::{ALL, Batch, ParticleBatches};
+use super::matrix_columns::{divide, put_columns};
+use super::moments::InertiaTensor;
 use super::request::G2pRequest;
-use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
 use crate::mpm::grid::Grid;
 use crate::mpm::packed_grid::FieldView;
@@ -29,23 +30,12 @@ pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
     2 * D <= LANES
 }
 
-/// Writes a matrix by its columns, number by number: store-to-load forwarding fails for a matrix
-/// that is stored as a whole.
-#[inline(always)]
-fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(matrix: &mut Matrix<D>, columns: &[F; D]) {
-    for axis in 0..D {
-        let lanes = columns[axis].into();
-        for row in 0..D {
-            matrix[(row, axis)] = lanes[row];
-        }
-    }
-}
-
 /// Sums of a batch of particles under way.
 struct G2pSums<S: Simd, const D: usize> {
     change: [S::F64x4; BATCH],
     velocity: [S::F64x4; BATCH],
     moment: [[S::F64x4; D]; BATCH],
+    fit: [[S::F64x4; D]; BATCH],
     gradient: [[S::F64x4; D]; BATCH],
 }
 
@@ -57,6 +47,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
             change: [zero; BATCH],
             velocity: [zero; BATCH],
             moment: [[zero; D]; BATCH],
+            fit: [[zero; D]; BATCH],
             gradient: [[zero; D]; BATCH],
         }
     }
@@ -69,6 +60,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
             self.change[lane] = zero.change[lane];
             self.velocity[lane] = zero.velocity[lane];
             self.moment[lane] = zero.moment[lane];
+            self.fit[lane] = zero.fit[lane];
             self.gradient[lane] = zero.gradient[lane];
         }
     }
@@ -91,7 +83,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         &self,
         simd: S,
         patches: &mut Batch<B, D>,
-        (lanes, mean): (Range<usize>, Option<&Vector<D>>),
+        (lanes, of_all): (Range<usize>, Option<&InertiaTensor<D>>),
         sums: &mut G2pSums<S, D>,
     ) {
         let ([velocity, acceleration], request) = (&self.fields, &self.request);
@@ -102,12 +94,19 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             }
         }
         let mut is_summed = request.mix.is_none() && request.advected.is_none() && !beside;
-        if request.moment.is_some() {
-            patches.compute_offsets(simd, &lanes, self.grid.h, mean);
+        if request.moment.is_some() || request.fit.is_some() {
+            let h = self.grid.h;
+            patches.compute_offsets(simd, &lanes, h, of_all.map(|of_all| &of_all.mean));
             for lane in lanes.clone() {
                 let (sum, moment) = patches.gather_moment(simd, lane, velocity);
                 for axis in 0..D {
                     put::<B, _>(&mut sums.moment[lane][axis], moment[axis]);
+                }
+                if request.fit.is_some() {
+                    let fit = divide::<B, S, D>((simd, patches, lane), of_all, &moment, h);
+                    for axis in 0..D {
+                        put::<B, _>(&mut sums.fit[lane][axis], fit[axis]);
+                    }
                 }
                 if !is_summed {
                     put::<B, _>(&mut sums.velocity[lane], sum);
@@ -161,6 +160,11 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                 put_columns(moment, sums);
             }
         }
+        if let Some(fit) = &mut request.fit {
+            for (fit, sums) in fit[first..].iter_mut().zip(&sums.fit) {
+                put_columns(fit, sums);
+            }
+        }
         if let Some(gradient) = &mut request.gradient {
             for (gradient, sums) in gradient[first..].iter_mut().zip(&sums.gradient) {
                 put_columns(gradient, sums);
@@ -181,7 +185,8 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
-        let (slopes, offsets) = (self.request.gradient.is_some(), self.request.moment.is_some());
+        let slopes = self.request.gradient.is_some();
+        let offsets = self.request.moment.is_some() || self.request.fit.is_some();
         let layout = self.fields[0].layout;
         let mut patches = Batch::<B, D>::none();
         let needs = WeightNeeds { slopes, offsets };
@@ -197,12 +202,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                 &mut patches,
                 #[inline(always)]
                 |patches, lanes, of_all| {
-                    self.gather_patches(
-                        simd,
-                        patches,
-                        (lanes, of_all.map(|of_all| &of_all.mean)),
-                        &mut sums,
-                    );
+                    self.gather_patches(simd, patches, (lanes, of_all), &mut sums);
                 },
             );
             if seen != ALL {

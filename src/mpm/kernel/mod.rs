@@ -30,6 +30,7 @@ mod batch;
 mod colouring;
 mod g2p;
 mod inertia;
+mod matrix_columns;
 mod p2g;
 mod par_split;
 mod parallel;
@@ -184,17 +185,6 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         self.tally.add("weight moments", particles.len());
         for (p, (mean, second)) in moments.mean.iter_mut().zip(&mut moments.second).enumerate() {
             InertiaTensor { mean: *mean, second: *second } = inertia::<D, B>(grid, particles, p);
-        }
-    }
-
-    fn divide_by_inertia(
-        &self,
-        grid: &Grid<D>,
-        particles: &Particles<D>,
-        matrices: &mut [Matrix<D>],
-    ) {
-        for (p, matrix) in matrices.iter_mut().enumerate() {
-            *matrix = inertia::<D, B>(grid, particles, p).divide(matrix, grid.h);
         }
     }
 

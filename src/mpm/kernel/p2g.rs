@@ -1,9 +1,10 @@
 //! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
 
 use super::batch::{Batch, ParticleBatches};
+use super::matrix_columns::{columns, divide};
 use super::moments::InertiaTensor;
 use super::request::{Affine, Divergence, P2gRequest};
-use crate::mpm::algebra::{Matrix, Vector, array};
+use crate::mpm::algebra::Vector;
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
 use crate::mpm::grid::Grid;
 use crate::mpm::packed_grid::FieldViewMut;
@@ -40,18 +41,6 @@ const fn fits_one_field<const D: usize>() -> bool {
     2 * D < LANES
 }
 
-/// Columns of a matrix, each in a register from lane `from` on.
-#[inline(always)]
-fn columns<S: Simd, const D: usize>(simd: S, matrix: &Matrix<D>, from: usize) -> [S::F64x4; D] {
-    array(simd.load([0.0; 4]), |axis| {
-        let mut lanes = [0.0; 4];
-        for row in 0..D {
-            lanes[(from + row) % LANES] = matrix[(row, axis)];
-        }
-        simd.load(lanes)
-    })
-}
-
 /// Momentum and, in the last lane, mass of a particle.
 #[inline(always)]
 fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4 {
@@ -60,21 +49,6 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
         lanes[axis] = v[axis];
     }
     simd.load(lanes) * m
-}
-
-/// Columns of `matrix D_p^-1`, with the inertia tensor of all patches of the particle, or without
-/// it that of its only patch.
-#[inline(always)]
-fn divide<B: Basis, S: Simd, const D: usize>(
-    (simd, patches, lane): (S, &Batch<B, D>, usize),
-    of_all: Option<&InertiaTensor<D>>,
-    matrix: &Matrix<D>,
-    h: f64,
-) -> [S::F64x4; D] {
-    match of_all {
-        None => patches.divide::<S>(lane, &columns(simd, matrix, 0)),
-        Some(of_all) => columns(simd, &of_all.divide(matrix, h), 0),
-    }
 }
 
 impl<const D: usize, B: Basis> Scatter<'_, D, B> {
@@ -116,7 +90,8 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
                     let slope = match affine {
                         Affine::Slope(_) => columns(simd, state, 0),
                         Affine::Moment(_) => {
-                            divide::<B, S, D>((simd, patches, lane), of_all, state, h)
+                            let state = columns(simd, state, 0);
+                            divide::<B, S, D>((simd, patches, lane), of_all, &state, h)
                         }
                     };
                     NodeTerm::affine(inertial(simd, *m, v), slope, *m)
@@ -143,7 +118,7 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
                 lanes.map(|lane| (lane, ())),
                 #[inline(always)]
                 |lane, ()| {
-                    let flux = -particles.flux(first + lane);
+                    let flux = columns(simd, &-particles.flux(first + lane), 0);
                     let slope = divide::<B, S, D>((simd, patches, lane), of_all, &flux, h);
                     let value = Some(simd.splat(0.0));
                     NodeTerm { value, slope: Some(slope), flux: None }
@@ -196,7 +171,8 @@ impl<const D: usize, B: Basis> Scatter<'_, D, B> {
                     None => return NodeTerm { value: Some(value), ..NodeTerm::flux(flux) },
                     Some(Affine::Slope(c)) => columns(simd, &c[first + lane], 0),
                     Some(Affine::Moment(b)) => {
-                        divide::<B, S, D>((simd, patches, lane), of_all, &b[first + lane], h)
+                        let b = columns(simd, &b[first + lane], 0);
+                        divide::<B, S, D>((simd, patches, lane), of_all, &b, h)
                     }
                 };
                 NodeTerm { flux: Some(flux), ..NodeTerm::affine(value, slope, *m) }

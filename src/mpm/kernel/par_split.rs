@@ -14,20 +14,22 @@ impl<const D: usize> G2pRequest<'_, D> {
         let Self { change, mix, .. } = self;
         let value = split(self.value, count);
         let moment = split(self.moment, count);
+        let fit = split(self.fit, count);
         let gradient = split(self.gradient, count);
         let (dt, advected) = self.advected.unzip();
         let advected = split(advected, count);
-        let part = |value, moment, gradient, advected| Self {
+        let part = |value, moment, fit, gradient, advected| Self {
             change,
             mix,
             value,
             moment,
+            fit,
             gradient,
             advected: dt.zip(advected),
         };
         (
-            part(value.0, moment.0, gradient.0, advected.0),
-            part(value.1, moment.1, gradient.1, advected.1),
+            part(value.0, moment.0, fit.0, gradient.0, advected.0),
+            part(value.1, moment.1, fit.1, gradient.1, advected.1),
         )
     }
 }

@@ -95,6 +95,9 @@ pub struct G2pRequest<'a, const D: usize> {
     pub value: Option<&'a mut [Vector<D>]>,
     /// `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
     pub moment: Option<&'a mut [Matrix<D>]>,
+    /// `moment_p D_p^-1` (1/s): the gradient of a least-squares fit (Hu et al. 2018, eq. 17), by
+    /// the visit to the nodes that gives the moment.
+    pub fit: Option<&'a mut [Matrix<D>]>,
     /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
     pub gradient: Option<&'a mut [Matrix<D>]>,
     /// Position after `dt` (s), `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
@@ -107,7 +110,7 @@ impl<const D: usize> G2pRequest<'_, D> {
         named_parts([
             ("g2p velocity", self.change.is_some()),
             ("g2p velocity", self.mix.is_some()),
-            ("g2p moment", self.moment.is_some()),
+            ("g2p moment", self.moment.is_some() || self.fit.is_some()),
             ("g2p gradient", self.gradient.is_some()),
             ("g2p position", self.advected.is_some()),
         ])

@@ -1,7 +1,7 @@
 //! Passes of G2P for the request of a transfer.
 
 use super::contract::Transfer;
-use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::algebra::Vector;
 use crate::mpm::grid::Grid;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::kernel::request::{Divergence, G2pRequest};
@@ -9,9 +9,8 @@ use crate::mpm::particles::Particles;
 use crate::mpm::stage::Stage;
 
 /// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and
-/// positions after the step into `advected` (m). One pass, and another one for gradients where the
-/// velocities take the same part of the first. Returns the passes without that of positions, which
-/// counts once these have moved.
+/// positions after the step into `advected` (m), in one pass. Returns how many passes its parts
+/// count as, without that of positions, which counts once these have moved.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -21,8 +20,7 @@ pub fn g2p<const D: usize>(
     advected: &mut [Vector<D>],
 ) -> u64 {
     let is_fit = transfer.p2g_request(particles).force == Some(Divergence::Fit);
-    let (mut request, mut second) = (G2pRequest::default(), G2pRequest::default());
-    let mut passes = 0;
+    let (mut request, mut passes) = (G2pRequest::default(), 0);
     if stages.contains(&Stage::ParticleVelocity) {
         passes += transfer.filter(kernel, grid, particles);
         request = transfer.g2p_request(dt);
@@ -31,34 +29,26 @@ pub fn g2p<const D: usize>(
         (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
     request.value = stages.contains(&Stage::ParticleVelocity).then_some(&mut v);
     let wants_gradient = stages.contains(&Stage::Stress);
-    if wants_gradient {
-        let is_taken = gradient_part(&mut request, is_fit).is_some();
-        let free = if is_taken { &mut second } else { &mut request };
-        *gradient_part(free, is_fit) = Some(&mut grad_v);
+    // The transfer's own gradient is that of the same velocities.
+    let is_copied = wants_gradient && !is_fit && request.gradient.is_some();
+    if wants_gradient && is_fit {
+        request.fit = Some(&mut grad_v);
+    } else if wants_gradient && !is_copied {
+        request.gradient = Some(&mut grad_v);
     }
     if stages.contains(&Stage::Position) {
         request.advected = Some((dt, advected));
     }
-    for request in [request, second] {
-        let parts = request.parts().count();
-        passes += parts as u64 - u64::from(request.advected.is_some());
-        if parts > 0 {
-            kernel.g2p_all(grid, particles, request);
-        }
+    let parts = request.parts().count();
+    passes += parts as u64 - u64::from(request.advected.is_some());
+    if parts > 0 {
+        kernel.g2p_all(grid, particles, request);
     }
-    if wants_gradient && is_fit {
-        kernel.divide_by_inertia(grid, particles, &mut grad_v);
+    if let (true, Some(gradient)) = (is_copied, transfer.g2p_request(dt).gradient) {
+        grad_v.copy_from_slice(gradient);
     }
     (particles.v, particles.grad_v) = (v, grad_v);
     passes
-}
-
-/// The part of `request` that gives velocity gradients: those of a fit are `B_p D_p^-1`.
-fn gradient_part<'r, 'a, const D: usize>(
-    request: &'r mut G2pRequest<'a, D>,
-    is_fit: bool,
-) -> &'r mut Option<&'a mut [Matrix<D>]> {
-    if is_fit { &mut request.moment } else { &mut request.gradient }
 }
 
 /// G2P: adds the grid's accelerations over `dt` (s) to velocities and affine states of particles,

@@ -63,17 +63,18 @@ fn sums<const D: usize>(
     particles: &Particles<D>,
 ) -> Vec<f64> {
     let (mut value, mut moment) = (particles.v.clone(), particles.sigma.clone());
-    let (mut gradient, mut advected) = (moment.clone(), value.clone());
+    let (mut fit, mut gradient, mut advected) = (moment.clone(), moment.clone(), value.clone());
     let request = G2pRequest {
         change: Some(0.5),
         mix: Some((0.5, 0.5)),
         value: Some(&mut value),
         moment: Some(&mut moment),
+        fit: Some(&mut fit),
         gradient: Some(&mut gradient),
         advected: Some((0.5, &mut advected)),
     };
     kernel.g2p_all(grid, particles, request);
-    let matrices = moment.iter().chain(&gradient).flatten();
+    let matrices = moment.iter().chain(&fit).chain(&gradient).flatten();
     value.iter().chain(&advected).flatten().chain(matrices).copied().collect()
 }
 

@@ -9,7 +9,7 @@ use crate::common::in_dimension;
 use approx::assert_relative_eq;
 use fearless_simd::Level;
 use mpm_verify::mpm::{
-    Affine, BasisName, Block, Divergence, G2pRequest, Grid, Kernel, LoopSettings, Matrix,
+    Affine, BasisName, Block, Divergence, G2pRequest, Grid, Kernel, LoopSettings, Matrix, Moments,
     P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
 };
 use rstest::rstest;
@@ -77,11 +77,13 @@ fn g2p_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, 
     let (grid, particles) = scene(kernel, periodic);
     let (mut v, mut advected) = (particles.v.clone(), particles.v.clone());
     let (mut moment, mut gradient) = (particles.sigma.clone(), particles.sigma.clone());
+    let (mut fit, mut fit1) = (particles.sigma.clone(), particles.sigma.clone());
     let request = G2pRequest {
         change: Some(0.25),
         mix: Some((0.75, 0.25)),
         value: Some(&mut v),
         moment: Some(&mut moment),
+        fit: Some(&mut fit),
         gradient: Some(&mut gradient),
         advected: Some((0.5, &mut advected)),
     };
@@ -99,6 +101,9 @@ fn g2p_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, 
     }
     assert_eq!(bits(moment.iter().flatten()), bits(moment1.iter().flatten()), "moment");
     assert_eq!(bits(gradient.iter().flatten()), bits(gradient1.iter().flatten()), "gradient");
+    let alone = G2pRequest { fit: Some(&mut fit1), ..G2pRequest::default() };
+    kernel.g2p_all(&grid, &particles, alone);
+    assert_eq!(bits(fit.iter().flatten()), bits(fit1.iter().flatten()), "fit");
 }
 
 /// Particle `p` alone.
@@ -118,22 +123,25 @@ fn particles_are_independent<const D: usize>(kernel: &dyn Kernel<D>, periodic: b
     particles.x[3] = Vector::from_element(f64::NAN);
     let request = |particles: &Particles<D>| {
         let (mut v, mut moment) = (particles.v.clone(), particles.sigma.clone());
-        let mut gradient = particles.sigma.clone();
+        let (mut fit, mut gradient) = (particles.sigma.clone(), particles.sigma.clone());
         let request = G2pRequest {
             mix: Some((0.75, 0.25)),
             value: Some(&mut v),
             moment: Some(&mut moment),
+            fit: Some(&mut fit),
             gradient: Some(&mut gradient),
             ..G2pRequest::default()
         };
         kernel.g2p_all(&grid, particles, request);
-        (v, moment, gradient)
+        (v, [moment, fit, gradient])
     };
-    let (v, moment, gradient) = request(&particles);
+    let (v, matrices) = request(&particles);
     for p in 0..particles.len() {
         let of_one = request(&alone(&particles, p));
-        assert_eq!(of_one, (vec![v[p]], vec![moment[p]], vec![gradient[p]]), "particle {p}");
+        let here = matrices.each_ref().map(|matrices| vec![matrices[p]]);
+        assert_eq!(of_one, (vec![v[p]], here), "particle {p}");
     }
+    let [moment, ..] = matrices;
     assert_eq!(moment[3], Matrix::<D>::zeros());
     let mut mapped = grid.clone();
     kernel.p2g_mass(&particles, &mut mapped);
@@ -159,17 +167,18 @@ fn passes<const D: usize>(
     let request = P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) };
     kernel.p2g(particles, &request, &mut mapped);
     let (mut v, mut sigma) = (particles.v.clone(), particles.sigma.clone());
-    let mut gradient = sigma.clone();
+    let (mut fit, mut gradient) = (sigma.clone(), sigma.clone());
     let request = G2pRequest {
         change: Some(0.25),
         mix: Some((0.75, 0.25)),
         value: Some(&mut v),
         moment: Some(&mut sigma),
+        fit: Some(&mut fit),
         gradient: Some(&mut gradient),
         advected: None,
     };
     kernel.g2p_all(grid, particles, request);
-    let matrices = sigma.iter().chain(&gradient).flatten();
+    let matrices = sigma.iter().chain(&fit).chain(&gradient).flatten();
     [nodes(&mapped), bits(v.iter().flatten().chain(matrices))]
 }
 
@@ -221,6 +230,14 @@ fn fast_loops_are_the_textbook_loops<const D: usize>(kernel: &dyn Kernel<D>, per
     agree("velocity", v.iter().flatten(), sums.velocity.iter().flatten());
     agree("moment", moment.iter().flatten(), sums.moment.iter().flatten());
     agree("gradient", gradient.iter().flatten(), sums.gradient.iter().flatten());
+
+    let (mut fit, mut moments) = (particles.sigma.clone(), Moments::default());
+    moments.resize(particles.len());
+    kernel.moments(&start, &particles, &mut moments);
+    let alone = G2pRequest { fit: Some(&mut fit), ..G2pRequest::default() };
+    kernel.g2p_all(&start, &particles, alone);
+    let product: Vec<Matrix<D>> = fit.iter().zip(&moments.second).map(|(c, d)| c * d).collect();
+    agree("fit times D", product.iter().flatten(), sums.moment.iter().flatten());
 }
 
 fn obey<const D: usize>(periodic: bool) {
