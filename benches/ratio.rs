@@ -13,15 +13,17 @@ mod random;
 mod yardstick;
 
 use mpm_verify::mpm::{
-    Affine, BasisName, G2pRequest, Grid, Kernel, Matrix, P2gRequest, ParticleField, Particles,
-    Vector, kernel,
+    Affine, BasisName, FrameName, G2pRequest, Grid, Kernel, LinearElastic, MassName, Matrix,
+    NeoHookean, P2gRequest, ParticleField, Particles, SchemeName, Setup, Solver, TransferName,
+    Vector, kernel, mass_matrix, transfer,
 };
+use mpm_verify::subject::{Start, Subject};
 use mpm_verify::verify::Timing;
 use one_thread::one_thread;
 use random::Random;
 use std::hint::black_box;
 use std::time::Instant;
-use yardstick::{cubic_3d, linear_1d, quadratic_2d, quadratic_3d};
+use yardstick::{cubic_3d, flip_1d, linear_1d, mls_2d, mls_3d, quadratic_2d, quadratic_3d};
 
 const H: f64 = 0.5;
 /// Cells between the body and the walls: cubic B-splines are uniform there.
@@ -186,6 +188,97 @@ fn flip(count: f64) {
     same("1d/linear/flip/g2p", ours_advected.iter().flatten(), advected.iter());
 }
 
+/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all repeats.
+const DT: f64 = 1e-4;
+
+/// Solver of a scene whose velocities are a thousandth, with its Lame constants (Pa).
+fn solver<const D: usize>(
+    basis: BasisName,
+    name: TransferName,
+    count: f64,
+) -> (Solver<D>, [f64; 2]) {
+    let Scene { kernel, grid, mut particles, .. } = scene::<D>(basis, count);
+    particles.v.iter_mut().for_each(|v| *v *= 1e-3);
+    particles.x0.clone_from(&particles.x);
+    let LinearElastic { lambda, mu } = LinearElastic::new(1.0, 0.3);
+    let setup = Setup {
+        grid,
+        particles,
+        kernel,
+        transfer: transfer(name),
+        mass: mass_matrix(MassName::Lumped),
+        frame: FrameName::Updated,
+        material: Box::new(NeoHookean::new(1.0, 0.3)),
+        effects: Vec::new(),
+        boundary: Vec::new(),
+        scheme: SchemeName::Usl,
+        start: Start::AtZero,
+    };
+    (Solver::new(setup).expect("every particle is inside"), [lambda, mu])
+}
+
+/// Steps compared before they are timed.
+const COMPARED: usize = 3;
+
+/// A whole step of MLS-MPM.
+macro_rules! mls_step {
+    ($plain:ident, $dimension:literal, $id:literal, $count:expr) => {{
+        const D: usize = $dimension;
+        let (mut ours, [lambda, mu]) =
+            solver::<D>(BasisName::QuadraticBSpline, TransferName::Mls, $count);
+        let (particles, grid) = (ours.particles(), ours.grid());
+        let (n, total) = (grid.counts, particles.len());
+        let identity = rows(&[Matrix::<D>::identity()])[0];
+        let mut body = $plain::Body {
+            x: columns(&particles.x),
+            v: columns(&particles.v),
+            b: vec![[[0.0; D]; D]; total],
+            f: vec![identity; total],
+            flux: vec![[[0.0; D]; D]; total],
+            m: particles.mass[0],
+            volume: particles.vol0[0],
+            nodes: vec![[0.0; 2 * D + 1]; grid.nodes()],
+        };
+        let mut plain = || $plain::step(&mut body, (H, n, DT), (lambda, mu));
+        for _ in 0..COMPARED {
+            plain();
+            ours.step(DT).expect("no particle is inverted");
+        }
+        same($id, ours.particles().x.iter().flatten(), body.x.iter().flatten());
+        same($id, ours.particles().v.iter().flatten(), body.v.iter().flatten());
+        let mut plain = || $plain::step(&mut body, (H, n, DT), (lambda, mu));
+        let mut ours = || ours.step(black_box(DT)).expect("no particle is inverted");
+        compare($id, total, &mut plain, &mut ours);
+    }};
+}
+
+/// A whole step of FLIP.
+fn flip_step(count: f64) {
+    const ID: &str = "1d/linear/flip/usl step";
+    let (mut ours, [lambda, mu]) = solver::<1>(BasisName::Linear, TransferName::Flip, count);
+    let flat = |of: &[Vector<1>]| of.iter().map(|v| v[0]).collect::<Vec<f64>>();
+    let (particles, nodes) = (ours.particles(), ours.grid().nodes());
+    let total = particles.len();
+    let mut body = flip_1d::Body {
+        x: flat(&particles.x),
+        v: flat(&particles.v),
+        f: vec![1.0; total],
+        flux: vec![0.0; total],
+        m: particles.mass[0],
+        volume: particles.vol0[0],
+        nodes: vec![[0.0; 3]; nodes],
+    };
+    for _ in 0..COMPARED {
+        flip_1d::step(&mut body, (H, DT), (lambda, mu));
+        ours.step(DT).expect("no particle is inverted");
+    }
+    same(ID, ours.particles().x.iter().flatten(), body.x.iter());
+    same(ID, ours.particles().v.iter().flatten(), body.v.iter());
+    let mut plain = || flip_1d::step(&mut body, (H, DT), (lambda, mu));
+    let mut ours = || ours.step(black_box(DT)).expect("no particle is inverted");
+    compare(ID, total, &mut plain, &mut ours);
+}
+
 fn main() {
     one_thread();
     let count = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(1e5);
@@ -198,4 +291,7 @@ fn main() {
     apic!(quadratic_2d, 2, QuadraticBSpline, "2d/quadratic/apic", count);
     apic!(cubic_3d, 3, CubicBSpline, "3d/cubic/apic", count);
     flip(count);
+    mls_step!(mls_3d, 3, "3d/quadratic/mls/usl step", count);
+    mls_step!(mls_2d, 2, "2d/quadratic/mls/usl step", count);
+    flip_step(count);
 }

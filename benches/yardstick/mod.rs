@@ -1,4 +1,4 @@
-//! The yardstick: P2G and G2P as any textbook has them, a straight nested loop over nodes, generic
+//! The yardstick: P2G, G2P and whole steps as any textbook has them, a straight nested loop over nodes, generic
 //! over nothing.
 //!
 //! The body stays away from walls, so B-splines are uniform and the inertia tensor of APIC is the
@@ -13,6 +13,15 @@ pub(crate) mod quadratic_2d;
 
 /// Cubic B-splines in 3-D, APIC.
 pub(crate) mod cubic_3d;
+
+/// A whole step of MLS-MPM in 3-D.
+pub(crate) mod mls_3d;
+
+/// A whole step of MLS-MPM in 2-D.
+pub(crate) mod mls_2d;
+
+/// A whole step of FLIP in 1-D.
+pub(crate) mod flip_1d;
 
 /// Hats in 1-D, FLIP.
 pub(crate) mod linear_1d;
