@@ -52,16 +52,23 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
         }
     }
 
-    /// Clears the sums of some particles.
+    /// Clears the sums of some particles, of which matrices are only where a pass takes them.
     #[inline(always)]
-    fn reset(&mut self, simd: S, left_out: impl Fn(usize) -> bool) {
-        let zero = Self::zero(simd);
+    fn reset(
+        &mut self,
+        simd: S,
+        (moments, gradients): (bool, bool),
+        left_out: impl Fn(usize) -> bool,
+    ) {
+        let zero = simd.splat(0.0);
         for lane in (0..BATCH).filter(|lane| left_out(*lane)) {
-            self.change[lane] = zero.change[lane];
-            self.velocity[lane] = zero.velocity[lane];
-            self.moment[lane] = zero.moment[lane];
-            self.fit[lane] = zero.fit[lane];
-            self.gradient[lane] = zero.gradient[lane];
+            (self.change[lane], self.velocity[lane]) = (zero, zero);
+            if moments {
+                (self.moment[lane], self.fit[lane]) = ([zero; D], [zero; D]);
+            }
+            if gradients {
+                self.gradient[lane] = [zero; D];
+            }
         }
     }
 }
@@ -77,13 +84,19 @@ fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
 }
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
-    /// Adds the sums over the nodes of patches.
+    /// Whether sums of moments are asked for, as they are or divided.
+    fn takes_moments(&self) -> bool {
+        self.request.moment.is_some() || self.request.fit.is_some()
+    }
+
+    /// Adds the sums over the nodes of patches; `moments`: those of [`Self::takes_moments`] too.
     #[inline(always)]
     fn gather_patches<S: Simd>(
         &self,
         simd: S,
         patches: &mut Batch<B, D>,
         (lanes, of_all): (Range<usize>, Option<&InertiaTensor<D>>),
+        moments: bool,
         sums: &mut G2pSums<S, D>,
     ) {
         let ([velocity, acceleration], request) = (&self.fields, &self.request);
@@ -94,7 +107,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             }
         }
         let mut is_summed = request.mix.is_none() && request.advected.is_none() && !beside;
-        if request.moment.is_some() || request.fit.is_some() {
+        if moments {
             let h = self.grid.h;
             patches.compute_offsets(simd, &lanes, h, of_all.map(|of_all| &of_all.mean));
             for lane in lanes.clone() {
@@ -135,7 +148,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 
     /// Writes the sums of the batch that begins at entry `first` of the request's columns.
     #[inline(always)]
-    fn write<S: Simd>(&mut self, first: usize, sums: &G2pSums<S, D>) {
+    fn write<S: Simd>(&mut self, first: usize, moments: bool, sums: &G2pSums<S, D>) {
         let request = &mut self.request;
         if let Some(value) = &mut request.value {
             let value = value[first..].iter_mut();
@@ -155,14 +168,11 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                 *value = *value * keep + components::<D>(*velocity * factor, 0);
             }
         }
-        if let Some(moment) = &mut request.moment {
-            for (moment, sums) in moment[first..].iter_mut().zip(&sums.moment) {
-                put_columns(moment, sums);
-            }
-        }
-        if let Some(fit) = &mut request.fit {
-            for (fit, sums) in fit[first..].iter_mut().zip(&sums.fit) {
-                put_columns(fit, sums);
+        if moments {
+            let parts = [(&mut request.moment, &sums.moment), (&mut request.fit, &sums.fit)];
+            for (part, sums) in parts {
+                let matrices = part.iter_mut().flat_map(|part| &mut part[first..]);
+                matrices.zip(sums).for_each(|(matrix, sums)| put_columns(matrix, sums));
             }
         }
         if let Some(gradient) = &mut request.gradient {
@@ -186,7 +196,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
         let slopes = self.request.gradient.is_some();
-        let offsets = self.request.moment.is_some() || self.request.fit.is_some();
+        let offsets = self.takes_moments();
         let layout = self.fields[0].layout;
         let mut patches = Batch::<B, D>::none();
         let needs = WeightNeeds { slopes, offsets };
@@ -194,7 +204,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
         let mut sums = G2pSums::zero(simd);
         for first in self.range.clone().step_by(BATCH) {
             if !B::ONE_PATCH {
-                sums = G2pSums::zero(simd);
+                sums.reset(simd, (offsets, slopes), |_| true);
             }
             let seen = batches.visit(
                 simd,
@@ -202,13 +212,13 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                 &mut patches,
                 #[inline(always)]
                 |patches, lanes, of_all| {
-                    self.gather_patches(simd, patches, (lanes, of_all), &mut sums);
+                    self.gather_patches(simd, patches, (lanes, of_all), offsets, &mut sums);
                 },
             );
             if seen != ALL {
-                sums.reset(simd, |lane| seen >> lane & 1 == 0);
+                sums.reset(simd, (offsets, slopes), |lane| seen >> lane & 1 == 0);
             }
-            self.write(first - self.range.start, &sums);
+            self.write(first - self.range.start, offsets, &sums);
         }
     }
 }
