@@ -27,4 +27,4 @@ pub use problem::{
 };
 pub(crate) use problem::{ForceSource, owned};
 #[cfg(feature = "external-programs")]
-pub use program::{ProgramLimits, SolverProgram, protocol_schema};
+pub use program::{ProgramLimits, SolverProgram, protocol_schema, read_answers};

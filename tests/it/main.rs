@@ -14,6 +14,7 @@ mod external;
 mod false_alarms;
 mod figure;
 mod formula;
+mod fuzz_corpus;
 mod judge;
 mod motions;
 mod mpm;

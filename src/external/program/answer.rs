@@ -130,6 +130,21 @@ impl Answer {
         })
     }
 
+    /// Its columns with their names.
+    pub(super) fn columns(self) -> Vec<(String, ColumnText)> {
+        match self {
+            Self::Ready { points: Some(points) } => vec![
+                ("reference_position".to_owned(), points.reference_position),
+                ("weight".to_owned(), points.weight),
+            ],
+            Self::State(state) => state.columns.into_iter().collect(),
+            Self::BodyForce { reference_position: Some(places), .. } => {
+                vec![("reference_position".to_owned(), places)]
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// Its type, as messages spell it.
     pub(super) fn name(&self) -> &'static str {
         match self {

@@ -20,6 +20,12 @@ mod schema;
 mod solver;
 mod subject;
 
+/// Number of sound answers in bytes, read as those of a solver: for the fuzzer.
+#[doc(hidden)]
+pub fn read_answers(bytes: &[u8]) -> usize {
+    reader::read_answers(bytes)
+}
+
 pub use limits::ProgramLimits;
 pub use schema::protocol_schema;
 pub use solver::SolverProgram;

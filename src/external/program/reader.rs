@@ -1,6 +1,6 @@
 //! Messages from a process, as they come.
 
-use super::answer::announced;
+use super::answer::{Answer, announced};
 use super::frame::MessageFrame;
 use std::io::{self, BufRead, BufReader};
 use std::process::ChildStdout;
@@ -26,6 +26,24 @@ pub(super) fn read_all(
             return;
         }
     }
+}
+
+/// Reads answers from `bytes` as from a process, with all their columns, up to the first that
+/// breaks the protocol; returns how many are sound. For the fuzzer.
+pub(super) fn read_answers(mut bytes: &[u8]) -> usize {
+    let longest = AtomicUsize::new(bytes.len());
+    let mut count = 0;
+    while let Ok(Some(frame)) = read_one(&mut bytes, &longest) {
+        let Ok(answer) = Answer::read(&frame) else { break };
+        if answer.columns().into_iter().any(|(name, column)| {
+            let entries = column.count();
+            column.numbers(&name, entries, &frame.bytes).is_err()
+        }) {
+            break;
+        }
+        count += 1;
+    }
+    count
 }
 
 /// The next message; `None` at the end of the output.

@@ -1,0 +1,29 @@
+//! Bytes as two documents to be compared: snapshots, or the JSON of runs.
+
+use mpm_verify::report::compare::{
+    Pictures, ReportDocument, compare, illustrated, json, markdown, text,
+};
+
+/// Reads the two parts that the first byte of zero divides, and compares them with each other and
+/// each with itself; panics where that does, and where a document differs from itself.
+pub(crate) fn differences(bytes: &[u8]) {
+    let middle = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len() / 2);
+    let [old, new] =
+        [&bytes[..middle], &bytes[middle..]].map(|part| String::from_utf8_lossy(part).into_owned());
+    let snapshots = |text: &str| ReportDocument::of_snapshots(text, |_, _| Some(text.to_owned()));
+    shown(&snapshots(&old), &snapshots(&new));
+    let [old, new] = [&old, &new].map(|text| ReportDocument::read(text.trim_matches('\0')));
+    if let (Ok(old), Ok(new)) = (old, new) {
+        shown(&old, &new);
+    }
+}
+
+fn shown(old: &ReportDocument, new: &ReportDocument) {
+    let found = compare(old, new, 0.01);
+    let drawn = Pictures::draw(&found, old, new);
+    for written in [text(&found), markdown(&found), illustrated(&found, &drawn, "https://a.b/c")] {
+        assert!(!written.is_empty());
+    }
+    let document: serde_json::Value = serde_json::from_str(&json(&found)).expect("JSON");
+    assert!(document.is_object());
+}
