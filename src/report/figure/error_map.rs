@@ -2,15 +2,15 @@
 //! of colours, so that cases can be compared by eye.
 
 use super::colour_scale::{ColourScale, colour};
-use super::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH};
-use super::plot::svg::{SvgElement, number};
+use super::plot::canvas::{Heading, canvas};
+use super::plot::style::{GRID, NEUTRAL, TEXT, WIDTH};
+use super::plot::svg::SvgElement;
 use super::plot::text;
 use crate::verify::ErrorField;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 const LEFT: f64 = 14.0;
-const TOP: f64 = 18.0;
 const GAP: f64 = 16.0;
 /// Panels of planes beside each other.
 const PLANES: usize = 2;
@@ -39,13 +39,13 @@ struct BodyWindow {
     zoom: f64,
     width: f64,
     height: f64,
+    /// Room between a panel and that below it.
+    gap: f64,
+    /// Panels beside each other.
+    columns: usize,
 }
 
 impl ErrorMap {
-    fn is_plane(&self) -> bool {
-        self.panels.iter().any(|(_, field)| field.is_plane)
-    }
-
     fn window(&self) -> BodyWindow {
         let parts = || self.panels.iter().flat_map(|(_, field)| &field.parts);
         let margin = self.panels.iter().map(|(_, field)| 0.5 * field.size).fold(0.0, f64::max);
@@ -53,48 +53,36 @@ impl ErrorMap {
             [0, 1].map(|i| parts().map(|part| part[i]).fold(f64::INFINITY, f64::min) - margin);
         let high =
             [0, 1].map(|i| parts().map(|part| part[i]).fold(f64::NEG_INFINITY, f64::max) + margin);
-        let columns = if self.is_plane() { PLANES } else { 1 };
+        let is_plane = self.panels.iter().any(|(_, field)| field.is_plane);
+        let columns = if is_plane { PLANES } else { 1 };
         let width = (WIDTH - 2.0 * LEFT - GAP * (columns - 1) as f64) / columns as f64;
         let zoom = width / (high[0] - low[0]);
-        let zoom = if self.is_plane() { zoom.min(HIGHEST / (high[1] - low[1])) } else { zoom };
-        let height = if self.is_plane() { zoom * (high[1] - low[1]) } else { LINE };
-        BodyWindow { low, high, zoom, width, height }
+        if !is_plane {
+            return BodyWindow { low, high, zoom, width, height: LINE, gap: 4.0, columns };
+        }
+        let zoom = zoom.min(HIGHEST / (high[1] - low[1]));
+        let height = zoom * (high[1] - low[1]);
+        BodyWindow { low, high, zoom, width, height, gap: GAP, columns }
     }
 
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         let window = self.window();
-        let columns = if self.is_plane() { PLANES } else { 1 };
-        let heading = text::wrap(&self.title, 1.12 * TITLE, WIDTH - 2.0 * LEFT, 3);
-        let top = TOP + 17.0 * heading.len() as f64 + 6.0;
-        let row = window.height + 18.0 + if self.is_plane() { GAP } else { 4.0 };
+        let BodyWindow { width, columns, .. } = window;
+        let heading = Heading::new(&self.title, WIDTH);
+        let top = heading.bottom() + 6.0;
+        let row = window.height + 18.0 + window.gap;
         let bottom = top + row * self.panels.len().div_ceil(columns) as f64;
         let errors = self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
         let scale = ColourScale::of(errors.filter(|error| *error > 0.0));
         let height = bottom + 60.0;
-        let mut svg = SvgElement::new("svg")
-            .set("xmlns", "http://www.w3.org/2000/svg")
-            .set("viewBox", &format!("0 0 {} {}", number(WIDTH), number(height)))
-            .at("width", WIDTH)
-            .at("height", height)
-            .set("role", "img")
-            .set("font-family", FONT)
-            .at("font-size", TEXT)
-            .set("fill", INK);
-        svg.add(&SvgElement::new("title").content(&self.title));
-        svg.add(
-            &SvgElement::new("rect").at("width", WIDTH).at("height", height).set("fill", PAPER),
-        );
-        for (i, line) in heading.iter().enumerate() {
-            let at = (WIDTH / 2.0, TOP + 4.0 + 17.0 * i as f64);
-            let line = SvgElement::text(at, "middle", line).at("font-size", TITLE);
-            svg.add(&line.set("font-weight", "bold"));
-        }
+        let mut svg = canvas((WIDTH, height), &self.title);
+        heading.draw(&mut svg);
         for (k, (name, field)) in self.panels.iter().enumerate() {
-            let x = LEFT + (window.width + GAP) * (k % columns) as f64;
+            let x = LEFT + (width + GAP) * (k % columns) as f64;
             let y = top + row * (k / columns) as f64;
             let mut panel = SvgElement::group_at((x, y));
-            let name = text::shorten(name, TEXT, window.width);
+            let name = text::shorten(name, TEXT, width);
             panel.add(&SvgElement::text((0.0, 12.0), "start", &name));
             drawn(&mut panel, field, &window, scale);
             svg.add(&panel);
@@ -108,7 +96,7 @@ impl ErrorMap {
 
 /// A path of squares for each shade; crosses where an error is no number.
 fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale: ColourScale) {
-    let BodyWindow { low, high, zoom, width, height } = window;
+    let BodyWindow { low, high, zoom, width, height, .. } = window;
     let mut paths: BTreeMap<i64, String> = BTreeMap::new();
     let side = libm::ceil((field.size * zoom).max(2.0));
     let tall = if field.is_plane { side } else { *height };

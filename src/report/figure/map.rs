@@ -5,8 +5,9 @@
 //! otherwise.
 
 use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
-use super::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, TITLE};
-use super::plot::svg::{SvgElement, number};
+use super::plot::canvas::{Heading, canvas};
+use super::plot::style::{GRID, NEUTRAL, PAPER, TEXT};
+use super::plot::svg::SvgElement;
 use super::plot::text;
 use crate::verify::rounded;
 
@@ -35,7 +36,6 @@ pub struct MapField {
 }
 
 const LEFT: f64 = 14.0;
-const TOP: f64 = 18.0;
 const ROW: f64 = 17.0;
 /// Least width of a field: wider where the name of a column is.
 const FIELD: f64 = 62.0;
@@ -57,28 +57,12 @@ impl Map {
             self.columns.iter().map(|name| text::width(name, TEXT) + 8.0).fold(FIELD, f64::max);
         let across = field * self.columns.len() as f64;
         let width = (left + across).max(left + BAR_WIDTH) + LEFT;
-        let heading = text::wrap(&self.title, 1.12 * TITLE, width - 2.0 * LEFT, 3);
-        let head = TOP + 17.0 * heading.len() as f64 + 34.0;
+        let heading = Heading::new(&self.title, width);
+        let head = heading.bottom() + 34.0;
         let (places, bottom) = self.places(head);
         let height = bottom + 62.0;
-        let mut svg = SvgElement::new("svg")
-            .set("xmlns", "http://www.w3.org/2000/svg")
-            .set("viewBox", &format!("0 0 {} {}", number(width), number(height)))
-            .at("width", width)
-            .at("height", height)
-            .set("role", "img")
-            .set("font-family", FONT)
-            .at("font-size", TEXT)
-            .set("fill", INK);
-        svg.add(&SvgElement::new("title").content(&self.title));
-        svg.add(
-            &SvgElement::new("rect").at("width", width).at("height", height).set("fill", PAPER),
-        );
-        for (i, line) in heading.iter().enumerate() {
-            let at = (width / 2.0, TOP + 4.0 + 17.0 * i as f64);
-            let line = SvgElement::text(at, "middle", line).at("font-size", TITLE);
-            svg.add(&line.set("font-weight", "bold"));
-        }
+        let mut svg = canvas((width, height), &self.title);
+        heading.draw(&mut svg);
         let middle = left + across / 2.0;
         svg.add(&SvgElement::text((middle, head - 22.0), "middle", &self.x_label));
         for (k, column) in self.columns.iter().enumerate() {
@@ -136,6 +120,7 @@ fn row(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::figure::plot::style::INK;
 
     fn map(values: &[Option<f64>]) -> String {
         let field = |value: &Option<f64>| MapField { value: *value, text: "x".to_owned() };

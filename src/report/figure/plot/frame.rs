@@ -1,9 +1,10 @@
 //! The frame of a figure: title, axes, grid, and the document around them.
 
+use super::canvas::canvas;
 use super::label::Label;
 use super::scale::Scale;
 use super::space::Rect;
-use super::style::{FONT, GRID, HEIGHT, INK, NEUTRAL, PAPER, TEXT, TITLE, WIDTH};
+use super::style::{GRID, HEIGHT, INK, NEUTRAL, TEXT, TITLE, WIDTH};
 use super::svg::{Pt, SvgElement, number};
 use super::ticks::Tick;
 use super::{text, ticks};
@@ -121,20 +122,7 @@ impl<'a> Plot<'a> {
             notes.iter().flat_map(|note| text::wrap(note, TEXT, width - 2.0 * MARGIN, 4)).collect();
         let gap = if notes.is_empty() { 0.0 } else { NOTE_GAP };
         let height = bottom + gap + NOTE_LEADING * notes.len() as f64;
-        let view = format!("0 0 {} {}", number(width), number(height));
-        let mut svg = SvgElement::new("svg")
-            .set("xmlns", "http://www.w3.org/2000/svg")
-            .set("viewBox", &view)
-            .at("width", width)
-            .at("height", height)
-            .set("role", "img")
-            .set("font-family", FONT)
-            .at("font-size", TEXT)
-            .set("fill", INK);
-        svg.add(&SvgElement::new("title").content(self.titles.title));
-        svg.add(
-            &SvgElement::new("rect").at("width", width).at("height", height).set("fill", PAPER),
-        );
+        let mut svg = canvas((width, height), self.titles.title);
         svg.add(&self.grid());
         for layer in layers {
             svg.add(layer);

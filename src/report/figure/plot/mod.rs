@@ -1,5 +1,6 @@
 //! The plotting layer: axes, ticks, legends, markers, and the SVG writer.
 
+pub(crate) mod canvas;
 pub(crate) mod frame;
 pub(crate) mod label;
 pub(crate) mod legend;

@@ -2,8 +2,9 @@
 
 use super::view::View;
 use super::{arrows, face, shape};
-use crate::report::figure::plot::style::{FONT, GRID, INK, NEUTRAL, PAPER, TEXT, WIDTH};
-use crate::report::figure::plot::svg::{Pt, SvgElement, number};
+use crate::report::figure::plot::canvas::canvas;
+use crate::report::figure::plot::style::{GRID, INK, NEUTRAL, TEXT, WIDTH};
+use crate::report::figure::plot::svg::{Pt, SvgElement};
 use crate::report::figure::plot::text::wrap;
 use crate::study::describe::statement::{self, stated};
 use crate::subject::PlaneState;
@@ -30,17 +31,7 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let lines: usize = words.iter().map(Row::lines).sum();
     let height = view.height() + 8.0 + LINE * lines as f64;
     let title = format!("Scene of {}", suite.name);
-    let mut svg = SvgElement::new("svg")
-        .set("xmlns", "http://www.w3.org/2000/svg")
-        .set("viewBox", &format!("0 0 {} {}", number(WIDTH), number(height)))
-        .at("width", WIDTH)
-        .at("height", height)
-        .set("role", "img")
-        .set("font-family", FONT)
-        .at("font-size", TEXT)
-        .set("fill", INK);
-    svg.add(&SvgElement::new("title").content(&title));
-    svg.add(&SvgElement::new("rect").at("width", WIDTH).at("height", height).set("fill", PAPER));
+    let mut svg = canvas((WIDTH, height), &title);
     svg.add(&grid(&view));
     for (body, colour) in view.scene.each().iter().enumerate().zip(&colours) {
         svg.add(&shape::draw(&view, body, colour));
