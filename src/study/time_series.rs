@@ -4,7 +4,7 @@
 use super::kind::ShownRun;
 use crate::exact::Truth;
 use crate::subject::{BodyFields, Samples, StateField, Subject};
-use crate::verify::Quantity;
+use crate::verify::{Quantity, is_instant};
 use crate::vtk;
 
 /// Most instants of a series, besides its start.
@@ -50,8 +50,7 @@ pub(super) fn time_series(
         let failed = subject.step(dt).is_err();
         // Of equal steps without accumulated rounding.
         t = if equal { dt * step as f64 } else { t + dt };
-        let passed = |step: u64| u128::from(step) * u128::from(INSTANTS) / u128::from(steps);
-        if failed || passed(step) > passed(step - 1) {
+        if failed || is_instant((step, steps), INSTANTS) {
             number += 1;
             frame(subject.as_ref(), number, t)?;
         }

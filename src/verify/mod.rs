@@ -44,6 +44,7 @@ pub use cost::{
     Workload, by_transfers, pareto_front, rankings,
 };
 pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
+pub(crate) use error::clock::is_instant;
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
 pub(crate) use error::declaration::SumNeed;
 pub use error::error_field::ErrorField;

@@ -44,7 +44,7 @@ pub fn g2p<const D: usize>(
     if parts > 0 {
         kernel.g2p_all(grid, particles, request);
     }
-    if let (true, Some(gradient)) = (is_copied, transfer.g2p_request(dt).gradient) {
+    if is_copied && let Some(gradient) = transfer.g2p_request(dt).gradient {
         grad_v.copy_from_slice(gradient);
     }
     (particles.v, particles.grad_v) = (v, grad_v);

@@ -98,9 +98,7 @@ impl CaseRun<'_, '_> {
         let run = |keeper: &mut dyn CheckpointStore| self.run_keeping(values, keeper);
         let RunContext { suite, fingerprint, extent, .. } = self.context;
         let case = &self.case.name;
-        let said: Vec<String> =
-            values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-        let name = format!("{suite}::{case}, {}", said.join(", "));
+        let name = format!("{suite}::{case}, {}", said(values));
         let key = format!("{suite} {fingerprint:016x} {case} {extent:?} {values:?}");
         let broken = |trial: &Trial| trial.verdict == Stability::Failed;
         self.context.cached(&key, &name, broken, run)
@@ -128,10 +126,8 @@ impl CaseRun<'_, '_> {
     /// The run with these values of the parameters, to be shown.
     pub(super) fn shown(&self, values: &ParameterValues<'_>) -> Result<ShownRun<'static>, String> {
         let setup = self.setup(values)?;
-        let said: Vec<String> =
-            values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         Ok(ShownRun {
-            name: said.join(", "),
+            name: said(values),
             subject: self.started(&setup)?,
             dt: setup.dt,
             steps: setup.steps,
@@ -187,4 +183,11 @@ impl CaseRun<'_, '_> {
         let confirmed = shares.into_iter().map(confirm).collect::<Result<_, String>>()?;
         Ok(Critical { predicted: Some(Prediction { limit, leaves }), confirmed, observed: None })
     }
+}
+
+/// `a = 1, b = 2`.
+fn said(values: &ParameterValues<'_>) -> String {
+    let said: Vec<String> =
+        values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    said.join(", ")
 }
