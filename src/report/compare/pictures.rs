@@ -7,7 +7,7 @@ use super::document::{CaseDocument, LevelDocument, ReportDocument, name};
 use super::escape::prose;
 use super::number::JsonNumber;
 use crate::report::Figure;
-use crate::report::figure::study::{MOST_SERIES, spacing};
+use crate::report::figure::study::{MOST_SERIES, slopes, spacing};
 use crate::report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Axis, Quantity, judged_error};
 use std::collections::BTreeMap;
@@ -133,7 +133,7 @@ fn plot(title: String, cases: &[CasePair<'_>], side: usize) -> ConvergencePlot {
         x_label: axis.map_or("spacing", |axis| spacing(*axis)).to_owned(),
         y_label: judged.unwrap_or_else(|| "error".to_owned()),
         series: cases.iter().enumerate().map(series).collect(),
-        reference_orders: slopes(cases),
+        reference_orders: slopes_before(cases),
     }
 }
 
@@ -148,16 +148,13 @@ fn point(level: &LevelDocument) -> PlotPoint {
     PlotPoint { h, error: level.error().unwrap_or(f64::NAN), mark }
 }
 
-/// Orders that were observed before, rounded to thirds: slopes to hold both pictures against.
-fn slopes(cases: &[CasePair<'_>]) -> Vec<f64> {
+/// Slopes of the orders that were observed before, to hold both pictures against.
+fn slopes_before(cases: &[CasePair<'_>]) -> Vec<f64> {
     let order = |[old, _]: &CasePair<'_>| {
         let order = old.observed_order.filter(|_| old.verdict == "converging")?;
-        Some(libm::round(order.value.0 * 3.0) / 3.0)
+        Some(order.value.0)
     };
-    let mut orders: Vec<f64> = cases.iter().filter_map(order).collect();
-    orders.sort_by(f64::total_cmp);
-    orders.dedup();
-    orders
+    slopes(cases.iter().filter_map(order))
 }
 
 /// The errors of the finest levels that count, in words.

@@ -58,12 +58,10 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Convergence
         look: look(outcome, name),
         points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
     };
-    let mut orders: Vec<f64> = studies.iter().filter_map(|(_, study)| reference(study)).collect();
+    let mut orders = slopes(studies.iter().filter_map(|(_, study)| order(study)));
     if orders.is_empty() {
         orders.extend(studies.first().map(|(_, study)| study.formal_order));
     }
-    orders.sort_by(f64::total_cmp);
-    orders.dedup();
     let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
     ConvergencePlot {
         title: outcome.title.clone(),
@@ -108,11 +106,18 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     parts.map(figure).collect()
 }
 
-/// The slope that a reader should see beside a series that converges: its observed order, or the
-/// simple fraction next to it.
-fn reference(study: &Convergence) -> Option<f64> {
+/// Observed order of a series that converges: the slope that a reader should see beside it.
+fn order(study: &Convergence) -> Option<f64> {
     let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
-    Some(libm::round(order.value * 3.0) / 3.0)
+    Some(order.value)
+}
+
+/// Slopes of observed orders: the simple fractions next to them, each once.
+pub(crate) fn slopes(orders: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut slopes: Vec<f64> = orders.map(|order| libm::round(order * 3.0) / 3.0).collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.dedup();
+    slopes
 }
 
 fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> PlotPoint {
