@@ -1,5 +1,6 @@
 //! Words in the names of cases that got worse, by which a reader sees what they have in common.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 /// Least share of the cases with a word that got worse, and of the worse cases that the words tell.
@@ -16,7 +17,7 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// The words of the worse cases, the one of most cases first; a case counts for its first word
+/// The words of the worse cases, the one of most of them and then of fewest others first; a case counts for its first word
 /// only. None if they tell less than half of the cases. `cases` are `SUITE::CASE`, and whether
 /// each got worse.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
@@ -37,10 +38,15 @@ pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
             all: cases.iter().filter(|(words, _)| words.contains(word)).count(),
         };
         let tells = |shared: &SharedWord| {
-            shared.worse >= FEWEST && shared.worse as f64 > MOST * shared.all as f64
+            // A word of all cases tells none from the others.
+            shared.all < cases.len()
+                && shared.worse >= FEWEST
+                && shared.worse as f64 > MOST * shared.all as f64
         };
         let next = known.into_iter().map(count).filter(tells);
-        let Some(next) = next.max_by_key(|shared| shared.worse) else { break };
+        let Some(next) = next.max_by_key(|shared| (shared.worse, Reverse(shared.all))) else {
+            break;
+        };
         left.retain(|words| !words.contains(&next.word));
         found.push(next);
     }
@@ -61,6 +67,10 @@ mod tests {
         &["a-apic", "b-apic", "c-apic", "d-apic", "a-mls", "b-mls", "c-mls"], &["a", "b", "c", "d"],
         "apic 4 of 4, mls 3 of 3")]
     #[case::a_word_of_all(&["mpm-a", "mpm-b", "mpm-c"], &["mpm-d", "mpm-e", "mpm-f"], "")]
+    #[case::a_word_of_all_among_mostly_worse(
+        &["mpm-a-vs-x", "mpm-b-vs-x", "mpm-c-vs-x"], &["fem-d-vs-x", "fem-e-vs-x"], "mpm 3 of 3")]
+    #[case::the_word_that_fewest_others_have(
+        &["mpm-a-apic", "mpm-b-apic", "mpm-c-apic"], &["mpm-a-flip", "fem"], "apic 3 of 3")]
     #[case::too_few(&["linear-apic", "cubic-apic"], &["linear-flip"], "")]
     #[case::told_of_few(&["a-x", "b-x", "c-x", "d", "e", "f", "g"], &["a"], "")]
     #[case::none_worse(&[], &["a", "b"], "")]
