@@ -17,6 +17,9 @@ const PLANES: usize = 2;
 /// Highest panel of a plane, and height of that of a line.
 const HIGHEST: f64 = 260.0;
 const LINE: f64 = 14.0;
+/// Most lines of a name, and their height.
+const LINES: usize = 2;
+const LEADING: f64 = 14.0;
 /// Shades that are told apart: a part is drawn in the nearest.
 const SHADES: f64 = 24.0;
 
@@ -71,20 +74,27 @@ impl ErrorMap {
         let BodyWindow { width, columns, .. } = window;
         let heading = Heading::new(&self.title, WIDTH);
         let top = heading.bottom() + 6.0;
-        let row = window.height + 18.0 + window.gap;
+        let names: Vec<Vec<String>> =
+            self.panels.iter().map(|(name, _)| text::wrap(name, TEXT, width, LINES)).collect();
+        let named = names.iter().map(Vec::len).max().unwrap_or(0) as f64 * LEADING;
+        let row = window.height + 4.0 + named + window.gap;
         let bottom = top + row * self.panels.len().div_ceil(columns) as f64;
         let errors = self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
         let scale = ColourScale::of(errors.filter(|error| *error > 0.0));
         let height = bottom + 60.0;
         let mut svg = canvas((WIDTH, height), &self.title);
         heading.draw(&mut svg);
-        for (k, (name, field)) in self.panels.iter().enumerate() {
+        for (k, ((_, field), name)) in self.panels.iter().zip(&names).enumerate() {
             let x = LEFT + (width + GAP) * (k % columns) as f64;
             let y = top + row * (k / columns) as f64;
             let mut panel = SvgElement::group_at((x, y));
-            let name = text::shorten(name, TEXT, width);
-            panel.add(&SvgElement::text((0.0, 12.0), "start", &name));
-            drawn(&mut panel, field, &window, scale);
+            for (i, line) in name.iter().enumerate() {
+                let at = (0.0, 12.0 + LEADING * i as f64);
+                panel.add(&SvgElement::text(at, "start", line));
+            }
+            let mut body = SvgElement::group_at((0.0, 4.0 + named));
+            drawn(&mut body, field, &window, scale);
+            panel.add(&body);
             svg.add(&panel);
         }
         let label = text::shorten(&self.label, TEXT, WIDTH - 2.0 * LEFT);
@@ -103,7 +113,7 @@ fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale:
     for [x, y, error] in &field.parts {
         let across = libm::round((x - low[0]) * zoom - 0.5 * side);
         let down = if field.is_plane { (high[1] - y) * zoom - 0.5 * side } else { 0.0 };
-        let down = libm::round(down) + 18.0;
+        let down = libm::round(down);
         // An error of zero has the darkest shade, one that is no number none.
         let share = if *error > 0.0 { scale.share(*error) } else { 0.0 };
         let shade = if error.is_finite() { libm::round(share * SHADES) as i64 } else { -1 };
@@ -114,7 +124,7 @@ fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale:
             _ => write!(path, "M{across} {down}h{side}v{tall}h-{side}z"),
         };
     }
-    let frame = SvgElement::new("rect").at("y", 18.0).at("width", *width).at("height", *height);
+    let frame = SvgElement::new("rect").at("width", *width).at("height", *height);
     panel.add(&frame.set("fill", "none").set("stroke", GRID));
     for (shade, path) in paths {
         let squares = SvgElement::new("path").set("d", &path);
@@ -149,6 +159,16 @@ mod tests {
     fn a_line_is_a_strip() {
         let svg = map(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 2.0]], false);
         assert!(svg.contains("v14h-"), "{svg}");
+    }
+
+    /// Beside another panel there is room for a name, and what is said behind it goes on below.
+    #[test]
+    fn what_is_said_behind_a_long_name_is_seen() {
+        let field = ErrorField { is_plane: true, size: 0.5, parts: vec![[0.0; 3], [1.0; 3]] };
+        let name = "mpm-cubic-bspline-flip-musl, where it broke";
+        let panels = vec![(name.to_owned(), field.clone()), ("short".to_owned(), field)];
+        let svg = ErrorMap { title: "A".to_owned(), label: "e".to_owned(), panels }.to_svg();
+        assert!(svg.contains(">where it broke<") && svg.contains(">short<"), "{svg}");
     }
 
     /// No coordinate is NaN.
