@@ -17,9 +17,9 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// The words of the worse cases, the one of most of them and then of fewest others first; a case counts for its first word
-/// only. None if they tell less than half of the cases. `cases` are `SUITE::CASE`, and whether
-/// each got worse.
+/// The words of the worse cases, the one of most of them first, and of two alike that of fewer
+/// others; a case counts for its first word only. None if they tell less than half of the cases.
+/// `cases` are `SUITE::CASE`, and whether each got worse.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();
