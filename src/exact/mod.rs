@@ -11,6 +11,7 @@ mod expansion;
 mod face;
 mod forcing;
 pub mod formula;
+mod gauss;
 pub mod heat;
 mod initial_stress;
 pub mod law;

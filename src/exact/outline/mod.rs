@@ -3,6 +3,7 @@
 //! Their rims carry no traction, which is all that a suite can say of them, but for the sides of a
 //! quadrilateral that lie on a face.
 
+mod ball_in_box;
 mod moments;
 mod piece;
 mod polygon;
@@ -47,6 +48,9 @@ pub trait Outline: Debug + Send + Sync {
     /// The part of a share of a lattice, a box of half-lengths `half` (m) about `centre`, that is a
     /// particle of the body, or several.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
+
+    /// Volume (m^D) of the part of the body in a box.
+    fn volume_within(&self, from: &[f64], to: &[f64]) -> f64;
 
     /// A closed line along the rim, in the plane of the first two axes (m).
     fn trace(&self) -> Vec<(f64, f64)>;

@@ -133,20 +133,17 @@ impl Outline for Polygon {
     /// of a part lies outside, in a notch, there is a particle for each convex piece.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
-        let inside = |corners: &TriangleCorners| {
-            let within = |left: Vec<Point>, axis: usize| {
-                let left = clip(&left, |p| p[axis] - (centre[axis] - half[axis]));
-                clip(&left, |p| centre[axis] + half[axis] - p[axis])
-            };
-            [0, 1].into_iter().fold(corners.to_vec(), within)
-        };
         let is_near = |corners: &&TriangleCorners| {
             [0, 1].into_iter().all(|axis| {
                 corners.iter().any(|p| p[axis] > centre[axis] - half[axis])
                     && corners.iter().any(|p| p[axis] < centre[axis] + half[axis])
             })
         };
-        let parts: Vec<Vec<Point>> = self.triangles.iter().filter(is_near).map(inside).collect();
+        let [from, to] =
+            [-1.0, 1.0].map(|sign| [0, 1].map(|axis| centre[axis] + sign * half[axis]));
+        let parts =
+            self.triangles.iter().filter(is_near).map(|corners| inside(corners, &from, &to));
+        let parts: Vec<Vec<Point>> = parts.collect();
         let whole = (1.0 - ROUNDING) * 4.0 * half[0] * half[1];
         match Self::piece(&parts, &centre, &half) {
             None => Cut::Nothing,
@@ -157,6 +154,11 @@ impl Outline for Polygon {
                 Cut::Pieces(each.filter_map(|part| Self::piece(part, &centre, &half)).collect())
             }
         }
+    }
+
+    fn volume_within(&self, from: &[f64], to: &[f64]) -> f64 {
+        let parts = self.triangles.iter().map(|corners| inside(corners, from, to));
+        AreaMoments::of(&parts.collect::<Vec<_>>(), &self.corners[0]).area
     }
 
     fn trace(&self) -> Vec<(f64, f64)> {
@@ -218,4 +220,11 @@ impl Outline for Polygon {
         let place = [0, 1].map(|axis| a[axis] + s * (along[axis] + t * across[axis]));
         (place.to_vec(), s * cross(&along, &across))
     }
+}
+
+/// The part of a triangle in a box.
+fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
+    [0, 1].into_iter().fold(corners.to_vec(), |left, axis| {
+        clip(&clip(&left, |p| p[axis] - from[axis]), |p| to[axis] - p[axis])
+    })
 }

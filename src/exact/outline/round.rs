@@ -1,5 +1,6 @@
 //! Round bodies: an annulus or a disk in the plane, a ball in space.
 
+use super::ball_in_box::ball_in_box;
 use super::{Cut, Outline};
 use crate::exact::random::Random;
 use std::f64::consts::{PI, TAU};
@@ -89,6 +90,12 @@ impl Outline for Round {
     /// from those of the body by a part that falls with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
         if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
+    }
+
+    fn volume_within(&self, from: &[f64], to: &[f64]) -> f64 {
+        let ends = from.iter().zip(to).zip(&self.centre).map(|((from, to), c)| (from - c, to - c));
+        let ends: Vec<(f64, f64)> = ends.collect();
+        ball_in_box(self.outer, &ends) - ball_in_box(self.inner, &ends)
     }
 
     fn trace(&self) -> Vec<(f64, f64)> {

@@ -1,7 +1,7 @@
 //! Exact sums over the body or over faces of it, by quadrature in the reference configuration.
 
-use super::gauss::points;
 use crate::exact::face::Face;
+use crate::exact::gauss::points;
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 

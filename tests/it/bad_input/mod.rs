@@ -23,6 +23,7 @@ mod panels;
 mod periods;
 mod planes;
 mod polygons;
+mod pulled_bodies;
 mod quantities;
 mod random;
 mod refinement;

@@ -1,12 +1,15 @@
 //! Sets of particles, and what acts on them.
 
-use crate::exact::Region;
+use crate::exact::{Outline, Region};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::{shown, suggestion};
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::scene::{FACES, Scene};
 use crate::suite::yaml::Diagnostic;
+
+/// Share of a set that is no more than rounding.
+const SLIVER: f64 = 1e-12;
 
 /// A set that is called like a face could be taken for it.
 pub(crate) fn refuse_face_name(
@@ -40,6 +43,22 @@ pub(crate) fn refuse_outside(
         }
     }
     Ok(())
+}
+
+/// The same in the box around a body that is none.
+pub(crate) fn refuse_beside(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    set: &Region,
+    outline: &dyn Outline,
+) -> Result<(), Diagnostic> {
+    let size: f64 = set.from.iter().zip(&set.to).map(|(from, to)| to - from).product();
+    if outline.volume_within(&set.from, &set.to) > SLIVER * size {
+        return Ok(());
+    }
+    let message = format!("the set `{}` has no part of the {}", set.name, outline.kind());
+    let label = format!("the body is a {}", outline.row());
+    Err(evaluator.diagnostic(&path.then("from"), &message).with_label(&label))
 }
 
 /// Tractions and pressures are forces per area, which a set does not have.

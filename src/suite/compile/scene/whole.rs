@@ -5,7 +5,7 @@ use super::material::material;
 use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
 use super::{bodies, body, boundary, initial, outline, plane, rest, sets};
-use crate::exact::Region;
+use crate::exact::{Outline, Region};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::{LoadEntry, LoadSpec};
 use crate::suite::compile::path::Path;
@@ -67,7 +67,7 @@ fn body(
         .as_ref()
         .map(|grid| body::corners(evaluator, &path.then("grid"), grid, dimension))
         .transpose()?;
-    let sets = declared_sets(evaluator, &path, words, (&from, &to))?;
+    let sets = declared_sets(evaluator, &path, words, (&from, &to), outline.as_deref())?;
     let at = own.at.then("material");
     let (material, density) = material(evaluator, &at, own.material)?;
     let plane = plane::plane(evaluator, &path, words, dimension)?;
@@ -135,6 +135,7 @@ fn declared_sets(
     path: &Path,
     words: &SceneSpec,
     corners: (&[f64], &[f64]),
+    outline: Option<&dyn Outline>,
 ) -> Result<Vec<Region>, Diagnostic> {
     let declare = |(name, SetSpec::Box(words)): &(String, SetSpec)| {
         let at = path.then("sets").then(name.as_str());
@@ -143,6 +144,9 @@ fn declared_sets(
         let (from, to) = body::corners(evaluator, &at, words, corners.0.len())?;
         let set = Region { name: name.clone(), from, to };
         sets::refuse_outside(evaluator, &at, &set, corners)?;
+        if let Some(outline) = outline {
+            sets::refuse_beside(evaluator, &at, &set, outline)?;
+        }
         Ok(set)
     };
     words.sets.as_slice().iter().map(declare).collect()

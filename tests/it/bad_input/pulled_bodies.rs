@@ -1,0 +1,81 @@
+//! Bodies that are no box, pulled by a force on a set: truths of another volume than that of the part
+//! of the body in the set, and sets beside the body.
+
+use super::{load, refused};
+use rstest::rstest;
+
+/// A body in translation, of a constant acceleration.
+fn pulled(dimension: usize, body: &str, volume: &str) -> String {
+    let vector = |first: &str| format!("[\"{first}\"{}]", ", 0".repeat(dimension - 1));
+    let corner = |x: &str| format!("[{}]", vec![x; dimension].join(", "));
+    let (from, to) = (corner("-2"), corner("2"));
+    let (force, moved) = (vector("f"), vector("f/(rho*V)*t^2/2"));
+    let ppc = 1 << dimension;
+    format!(
+        r#"suite: pulled
+title: Body that is pulled
+source: "Newton's second law"
+
+parameters:
+  rho: 3
+  f: 0.5
+  V: "{volume}"
+
+scene:
+  dimension: {dimension}
+  body: {body}
+  grid: {{from: {from}, to: {to}}}
+  sets: {{all: {{box: {{from: {from}, to: {to}}}}}}}
+  loads: [{{force: {{on: all, value: {force}}}}}]
+  material: {{neo_hookean: {{young: 100, poisson: 0.3, density: rho}}}}
+
+exact:
+  equation: neo_hookean
+  displacement: {moved}
+
+run: {{until: 0.5, dt: 1e-3}}
+refine: {{cells: [4, 8], ppc: {ppc}}}
+
+methods:
+  - mpm: {{basis: linear, transfer: flip, scheme: musl}}
+"#
+    )
+}
+
+const DISK: &str = "{disk: {centre: [0.1, 0], radius: 1}}";
+
+#[rstest]
+#[case::a_disk(2, DISK, "pi")]
+#[case::a_ring(2, "{annulus: {centre: [0, 0], inner: 0.5, outer: 1}}", "3/4*pi")]
+#[case::a_ball(3, "{ball: {centre: [0, 0, 0.5], radius: 1}}", "4/3*pi")]
+#[case::a_triangle(2, "{polygon: [[0, 0], [1, 0], [0, 1]]}", "1/2")]
+#[case::a_box(2, "{box: {from: [0, 0], to: [1, 0.5]}}", "1/2")]
+fn a_force_is_that_on_the_volume_of(
+    #[case] dimension: usize,
+    #[case] body: &str,
+    #[case] volume: &str,
+) {
+    load(&pulled(dimension, body, volume)).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+    let other = [("displacement: [", "displacement: [▸")];
+    let another = pulled(dimension, body, &format!("1.001*{volume}"));
+    refused(&another, &other, &["equation of motion in X"]);
+}
+
+#[rstest]
+#[case::beside_a_disk(
+    DISK,
+    "the set `all` has no part of the disk",
+    "the body is a disk about (0.1, 0)"
+)]
+#[case::beside_a_triangle(
+    "{polygon: [[-1, -1], [1.05, -1], [-1, 1.05]]}",
+    "the set `all` has no part of the polygon",
+    "the body is a polygon"
+)]
+fn a_set(#[case] body: &str, #[case] message: &str, #[case] label: &str) {
+    let edits = [(
+        "{all: {box: {from: [-2, -2], to: [2, 2]}}}",
+        "{all: {box: {from: ▸[0.9, 0.9], to: [1, 1]}}}",
+    )];
+    refused(&pulled(2, body, "1"), &edits, &[message, label]);
+}
