@@ -103,7 +103,9 @@ impl Quadrilateral {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use approx::assert_relative_eq;
+    use crate::mpm::basis::{Basis, ContiguousGimp, Cpdi, Linear, UniformGimp};
+    use crate::mpm::grid::Grid;
+    use approx::{assert_abs_diff_eq, assert_relative_eq};
     use proptest::prelude::*;
 
     fn cook() -> Quadrilateral {
@@ -178,6 +180,47 @@ mod tests {
         assert_eq!(cook().ends(), (vec![0.0, 0.0], vec![48.0, 60.0]));
         let sides = [(0, false), (0, true), (1, false), (1, true)];
         assert_eq!(sides.map(|(a, high)| cook().has_side_at(a, high)), [true, true, false, false]);
+    }
+
+    /// The largest push of a uniform unit stress on nodes well inside a panel, over that on a face
+    /// of a cell of size `h`, `|sum_p V_p grad N_i|/h`.
+    fn push<B: Basis>(panel: &Quadrilateral, h: f64) -> f64 {
+        let mut particles: Particles<2> = panel.fill(1.0, h, 2);
+        particles.track_domains();
+        let cells = [0, 1].map(|axis| libm::ceil(panel.ends().1[axis] / h) as usize);
+        let counts = cells.map(|cells| B::count(cells, false));
+        let grid = Grid::new(Vector::zeros(), h, cells, [false; 2], counts);
+        let mut total = vec![Vector::<2>::zeros(); grid.nodes()];
+        for (p, volume) in particles.vol0.iter().enumerate() {
+            B::visit(&grid, &particles, p, |i| total[i.node] += i.gradient * (volume / h));
+        }
+        let is_far_inside = |i: &usize| {
+            let node = Vector::<2>::new((i % counts[0]) as f64, (i / counts[0]) as f64);
+            let corners = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)];
+            corners.iter().all(|(x, y)| is_inside(panel, &((node + Vector::from([*x, *y])) * h)))
+        };
+        (0..grid.nodes()).filter(is_far_inside).map(|i| total[i].norm()).fold(0.0, f64::max)
+    }
+
+    /// Parallelograms tile any panel, boxes of their diagonals one with two upright sides; boxes of
+    /// one size do not, nor any boxes in a panel that is turned. No refinement helps.
+    #[test]
+    fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
+        let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);
+        let corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 30.0), (0.0, 30.0)];
+        let turned =
+            corners.map(|(x, y)| Vector::from([16.0 + cos * x - sin * y, 1.0 + sin * x + cos * y]));
+        let turned = Quadrilateral::new(turned).unwrap();
+        for h in [2.0, 1.0] {
+            assert_abs_diff_eq!(push::<Cpdi>(&cook(), h), 0.0, epsilon = 1e-12);
+            assert_abs_diff_eq!(push::<Cpdi>(&turned, h), 0.0, epsilon = 1e-12);
+            assert_abs_diff_eq!(push::<ContiguousGimp>(&cook(), h), 0.0, epsilon = 1e-12);
+            assert_abs_diff_eq!(push::<UniformGimp>(&cook(), h), 0.07, epsilon = 0.03);
+            assert_abs_diff_eq!(push::<ContiguousGimp>(&turned, h), 0.0133, epsilon = 3e-4);
+            assert_abs_diff_eq!(push::<UniformGimp>(&turned, h), 0.0133, epsilon = 3e-4);
+            assert_abs_diff_eq!(push::<Linear>(&cook(), h), 0.57, epsilon = 0.05);
+            assert_abs_diff_eq!(push::<Linear>(&turned, h), 0.35, epsilon = 0.01);
+        }
     }
 
     #[test]
