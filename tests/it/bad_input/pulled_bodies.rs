@@ -61,6 +61,15 @@ fn a_force_is_that_on_the_volume_of(
     refused(&another, &other, &["equation of motion in X"]);
 }
 
+/// The part counts, not its share of the set.
+#[test]
+fn a_set_may_be_far_larger_than_the_body() {
+    let text = pulled(2, DISK, "pi");
+    let all = "{all: {box: {from: [-2, -2], to: [2, 2]}}}";
+    let text = text.replace(all, "{all: {box: {from: [-1e8, -1e8], to: [1e8, 1e8]}}}");
+    load(&text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
+}
+
 #[rstest]
 #[case::beside_a_disk(
     DISK,

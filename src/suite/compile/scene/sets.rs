@@ -8,7 +8,7 @@ use crate::suite::model::load::LoadTarget;
 use crate::suite::model::scene::{FACES, Scene};
 use crate::suite::yaml::Diagnostic;
 
-/// Share of a set that is no more than rounding.
+/// Share of a box that is no more than rounding.
 const SLIVER: f64 = 1e-12;
 
 /// A set that is called like a face could be taken for it.
@@ -52,8 +52,10 @@ pub(crate) fn refuse_beside(
     set: &Region,
     outline: &dyn Outline,
 ) -> Result<(), Diagnostic> {
-    let size: f64 = set.from.iter().zip(&set.to).map(|(from, to)| to - from).product();
-    if outline.volume_within(&set.from, &set.to) > SLIVER * size {
+    let ends = outline.ends();
+    let (from, to) = set.within((&ends.0, &ends.1));
+    let size: f64 = from.iter().zip(&to).map(|(from, to)| to - from).product();
+    if outline.volume_within(&from, &to) > SLIVER * size {
         return Ok(());
     }
     let message = format!("the set `{}` has no part of the {}", set.name, outline.kind());
