@@ -70,11 +70,11 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
     "while :; do echo '{\"type\":\"body_force\",\"t\":0}'; read -r m; done",
     "asked for the body force 1001 times"
 )]
-#[case::silence("sleep 99", "has been silent for 2 s")]
+#[case::silence("sleep 99", "has been silent for 1 s")]
 #[case::a_closed_pipe("exec >&-; sleep 99", "closed its output and went on")]
 #[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
-    let more = ["--solver-timeout", "2s"];
+    let more = ["--solver-timeout", "1s"];
     let (code, said) = run(&script(then), &more);
     assert!(code == SOUND && said.contains("explored  short-bar::odd  failed"), "{said}");
     let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -87,8 +87,8 @@ fn a_process_that_reads_nothing_is_silent() {
     let deaf = format!(
         "read -r m; echo '{HELLO}'; read -r m; case \"$m\" in *bye*) ;; *) sleep 99;; esac"
     );
-    let (_, said) = run(&deaf, &["--solver-timeout", "2s"]);
-    assert!(said.contains("has been silent for 2 s"), "{said}");
+    let (_, said) = run(&deaf, &["--solver-timeout", "1s"]);
+    assert!(said.contains("has been silent for 1 s"), "{said}");
 }
 
 #[test]
