@@ -22,6 +22,7 @@ impl<const R: usize, const C: usize> Entry for nalgebra::SMatrix<f64, R, C> {
 ///
 /// # Panics
 /// For any other D.
+#[inline(always)]
 pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
     let minor = |i: usize, j: usize| m[(1, i)] * m[(2, j)] - m[(1, j)] * m[(2, i)];
     match D {
@@ -53,6 +54,22 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
         }
         _ => unreachable!("1, 2 or 3 dimensions"),
     })
+}
+
+/// `a b`, always inlined, as loops over particles need it that are compiled for wider registers.
+#[inline(always)]
+pub(super) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
+    let mut product = Matrix::zeros();
+    for j in 0..D {
+        for i in 0..D {
+            let mut sum = a[(i, 0)] * b[(0, j)];
+            for k in 1..D {
+                sum += a[(i, k)] * b[(k, j)];
+            }
+            product[(i, j)] = sum;
+        }
+    }
+    product
 }
 
 /// The dyad a b^T.

@@ -28,12 +28,14 @@ impl<const D: usize> Particles<D> {
 
     /// Stress times volume (N m) of particle `p`, the factor of basis gradients in the internal
     /// force: V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
-    #[inline]
+    #[inline(always)]
     pub fn flux(&self, p: usize) -> Matrix<D> {
         let flux = self.sigma[p] * self.vol[p];
-        if self.current_position.is_empty() {
-            return flux;
-        }
+        if self.current_position.is_empty() { flux } else { self.in_reference(p, &flux) }
+    }
+
+    #[inline(never)]
+    fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
         // No inverse: the particle is inverted, and the next stage says so.
         flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
     }

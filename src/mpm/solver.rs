@@ -10,6 +10,7 @@ use super::kernel::tally::Tally;
 use super::particles::Particles;
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::Setup;
+use super::simd::vectorized;
 use super::stage::Stage;
 use super::state::columns::profile;
 use super::state::initial;
@@ -136,9 +137,7 @@ impl<const D: usize> Solver<D> {
             Stage::Acceleration => self.accelerate(dt),
             Stage::GridVelocity => {
                 let Grid { velocity, acceleration, .. } = &mut self.setup.grid;
-                for (v, a) in velocity.iter_mut().zip(acceleration) {
-                    *v += *a * dt;
-                }
+                advance(velocity, acceleration, dt);
             }
             Stage::ParticleVelocity => self.drive(dt),
             Stage::Stress => self.stress(dt)?,
@@ -229,4 +228,18 @@ impl<const D: usize> Solver<D> {
         let pairs = self.setup.particles.len() as u64 * self.setup.kernel.support();
         self.transfers += passes * pairs;
     }
+}
+
+/// `v <- v + a dt`.
+fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
+    vectorized(
+        #[inline(always)]
+        || {
+            for (v, a) in v.iter_mut().zip(a) {
+                for axis in 0..D {
+                    v[axis] += a[axis] * dt;
+                }
+            }
+        },
+    );
 }

@@ -1,10 +1,11 @@
 //! Strains and stresses, the same for every basis and transfer.
 
-use super::algebra::Matrix;
+use super::algebra::{Matrix, product};
 use super::effect::strain;
 use super::frame::FrameName;
 use super::particles::Particles;
 use super::setup::Setup;
+use super::simd::vectorized;
 use super::solver::Solver;
 use crate::subject::{Failure, Site};
 
@@ -15,9 +16,7 @@ impl<const D: usize> Solver<D> {
         if *frame == FrameName::Total {
             particles.push_gradients_forward();
         }
-        for (f, grad_v) in particles.def_grad.iter_mut().zip(&particles.grad_v) {
-            *f = (Matrix::identity() + grad_v * dt) * *f;
-        }
+        strain_by(dt, &particles.grad_v, &mut particles.def_grad);
         for effect in effects.iter_mut() {
             self.transfers += effect.map_velocity(dt, kernel.as_ref(), grid, particles);
         }
@@ -47,6 +46,24 @@ impl<const D: usize> Solver<D> {
     }
 }
 
+/// `F <- (I + grad v dt) F`.
+fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matrix<D>]) {
+    vectorized(
+        #[inline(always)]
+        || {
+            for (f, grad_v) in def_grad.iter_mut().zip(grad_v) {
+                let mut step = Matrix::zeros();
+                for j in 0..D {
+                    for i in 0..D {
+                        step[(i, j)] = if i == j { 1.0 } else { 0.0 } + grad_v[(i, j)] * dt;
+                    }
+                }
+                *f = product(&step, f);
+            }
+        },
+    );
+}
+
 /// Ratios computed together.
 const TOGETHER: usize = 4;
 
@@ -56,14 +73,19 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
     let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
     let (many_b, rest_b) = b.as_chunks::<TOGETHER>();
     let (mut least, mut sound) = ([f64::INFINITY; TOGETHER], [1.0; TOGETHER]);
-    for (a, b) in many_a.iter().zip(many_b) {
-        for k in 0..TOGETHER {
-            let ratio = a[k] / b[k];
-            // Zero of a finite number; else not a number, for good.
-            sound[k] += ratio * 0.0;
-            least[k] = if ratio < least[k] { ratio } else { least[k] };
-        }
-    }
+    vectorized(
+        #[inline(always)]
+        || {
+            for (a, b) in many_a.iter().zip(many_b) {
+                for k in 0..TOGETHER {
+                    let ratio = a[k] / b[k];
+                    // Zero of a finite number; else not a number, for good.
+                    sound[k] += ratio * 0.0;
+                    least[k] = if ratio < least[k] { ratio } else { least[k] };
+                }
+            }
+        },
+    );
     let rest = rest_a.iter().zip(rest_b).map(|(a, b)| a / b);
     let sound = rest.clone().fold(sound.iter().sum(), |sound: f64, ratio| sound + ratio * 0.0);
     let least = least.into_iter().chain(rest).fold(f64::INFINITY, f64::min);

@@ -3,6 +3,7 @@
 use crate::mpm::algebra::Vector;
 use crate::mpm::grid::{Grid, floor};
 use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
 
 /// The cells of all particles, with counters.
@@ -43,37 +44,41 @@ impl<const D: usize> CellTracker<D> {
         grid: &Grid<D>,
         particles: &Particles<D>,
     ) -> Result<(), Failure> {
+        let Self { cells, crossings, left_domain } = self;
+        let mut found = Ok(());
+        let mut miss = |p: usize, x: &Vector<D>| {
+            *left_domain += u64::from(is_finite(x));
+            if found.is_ok() {
+                found = Err(nowhere(p, x));
+            }
+        };
         if !particles.current_position.is_empty() {
             let moved = particles.current_position.iter().enumerate();
-            return miss(&mut self.left_domain, moved.filter(|(_, x)| !is_finite(x)));
+            moved.filter(|(_, x)| !is_finite(x)).for_each(|(p, x)| miss(p, x));
+            return found;
         }
-        let is_inside = |x: &Vector<D>| is_inside(grid, x);
-        if grid.periodic.contains(&true) || !all(&particles.x, is_inside) {
-            return self.track_each(grid, &particles.x);
-        }
-        // No early exit and no call in the loop, so that it compares several particles at a time.
-        for (cell, x) in self.cells.iter_mut().zip(&particles.x) {
-            let mut crosses = false;
-            for axis in 0..D {
-                let now = low(grid, x, axis);
-                crosses |= now != cell[axis];
-                cell[axis] = now;
-            }
-            self.crossings += u64::from(crosses);
-        }
-        Ok(())
-    }
-
-    /// The same, where a particle may be outside or beyond the end of a periodic axis.
-    fn track_each(&mut self, grid: &Grid<D>, x: &[Vector<D>]) -> Result<(), Failure> {
-        let Self { cells, crossings, left_domain } = self;
-        let missing = cells.iter_mut().zip(x).enumerate().filter_map(|(p, (at, x))| {
-            let Some(now) = cell(grid, x) else { return Some((p, x)) };
-            *crossings += u64::from(now != *at);
-            *at = now;
-            None
-        });
-        miss(left_domain, missing)
+        let is_periodic = grid.periodic.contains(&true);
+        vectorized(
+            #[inline(always)]
+            || {
+                let batches = cells.chunks_mut(BATCH).zip(particles.x.chunks(BATCH));
+                for (batch, (cells, x)) in batches.enumerate() {
+                    // Known in each branch, so that one has no division.
+                    let now = if is_periodic {
+                        all_inside::<D, true>(grid, x)
+                    } else {
+                        all_inside::<D, false>(grid, x)
+                    };
+                    match now {
+                        Some(now) => *crossings += enter(cells, &now),
+                        None => enter_each(grid, cells, x, crossings, &mut |lane, x| {
+                            miss(batch * BATCH + lane, x);
+                        }),
+                    }
+                }
+            },
+        );
+        found
     }
 }
 
@@ -86,39 +91,58 @@ impl<const D: usize> Memory for CellTracker<D> {
     }
 }
 
-/// Counts particles that are in no cell into `left_domain`, and names the first.
-fn miss<'a, const D: usize>(
-    left_domain: &mut u64,
-    missing: impl Iterator<Item = (usize, &'a Vector<D>)>,
-) -> Result<(), Failure> {
-    let mut first = Ok(());
-    for (p, x) in missing {
-        *left_domain += u64::from(is_finite(x));
-        first = first.and_then(|()| Err(nowhere(p, x)));
-    }
-    first
-}
-
-/// Whether `holds` does for all of them: with no early way out, see [`CellTracker::track`].
-#[inline(always)]
-fn all<const D: usize>(x: &[Vector<D>], holds: impl Fn(&Vector<D>) -> bool) -> bool {
-    x.iter().fold(true, |all, x| all & holds(x))
-}
-
+/// The cells of a batch of particles, if all have one.
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
-fn is_inside<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
-    (0..D).fold(true, |all, axis| {
-        let s = grid.local(x, axis);
-        all & (s >= 0.0) & (s <= grid.cells[axis] as f64)
-    })
+fn all_inside<const D: usize, const IS_PERIODIC: bool>(
+    grid: &Grid<D>,
+    x: &[Vector<D>],
+) -> Option<[[f64; D]; BATCH]> {
+    let (mut cells, mut are_inside) = ([[0.0; D]; BATCH], true);
+    for (cell, x) in cells.iter_mut().zip(x) {
+        for axis in 0..D {
+            let s = if IS_PERIODIC { grid.wrapped_near(x, axis) } else { grid.local(x, axis) };
+            let end = grid.cells[axis] as f64;
+            are_inside &= (s >= 0.0) & (s <= end);
+            let low = floor(s);
+            cell[axis] = if low > end - 1.0 { end - 1.0 } else { low };
+        }
+    }
+    are_inside.then_some(cells)
 }
 
-/// Index along `axis` of the cell that holds `x`, which is inside.
+/// Puts particles into the cells where they are `now`; how many have changed theirs.
 #[inline(always)]
-fn low<const D: usize>(grid: &Grid<D>, x: &Vector<D>, axis: usize) -> f64 {
-    let (low, last) = (floor(grid.local(x, axis)), grid.cells[axis] as f64 - 1.0);
-    if low > last { last } else { low }
+fn enter<const D: usize>(cells: &mut [[f64; D]], now: &[[f64; D]; BATCH]) -> u64 {
+    let mut crossings = 0;
+    for (cell, now) in cells.iter_mut().zip(now) {
+        let mut crosses = false;
+        for axis in 0..D {
+            crosses |= now[axis] != cell[axis];
+            cell[axis] = now[axis];
+        }
+        crossings += u64::from(crosses);
+    }
+    crossings
+}
+
+/// The same one by one, where some are in no cell, which `miss` is told, with their numbers.
+#[inline(never)]
+fn enter_each<const D: usize>(
+    grid: &Grid<D>,
+    cells: &mut [[f64; D]],
+    x: &[Vector<D>],
+    crossings: &mut u64,
+    miss: &mut dyn FnMut(usize, &Vector<D>),
+) {
+    for (lane, (at, x)) in cells.iter_mut().zip(x).enumerate() {
+        let Some(now) = cell(grid, x) else {
+            miss(lane, x);
+            continue;
+        };
+        *crossings += u64::from(now != *at);
+        *at = now;
+    }
 }
 
 /// The cell that holds `x`, if one does.

@@ -5,11 +5,12 @@
 //! strain.
 
 use super::contract::{Material, MaterialProperties};
-use super::hyperelastic::{set_stress, stored_energy};
+use super::hyperelastic::{set_stress_by_batch, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, thinning};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, F64Batch, ln};
 
 /// Compressible neo-Hookean elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,8 +27,7 @@ impl NeoHookean {
     }
 
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
-        let pressure = (self.lambda * libm::log(j) - self.mu) / j;
-        Matrix::identity() * pressure + f * f.transpose() * (self.mu / j)
+        isotropic(f, (self.lambda * libm::log(j) - self.mu) / j, self.mu / j)
     }
 
     /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), of `H = F - I`: where strains
@@ -37,6 +37,22 @@ impl NeoHookean {
         let log = log_det(&h);
         0.5 * self.lambda * log * log + self.mu * (h.trace() - log + 0.5 * h.norm_squared())
     }
+}
+
+/// `pressure I + shear F F^T`.
+#[inline(always)]
+fn isotropic<const D: usize>(f: &Matrix<D>, pressure: f64, shear: f64) -> Matrix<D> {
+    let mut sigma = Matrix::zeros();
+    for j in 0..D {
+        for i in 0..D {
+            let mut square = f[(i, 0)] * f[(j, 0)];
+            for k in 1..D {
+                square += f[(i, k)] * f[(j, k)];
+            }
+            sigma[(i, j)] = if i == j { pressure } else { 0.0 } + square * shear;
+        }
+    }
+    sigma
 }
 
 /// `ln det(I + H)`.
@@ -108,7 +124,21 @@ impl<const D: usize> Material<D> for NeoHookean {
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        set_stress(particles, |f, j| self.cauchy(f, j));
+        let Self { lambda, mu } = *self;
+        set_stress_by_batch(
+            particles,
+            #[inline(always)]
+            |j| {
+                let (mut pressure, mut shear) = (ln(j), F64Batch::ZERO);
+                for lane in 0..BATCH {
+                    pressure.0[lane] = (lambda * pressure.0[lane] - mu) / j.0[lane];
+                    shear.0[lane] = mu / j.0[lane];
+                }
+                [pressure, shear]
+            },
+            #[inline(always)]
+            |f, [pressure, shear]| isotropic(f, pressure, shear),
+        );
     }
 }
 

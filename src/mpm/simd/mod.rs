@@ -15,6 +15,7 @@
 mod batch;
 mod f64x4;
 mod level;
+mod logarithm;
 mod plain;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod registers;
@@ -22,9 +23,12 @@ mod registers;
 pub(in crate::mpm) use batch::{BATCH, F64Batch, components, registers_of};
 pub(in crate::mpm) use f64x4::{F64x4, LANES};
 pub(in crate::mpm) use level::Simd;
+pub(in crate::mpm) use logarithm::ln;
 pub(in crate::mpm) use plain::Plain;
 
 use fearless_simd::Level;
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use std::sync::LazyLock;
 
 /// Loop over registers. All functions it calls must be `#[inline(always)]`: others are compiled
 /// for the baseline processor.
@@ -58,4 +62,22 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     }
     let _ = level;
     pass.run(Plain);
+}
+
+/// The best level of this processor.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
+
+/// Runs `loops` that name no registers, compiled for those of AVX2 where the processor has them.
+/// All functions they call must be `#[inline(always)]`, and so must they.
+#[inline(always)]
+pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    {
+        use fearless_simd::Simd as _;
+        if let Some(avx2) = LEVEL.as_avx2() {
+            return avx2.vectorize(loops);
+        }
+    }
+    loops()
 }

@@ -6,6 +6,7 @@
 
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::Particles;
+use crate::mpm::simd::vectorized;
 use crate::subject::{Failure, Site};
 
 impl<const D: usize> Particles<D> {
@@ -52,7 +53,17 @@ fn first<T>(
     column: &[T],
     sound: impl Fn(&T) -> bool,
 ) -> Result<(), Failure> {
-    if column.iter().fold(true, |all, entry| all & sound(entry)) {
+    let all_sound = vectorized(
+        #[inline(always)]
+        || {
+            let mut all = true;
+            for entry in column {
+                all &= sound(entry);
+            }
+            all
+        },
+    );
+    if all_sound {
         return Ok(());
     }
     match column.iter().position(|entry| !sound(entry)) {
@@ -63,10 +74,10 @@ fn first<T>(
 
 #[inline(always)]
 fn vector<const D: usize>(v: &Vector<D>) -> bool {
-    v.iter().fold(true, |all, c| all & c.is_finite())
+    v.as_slice().iter().fold(true, |all, c| all & c.is_finite())
 }
 
 #[inline(always)]
 fn matrix<const D: usize>(m: &Matrix<D>) -> bool {
-    m.iter().fold(true, |all, c| all & c.is_finite())
+    m.as_slice().iter().fold(true, |all, c| all & c.is_finite())
 }
