@@ -3,8 +3,8 @@
 //! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of
 //! the ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are
 //! what can be compared. `best` is the ratio of the shortest times of each, which others disturb
-//! least. `cargo bench --bench ratio -- 1e6` takes as many particles. Both are first checked to
-//! give the same numbers.
+//! least. `cargo bench --bench ratio -- 1e6 step` takes as many particles, and only what has the word in
+//! its name. Both are first checked to give the same numbers.
 
 #[path = "common/one_thread.rs"]
 mod one_thread;
@@ -93,8 +93,16 @@ fn quartiles(of: impl Iterator<Item = f64>) -> Timing {
     Timing::of(&of.collect::<Vec<_>>()).expect("times are numbers")
 }
 
+/// Words of the command line, but for options that `cargo bench` adds.
+fn words() -> impl Iterator<Item = String> {
+    std::env::args().skip(1).filter(|word| !word.starts_with('-'))
+}
+
 /// Runs both in turn and prints what they take for a particle.
 fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn FnMut()) {
+    if !words().all(|word| word.parse::<f64>().is_ok() || id.contains(&word)) {
+        return;
+    }
     let once = time(plain).max(1e-6);
     ours();
     let repeats = ((1.0 / once) as usize).clamp(11, 501);
@@ -281,7 +289,7 @@ fn flip_step(count: f64) {
 
 fn main() {
     one_thread();
-    let count = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(1e5);
+    let count = words().find_map(|word| word.parse().ok()).unwrap_or(1e5);
     println!("ns per particle, {count:e} particles, sorted by cell, one thread");
     println!(
         "{:<28} {:>10} {:>10} {:>7}  quartiles      best",
