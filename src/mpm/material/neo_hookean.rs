@@ -26,8 +26,14 @@ impl NeoHookean {
         Self { lambda, mu }
     }
 
+    /// The factors of [`isotropic`] (Pa).
+    #[inline(always)]
+    fn factors(&self, j: f64, log_j: f64) -> [f64; 2] {
+        [(self.lambda * log_j - self.mu) / j, self.mu / j]
+    }
+
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
-        isotropic(f, (self.lambda * libm::log(j) - self.mu) / j, self.mu / j)
+        isotropic(f, self.factors(j, libm::log(j)))
     }
 
     /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), of `H = F - I`: where strains
@@ -41,14 +47,11 @@ impl NeoHookean {
 
 /// `pressure I + shear F F^T`.
 #[inline(always)]
-fn isotropic<const D: usize>(f: &Matrix<D>, pressure: f64, shear: f64) -> Matrix<D> {
+fn isotropic<const D: usize>(f: &Matrix<D>, [pressure, shear]: [f64; 2]) -> Matrix<D> {
     let mut sigma = Matrix::zeros();
     for j in 0..D {
         for i in 0..D {
-            let mut square = f[(i, 0)] * f[(j, 0)];
-            for k in 1..D {
-                square += f[(i, k)] * f[(j, k)];
-            }
+            let square = (1..D).fold(f[(i, 0)] * f[(j, 0)], |sum, k| sum + f[(i, k)] * f[(j, k)]);
             sigma[(i, j)] = if i == j { pressure } else { 0.0 } + square * shear;
         }
     }
@@ -124,20 +127,18 @@ impl<const D: usize> Material<D> for NeoHookean {
     }
 
     fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        let Self { lambda, mu } = *self;
         set_stress_by_batch(
             particles,
             #[inline(always)]
             |j| {
-                let (mut pressure, mut shear) = (ln(j), F64Batch::ZERO);
+                let (log_j, mut factors) = (ln(j), [F64Batch::ZERO; 2]);
                 for lane in 0..BATCH {
-                    pressure.0[lane] = (lambda * pressure.0[lane] - mu) / j.0[lane];
-                    shear.0[lane] = mu / j.0[lane];
+                    let [pressure, shear] = self.factors(j.0[lane], log_j.0[lane]);
+                    (factors[0].0[lane], factors[1].0[lane]) = (pressure, shear);
                 }
-                [pressure, shear]
+                factors
             },
-            #[inline(always)]
-            |f, [pressure, shear]| isotropic(f, pressure, shear),
+            isotropic,
         );
     }
 }
