@@ -11,6 +11,7 @@
 //! floor        an error that no refinement lowers, and where it shows
 //! linearised   a tolerance for a linearised solution that is larger than it needs
 //! alignment    interfaces and loaded faces inside a cell
+//! end_on_node  a box whose last particles start on nodes, with linear functions
 //! cost         seconds and memory
 //! ```
 //!
@@ -19,6 +20,7 @@
 
 pub(crate) mod alignment;
 pub(crate) mod cost;
+pub(crate) mod end_on_node;
 pub(crate) mod extremes;
 pub(crate) mod floor;
 pub(crate) mod levels;
@@ -50,7 +52,7 @@ const RULES_OF_ORDER: [PreflightRule; 6] = [
 ];
 
 /// Every rule of all suites.
-const RULES: [PreflightRule; 1] = [linearised::check];
+const RULES: [PreflightRule; 2] = [linearised::check, end_on_node::check];
 
 /// Warnings and notes about `suite`, read from `source`; none about studies that refine nothing.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {

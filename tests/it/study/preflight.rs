@@ -115,6 +115,10 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
     ],
     Severity::Warning, ("displacement", "shows from about", "a tenth of the amplitude")
 )]
+#[case::an_end_on_a_node(
+    &[("run:", "particles: {shift: [0.5]}\nrun:")],
+    Severity::Warning, ("refine", "with 6 cells the right row of particles starts on nodes, at 1 m", "another number of particles")
+)]
 fn trips(
     #[case] edits: &[(&str, &str)],
     #[case] severity: Severity,
@@ -142,6 +146,13 @@ fn trips(
 #[case::double_precision(&[(MPM, "external: {name: a, precision: double}")])]
 #[case::single_precision_below_the_error_of_the_cells(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 0.04"), ("dt: \"0.2*h/c\"", "dt: \"0.1*h/c\"")]
+)]
+#[case::an_end_beside_a_node(&[("run:", "particles: {shift: [0.4999]}\nrun:")])]
+#[case::an_end_on_a_node_of_other_functions(
+    &[("run:", "particles: {shift: [0.5]}\nrun:"), ("basis: linear", "basis: cpgimp")]
+)]
+#[case::an_end_on_the_last_node(
+    &[("run:", "particles: {shift: [0.5]}\nrun:"), ("to: [1.5]", "to: [1]")]
 )]
 fn just_does_not_trip(#[case] edits: &[(&str, &str)]) {
     let found = findings(BAR, edits);
