@@ -17,14 +17,14 @@
 //! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
 //! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
 
-use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::algebra::Vector;
 use crate::mpm::schedule::passes_of;
 use crate::mpm::scheme::SchemeName;
 use crate::mpm::setup::Setup;
 use crate::mpm::solver::Solver;
 use crate::mpm::stage::Stage;
 use crate::mpm::transfer::{TransferKind, kick};
-use crate::subject::Failure;
+use crate::subject::{Checkpoint, Failure};
 
 /// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside
 /// rounding, 1e-16, and small beside one; and it is a velocity, so that a quadratic viscosity means
@@ -45,17 +45,6 @@ const SHIFT: f64 = 0.45;
 
 /// Relative change at which the step counts as converged.
 const SETTLED: f64 = 1e-3;
-
-/// Initial state of each iteration.
-struct InitialState<const D: usize> {
-    v: Vec<Vector<D>>,
-    sigma: Vec<Matrix<D>>,
-    def_grad: Vec<Matrix<D>>,
-    vol: Vec<f64>,
-    across: Vec<f64>,
-    stress_across: Vec<f64>,
-    velocity_time: f64,
-}
 
 impl<const D: usize> Solver<D> {
     /// The longest stable step (s), but at most `longest`, in the present state of the body.
@@ -96,7 +85,7 @@ impl<const D: usize> Solver<D> {
     /// the nodal masses, in which the matrix is symmetric.
     fn square_of_frequency(
         &mut self,
-        start: &InitialState<D>,
+        start: &[u8],
         mode: &mut [Vector<D>],
         (dt, speed): (f64, f64),
         rounds: u32,
@@ -132,7 +121,7 @@ impl<const D: usize> Solver<D> {
     /// (m/s2), or the velocities that P2G gives after a kick by these over 1 s.
     fn response(
         &mut self,
-        start: &InitialState<D>,
+        start: &[u8],
         velocity: &[Vector<D>],
         dt: f64,
     ) -> Result<Vec<Vector<D>>, Failure> {
@@ -162,28 +151,20 @@ impl<const D: usize> Solver<D> {
         self.setup.grid.mass.iter().zip(field).map(|(m, v)| m * v.norm_squared()).sum()
     }
 
-    fn state_of_start(&self) -> InitialState<D> {
-        let particles = &self.setup.particles;
-        InitialState {
-            v: particles.v.clone(),
-            sigma: particles.sigma.clone(),
-            def_grad: particles.def_grad.clone(),
-            vol: particles.vol.clone(),
-            across: particles.across.clone(),
-            stress_across: particles.stress_across.clone(),
-            velocity_time: self.velocity_time,
-        }
+    fn state_of_start(&mut self) -> Vec<u8> {
+        let mut start = Checkpoint::empty();
+        self.visit_state(&mut start);
+        start.into_bytes()
     }
 
-    fn restore(&mut self, start: &InitialState<D>) {
-        let particles = &mut self.setup.particles;
-        particles.v.copy_from_slice(&start.v);
-        particles.sigma.copy_from_slice(&start.sigma);
-        particles.def_grad.copy_from_slice(&start.def_grad);
-        particles.vol.copy_from_slice(&start.vol);
-        particles.across.copy_from_slice(&start.across);
-        particles.stress_across.copy_from_slice(&start.stress_across);
-        self.velocity_time = start.velocity_time;
+    fn restore(&mut self, start: &[u8]) {
+        self.visit_state(&mut Checkpoint::of(start));
+    }
+
+    /// All that a response changes, and with it what material and effects keep between stresses.
+    fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.setup);
+        checkpoint.visit(&mut self.velocity_time);
     }
 }
 
@@ -193,4 +174,48 @@ fn scattered(k: u64) -> f64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::mpm::{
+        ArtificialViscosity, BasisName, Block, FrameName, MassName, MaterialPlan, Particles,
+        SchemeName, Setup, Solver, TransferName, Vector, kernel, mass_matrix, transfer,
+    };
+    use crate::subject::Start;
+    use approx::assert_relative_eq;
+
+    /// A square of c = 1 m/s in a grid of unit cells, with a viscosity.
+    fn step(material: MaterialPlan, linear: f64) -> f64 {
+        let kernel = kernel::<2>(BasisName::Linear);
+        let (from, to) = (Vector::from_element(1.0), Vector::from_element(5.0));
+        let (quadratic, length, speed) = (0.0, 1.0, 1.0);
+        let viscosity = ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() };
+        let setup = Setup {
+            grid: kernel.grid(Vector::zeros(), 1.0, [6; 2], [false; 2]),
+            particles: Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2),
+            kernel,
+            transfer: transfer(TransferName::Flip),
+            mass: mass_matrix(MassName::Lumped),
+            frame: FrameName::Updated,
+            material: material.build(),
+            effects: vec![Box::new(viscosity)],
+            boundary: Vec::new(),
+            scheme: SchemeName::Usl,
+            start: Start::AtZero,
+        };
+        Solver::new(setup).unwrap().stable_time_step(10.0, 60).unwrap()
+    }
+
+    /// A viscosity shortens the step of a law in rate form, which adds stress to stress, by as much
+    /// as that of a law of F.
+    #[test]
+    fn a_viscosity_counts_once_whatever_the_law() {
+        let in_rate = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.0 };
+        let of_deformation = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.0 };
+        for linear in [0.0, 0.5, 2.0] {
+            let (found, expected) = (step(in_rate, linear), step(of_deformation, linear));
+            assert_relative_eq!(found, expected, max_relative = 0.01);
+        }
+    }
 }
