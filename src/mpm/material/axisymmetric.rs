@@ -73,6 +73,10 @@ impl<const D: usize> Material<D> for Axisymmetric {
         true
     }
 
+    fn reads_rate(&self) -> bool {
+        self.law.reads_rate()
+    }
+
     fn columns(&self) -> Vec<Column<'_>> {
         let Particles { x, vol0, vol, sigma, def_grad, grad_v, .. } = &self.space;
         let mut columns = self.law.columns();

@@ -85,6 +85,12 @@ pub trait Material<const D: usize>: Send {
         false
     }
 
+    /// Whether stress depends on the velocity gradient itself: a body that starts in motion then
+    /// starts under stress.
+    fn reads_rate(&self) -> bool {
+        false
+    }
+
     /// State of each particle that the law keeps.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
@@ -105,8 +111,9 @@ pub trait Material<const D: usize>: Send {
         None
     }
 
-    /// Stresses of a body that starts deformed, from F and the velocity gradients; volumes are
-    /// those of F already. A law in rate form adds to the stress that is there.
+    /// Stresses of a body that starts deformed or, by a law that reads rates, in motion: from F and
+    /// the velocity gradients; volumes are those of F already. A law in rate form adds to the
+    /// stress that is there.
     ///
     /// # Errors
     /// [`Failure::NotOfDeformation`] if these give no stress.

@@ -62,6 +62,10 @@ impl<const D: usize> Material<D> for Newtonian {
         false
     }
 
+    fn reads_rate(&self) -> bool {
+        true
+    }
+
     /// That of the pressure, `K/7 (J^-6/6 + J - 7/6)`.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |j: f64| {

@@ -2,7 +2,7 @@
 //!
 //! A body may start deformed ([`Particles::deform`]): stress then follows from F by the material
 //! ([`Material::start_deformed`]), and domains from F by the basis, as they would have had the body
-//! been brought there.
+//! been brought there. A viscous fluid that starts in motion has the stress of its velocities too.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::material::Material;
@@ -31,7 +31,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
     if material.keeps_stretch_across() {
         particles.across.resize(particles.len(), 1.0);
     }
-    if deformed {
+    if deformed || material.reads_rate() {
         material.start_deformed(particles)?;
     }
     let mut min_j = f64::INFINITY;
@@ -51,7 +51,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
 mod tests {
     use super::*;
     use crate::mpm::material::Rigid;
-    use crate::mpm::{Block, LinearElastic, Matrix, NeoHookean, Vector};
+    use crate::mpm::{Block, LinearElastic, Matrix, NeoHookean, Newtonian, Vector};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -82,6 +82,16 @@ mod tests {
         if domain == Domain::Follows {
             assert_relative_eq!(body.domain[3].diagonal(), Vector::<2>::new(0.275, 0.1875));
         }
+    }
+
+    /// sigma = 2 eta D of a shear flow, before the first step.
+    #[test]
+    fn a_fluid_in_motion_starts_under_viscous_stress() {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+        body.grad_v.fill(Matrix::<2>::new(0.0, 3.0, 0.0, 0.0));
+        complete(&mut body, Domain::Point, &mut Newtonian::new(50.0, 0.7)).unwrap();
+        assert_relative_eq!(body.sigma[3], Matrix::<2>::new(0.0, 2.1, 2.1, 0.0), epsilon = 1e-12);
     }
 
     #[test]
