@@ -179,18 +179,17 @@ fn scattered(k: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use crate::mpm::{
-        ArtificialViscosity, BasisName, Block, FrameName, MassName, MaterialPlan, Particles,
-        SchemeName, Setup, Solver, TransferName, Vector, kernel, mass_matrix, transfer,
+        ArtificialViscosity, BasisName, Block, BodyForce, Effect, FrameName, MassName,
+        MaterialPlan, Particles, SchemeName, Setup, Solver, TransferName, Vector, kernel,
+        mass_matrix, transfer,
     };
     use crate::subject::Start;
     use approx::assert_relative_eq;
 
-    /// A square of c = 1 m/s in a grid of unit cells, with a viscosity.
-    fn step(material: MaterialPlan, linear: f64) -> f64 {
+    /// A square of c = 1 m/s in a grid of unit cells, with an effect.
+    fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
         let kernel = kernel::<2>(BasisName::Linear);
         let (from, to) = (Vector::from_element(1.0), Vector::from_element(5.0));
-        let (quadratic, length, speed) = (0.0, 1.0, 1.0);
-        let viscosity = ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() };
         let setup = Setup {
             grid: kernel.grid(Vector::zeros(), 1.0, [6; 2], [false; 2]),
             particles: Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2),
@@ -199,7 +198,7 @@ mod tests {
             mass: mass_matrix(MassName::Lumped),
             frame: FrameName::Updated,
             material: material.build(),
-            effects: vec![Box::new(viscosity)],
+            effects: vec![Box::new(effect)],
             boundary: Vec::new(),
             scheme: SchemeName::Usl,
             start: Start::AtZero,
@@ -211,11 +210,26 @@ mod tests {
     /// as that of a law of F.
     #[test]
     fn a_viscosity_counts_once_whatever_the_law() {
+        let viscous = |material, linear| {
+            let (quadratic, length, speed) = (0.0, 1.0, 1.0);
+            step(material, ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() })
+        };
         let in_rate = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.0 };
         let of_deformation = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.0 };
         for linear in [0.0, 0.5, 2.0] {
-            let (found, expected) = (step(in_rate, linear), step(of_deformation, linear));
+            let (found, expected) = (viscous(in_rate, linear), viscous(of_deformation, linear));
             assert_relative_eq!(found, expected, max_relative = 0.01);
         }
+    }
+
+    /// `2/dt^2` grows by the stiffness per mass of a load that depends on the displacement.
+    #[test]
+    fn a_foundation_counts_by_its_stiffness() {
+        let steel = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.0 };
+        let square = |stiffness| {
+            let foundation = BodyForce::pointwise(|_, _| Vector::zeros()).with_stiffness(stiffness);
+            2.0 / step(steel, foundation).powi(2)
+        };
+        assert_relative_eq!(square(3.0) - square(0.0), 3.0, max_relative = 1e-3);
     }
 }

@@ -81,6 +81,11 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
+    /// Why it cannot hold a scene of several bodies, if it cannot.
+    fn against_several_bodies(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Why no consistent mass matrix can be solved with it, if none can.
     fn against_consistent_mass(&self) -> Option<&'static str> {
         None

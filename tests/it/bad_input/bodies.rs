@@ -151,6 +151,11 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
     &[("  contact: {friction: 0}\n", ""), ("[\"sign", "[▸\"sign")],
     &["where two bodies meet along X, the same u_X on both"]
 )]
+#[case::a_wall_with_friction(
+    DISKS,
+    &[("  contact:", "  boundary: {▸bottom: {friction: 0.1}}\n  contact:")],
+    &["friction is measured by what a wall takes from one body"]
+)]
 #[case::a_manufactured_force(
     DISKS,
     &[("run:", "▸manufactured: {displacement: [X, Y]}\nrun:")],

@@ -109,6 +109,13 @@ fn a_plan_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &[("refine:", "particles: ▸{shift: [0.4], perturb: 0.2}\nrefine:")],
     &["particles are moved by up to 0.6", "expected at most 0.5"]
 )]
+#[case::so_far_that_the_layer_of_a_load_is_lost(
+    &[
+        ("  initial_velocity", "  loads:\n    - traction: {on: right, value: [0]}\n  initial_velocity"),
+        ("refine:", "particles: {perturb: ▸0.3}\nrefine:")
+    ],
+    &["particles are moved by up to 0.3", "expected at most 0.25 at a face with a load"]
+)]
 #[case::a_seed_of_nothing(
     &[("refine:", "particles: {shift: [0.1], ▸seed: 3}\nrefine:")],
     &["nothing here is random", "add `perturb: 0.2`"]

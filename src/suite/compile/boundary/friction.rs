@@ -57,6 +57,13 @@ impl BoundaryCondition for FrictionFace {
         true
     }
 
+    fn against_several_bodies(&self) -> Option<&'static str> {
+        Some(
+            "friction is measured by what a wall takes from one body, and what other bodies push \
+             comes after it",
+        )
+    }
+
     fn against_consistent_mass(&self) -> Option<&'static str> {
         Some(
             "friction is measured by what a held node would do, of which a consistent mass matrix \

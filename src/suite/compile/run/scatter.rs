@@ -6,10 +6,15 @@ use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{ConvergenceSpec, ScatterSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::lattice::LatticeOffsets;
+use crate::suite::model::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Share of the spacing by which a particle may be moved: the middle between two of them.
 const MOST: f64 = 0.5;
+
+/// The same of random moves where a face carries a load: up to there the particles of its layer are
+/// told from those of the next one.
+const MOST_AT_LOADS: f64 = 0.25;
 
 /// The seed of a suite that states none.
 const SEED: u64 = 1;
@@ -46,6 +51,12 @@ pub(crate) fn scatter(
         let message = format!("particles are moved by up to {} of their spacing", shown(furthest));
         let label = format!("expected at most {MOST}, so that they stay in the body and apart");
         return Err(evaluator.diagnostic(&path, &message).with_label(&label));
+    }
+    let at_face = |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_));
+    if perturb > MOST_AT_LOADS && scene.loads.iter().any(at_face) {
+        let message = format!("particles are moved by up to {} of their spacing", shown(perturb));
+        let label = format!("expected at most {MOST_AT_LOADS} at a face with a load");
+        return Err(evaluator.diagnostic(&path.then("perturb"), &message).with_label(&label));
     }
     let scatter = LatticeOffsets { shift, perturb, seed };
     if scatter.is_none() {

@@ -140,6 +140,11 @@ pub(crate) fn together(
         }
     }
     apart(evaluator, path, &bodies)?;
+    let mut faces = scene.faces.iter();
+    let against = faces.find_map(|face| Some((face.name, face.hold.against_several_bodies()?)));
+    if let Some((name, why)) = against {
+        return Err(evaluator.diagnostic_at_key(&path.then("boundary").then(name), why));
+    }
     for body in &mut bodies {
         inner_faces_are_free(body, &scene);
     }
