@@ -6,5 +6,6 @@ mod kernel;
 mod null_space;
 mod reaction;
 mod second_opinion;
+mod stable_time_step;
 mod tls;
 mod traction;

@@ -1,0 +1,46 @@
+//! The stable time step, with what effects add to the stiffness.
+
+use crate::common;
+use approx::assert_relative_eq;
+use mpm_verify::mpm::{
+    ArtificialViscosity, BasisName, Block, BodyForce, Effect, MaterialPlan, Particles, SchemeName,
+    Solver, TransferName, Vector,
+};
+
+/// That of a square of c = 1 m/s in a grid of unit cells, with an effect (s).
+fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
+    let (from, to) = (Vector::from_element(1.0), Vector::from_element(5.0));
+    let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+    let method = (BasisName::Linear, TransferName::Flip);
+    let mut setup = common::body(method, SchemeName::Usl, particles, (1.0, 6));
+    setup.material = material.build();
+    setup.effects.push(Box::new(effect));
+    Solver::new(setup).unwrap().stable_time_step(10.0, 60).unwrap()
+}
+
+/// A viscosity shortens the step of a law in rate form, which adds stress to stress, by as much as
+/// that of a law of F.
+#[test]
+fn a_viscosity_counts_once_whatever_the_law() {
+    let viscous = |material, linear| {
+        let (quadratic, length, speed) = (0.0, 1.0, 1.0);
+        step(material, ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() })
+    };
+    let in_rate = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.0 };
+    let of_deformation = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.0 };
+    for linear in [0.0, 0.5, 2.0] {
+        let (found, expected) = (viscous(in_rate, linear), viscous(of_deformation, linear));
+        assert_relative_eq!(found, expected, max_relative = 0.01);
+    }
+}
+
+/// `2/dt^2` grows by the stiffness per mass of a load that depends on the displacement.
+#[test]
+fn a_foundation_counts_by_its_stiffness() {
+    let solid = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.0 };
+    let square = |stiffness| {
+        let foundation = BodyForce::pointwise(|_, _| Vector::zeros()).with_stiffness(stiffness);
+        2.0 / step(solid, foundation).powi(2)
+    };
+    assert_relative_eq!(square(3.0) - square(0.0), 3.0, max_relative = 1e-3);
+}
