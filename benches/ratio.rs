@@ -202,7 +202,7 @@ const DT: f64 = 1e-4;
 /// Solver of a scene whose velocities are a thousandth, with its Lame constants (Pa).
 fn solver<const D: usize>(
     basis: BasisName,
-    name: TransferName,
+    (name, scheme): (TransferName, SchemeName),
     count: f64,
 ) -> (Solver<D>, [f64; 2]) {
     let Scene { kernel, grid, mut particles, .. } = scene::<D>(basis, count);
@@ -219,7 +219,7 @@ fn solver<const D: usize>(
         material: Box::new(NeoHookean::new(1.0, 0.3)),
         effects: Vec::new(),
         boundary: Vec::new(),
-        scheme: SchemeName::Usl,
+        scheme,
         start: Start::AtZero,
     };
     (Solver::new(setup).expect("every particle is inside"), [lambda, mu])
@@ -232,8 +232,8 @@ const COMPARED: usize = 3;
 macro_rules! mls_step {
     ($plain:ident, $dimension:literal, $id:literal, $count:expr) => {{
         const D: usize = $dimension;
-        let (mut ours, [lambda, mu]) =
-            solver::<D>(BasisName::QuadraticBSpline, TransferName::Mls, $count);
+        let method = (TransferName::Mls, SchemeName::Usl);
+        let (mut ours, [lambda, mu]) = solver::<D>(BasisName::QuadraticBSpline, method, $count);
         let (particles, grid) = (ours.particles(), ours.grid());
         let (n, total) = (grid.counts, particles.len());
         let identity = rows(&[Matrix::<D>::identity()])[0];
@@ -260,10 +260,13 @@ macro_rules! mls_step {
     }};
 }
 
+/// A step by hand.
+type FlipStep = fn(&mut flip_1d::Body, (f64, f64), (f64, f64));
+
 /// A whole step of FLIP.
-fn flip_step(count: f64) {
-    const ID: &str = "1d/linear/flip/usl step";
-    let (mut ours, [lambda, mu]) = solver::<1>(BasisName::Linear, TransferName::Flip, count);
+fn flip_step(id: &str, scheme: SchemeName, step: FlipStep, count: f64) {
+    let method = (TransferName::Flip, scheme);
+    let (mut ours, [lambda, mu]) = solver::<1>(BasisName::Linear, method, count);
     let flat = |of: &[Vector<1>]| of.iter().map(|v| v[0]).collect::<Vec<f64>>();
     let (particles, nodes) = (ours.particles(), ours.grid().nodes());
     let total = particles.len();
@@ -277,14 +280,14 @@ fn flip_step(count: f64) {
         nodes: vec![[0.0; 3]; nodes],
     };
     for _ in 0..COMPARED {
-        flip_1d::step(&mut body, (H, DT), (lambda, mu));
+        step(&mut body, (H, DT), (lambda, mu));
         ours.step(DT).expect("no particle is inverted");
     }
-    same(ID, ours.particles().x.iter().flatten(), body.x.iter());
-    same(ID, ours.particles().v.iter().flatten(), body.v.iter());
-    let mut plain = || flip_1d::step(&mut body, (H, DT), (lambda, mu));
+    same(id, ours.particles().x.iter().flatten(), body.x.iter());
+    same(id, ours.particles().v.iter().flatten(), body.v.iter());
+    let mut plain = || step(&mut body, (H, DT), (lambda, mu));
     let mut ours = || ours.step(black_box(DT)).expect("no particle is inverted");
-    compare(ID, total, &mut plain, &mut ours);
+    compare(id, total, &mut plain, &mut ours);
 }
 
 fn main() {
@@ -301,5 +304,6 @@ fn main() {
     flip(count);
     mls_step!(mls_3d, 3, "3d/quadratic/mls/usl step", count);
     mls_step!(mls_2d, 2, "2d/quadratic/mls/usl step", count);
-    flip_step(count);
+    flip_step("1d/linear/flip/usl step", SchemeName::Usl, flip_1d::step, count);
+    flip_step("1d/linear/flip/musl step", SchemeName::Musl, flip_1d::musl_step, count);
 }

@@ -1,4 +1,4 @@
-//! A whole step of FLIP in 1-D: hats, update stress last, neo-Hookean.
+//! Whole steps of FLIP in 1-D: hats, neo-Hookean, stress updated last (USL, and MUSL).
 
 /// Body and grid, in columns.
 pub(crate) struct Body {
@@ -48,6 +48,59 @@ pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64
             gradient += slope[i] * body.nodes[base + i][1];
         }
         body.v[p] += dt * a;
+        body.f[p] += dt * gradient * body.f[p];
+        let j = body.f[p];
+        body.flux[p] = body.volume * (lambda * libm::log(j) - mu + mu * j * j);
+        body.x[p] += dt * u;
+    }
+}
+
+/// The same with a second map of momentum (MUSL).
+#[inline(never)]
+pub(crate) fn musl_step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64)) {
+    body.nodes.fill([0.0; 3]);
+    for p in 0..body.x.len() {
+        let s = body.x[p] / h;
+        let base = s as usize;
+        let f = s - base as f64;
+        let (w, slope) = ([1.0 - f, f], [-1.0 / h, 1.0 / h]);
+        for i in 0..2 {
+            let at = &mut body.nodes[base + i];
+            at[0] += w[i] * body.m;
+            at[2] -= slope[i] * body.flux[p];
+        }
+    }
+    for at in &mut body.nodes {
+        if at[0] > 0.0 {
+            at[2] /= at[0];
+        }
+    }
+    for p in 0..body.x.len() {
+        let s = body.x[p] / h;
+        let base = s as usize;
+        let f = s - base as f64;
+        let w = [1.0 - f, f];
+        let a = w[0] * body.nodes[base][2] + w[1] * body.nodes[base + 1][2];
+        body.v[p] += dt * a;
+        for i in 0..2 {
+            body.nodes[base + i][1] += w[i] * body.m * body.v[p];
+        }
+    }
+    for at in &mut body.nodes {
+        if at[0] > 0.0 {
+            at[1] /= at[0];
+        }
+    }
+    for p in 0..body.x.len() {
+        let s = body.x[p] / h;
+        let base = s as usize;
+        let f = s - base as f64;
+        let (w, slope) = ([1.0 - f, f], [-1.0 / h, 1.0 / h]);
+        let (mut u, mut gradient) = (0.0, 0.0);
+        for i in 0..2 {
+            u += w[i] * body.nodes[base + i][1];
+            gradient += slope[i] * body.nodes[base + i][1];
+        }
         body.f[p] += dt * gradient * body.f[p];
         let j = body.f[p];
         body.flux[p] = body.volume * (lambda * libm::log(j) - mu + mu * j * j);
