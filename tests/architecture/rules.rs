@@ -214,9 +214,10 @@ fn is_platform(name: &str) -> bool {
     PLATFORM.split_whitespace().any(|known| known == name)
 }
 
-/// Fused operations, wherever they are.
+/// Fused operations outside the registers, which have the one that all may use.
 pub(crate) fn fused(sources: &[Source]) -> Vec<Breach> {
-    mentions(sources, &[&["mul_add"]], "nowhere")
+    let names = ["mul_add", "mul_add_precise", "fma"];
+    names.iter().flat_map(|name| mentions(sources, &[&[name]], "src/mpm/simd/")).collect()
 }
 
 /// Looks at every three tokens in a row.

@@ -34,27 +34,27 @@ impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
         &mut self,
         start: usize,
         (j, k): (usize, usize),
-        term: impl Fn(usize) -> S::F64x4,
+        with_term: impl Fn(usize, S::F64x4) -> S::F64x4,
     ) {
         if D == 1 {
-            return self.add_in_registers(start, array(self.sums[0], term));
+            return self.add_in_registers(start, with_term);
         }
         let row = self.field.row::<K>(start + self.field.layout.row(j, k));
         for (i, PackedNode(node)) in row.iter_mut().enumerate() {
-            *node = (self.simd.load(*node) + term(i)).into();
+            *node = with_term(i, self.simd.load(*node)).into();
         }
     }
 
     #[inline(always)]
-    fn add_in_registers(&mut self, start: usize, terms: [S::F64x4; K]) {
+    fn add_in_registers(&mut self, start: usize, with_term: impl Fn(usize, S::F64x4) -> S::F64x4) {
         if start != self.start {
             self.flush();
             let row = self.field.row::<K>(start);
-            self.sums = array(terms[0], |i| self.simd.load(row[i].0));
+            self.sums = array(self.sums[0], |i| self.simd.load(row[i].0));
             self.start = start;
         }
         for i in 0..K {
-            self.sums[i] += terms[i];
+            self.sums[i] = with_term(i, self.sums[i]);
         }
     }
 

@@ -68,7 +68,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         let mut across = flux[1] * (slope * self.weight(lane, 2, k));
         if D > 2 {
             let slope = self.axes[2].slope[k].get(lane);
-            across += flux[2] * (slope * self.weight(lane, 1, j));
+            across = across.plus_product(flux[2], slope * self.weight(lane, 1, j));
         }
         across
     }
@@ -115,7 +115,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                 && let (Some(value), Some(slope)) = (value, &slope)
             {
                 let offset = self.axes[2].offset_from_mean[k].get(lane);
-                of_plane = Some(value + slope[2] * offset);
+                of_plane = Some(value.plus_product(slope[2], offset));
             }
             for j in 0..Self::ROWS {
                 let weight = self.row_weight(lane, j, k);
@@ -133,24 +133,23 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     start,
                     (j, k),
                     #[inline(always)]
-                    |i| {
-                        let mut sum = None;
+                    |i, node| {
+                        // Along one axis a sum waits for that of the particle before: it takes
+                        // one addition, and the terms are made beside it.
+                        let mut sum = if D > 1 { node } else { zero };
                         if let Some(value) = of_row {
-                            sum = Some(value * weights[i]);
+                            sum = sum.plus_product(value, weights[i]);
                         }
                         if let Some(growth) = &growth {
-                            sum = plus(sum, if D > 1 { growth[i] * weight } else { growth[i] });
+                            sum = sum.plus_product(growth[i], weight);
                         }
                         if let Some(along) = &along {
-                            sum = plus(
-                                sum,
-                                match across {
-                                    Some(across) => along[i] * weight + across * weights[i],
-                                    None => along[i],
-                                },
-                            );
+                            sum = sum.plus_product(along[i], weight);
                         }
-                        if let Some(sum) = sum { sum } else { zero }
+                        if let Some(across) = across {
+                            sum = sum.plus_product(across, weights[i]);
+                        }
+                        if D > 1 { sum } else { node + sum }
                     },
                 );
             }

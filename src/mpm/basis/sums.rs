@@ -5,27 +5,22 @@ use super::product_batch::ProductBatch;
 use super::weights_1d_batch::of;
 use crate::mpm::algebra::array;
 use crate::mpm::packed_grid::{FieldView, PackedNode};
-use crate::mpm::simd::Simd;
-use std::ops::AddAssign;
+use crate::mpm::simd::{F64x4, Simd};
 
 /// `sum_k row_k factors_k`.
 #[inline(always)]
 fn dot<S: Simd, const K: usize>(simd: S, row: &[PackedNode], factors: &[f64; K]) -> S::F64x4 {
     let mut sum = simd.load(row[0].0) * factors[0];
     for k in 1..K {
-        sum += simd.load(row[k].0) * factors[k];
+        sum = sum.plus_product(simd.load(row[k].0), factors[k]);
     }
     sum
 }
 
 /// Adds term `k` of a sum, which begins with term 0.
 #[inline(always)]
-fn put<F: AddAssign>(sum: &mut F, k: usize, term: F) {
-    if k == 0 {
-        *sum = term;
-    } else {
-        *sum += term;
-    }
+fn put<F: F64x4>(sum: &mut F, k: usize, a: F, b: f64) {
+    *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
@@ -50,19 +45,19 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     return (terms, [others_of_row; D]);
                 }
                 let weight = self.weight(lane, 1, j);
-                put(&mut plane, j, terms * weight);
-                put(&mut across, j, others_of_row * weight);
-                put(&mut along, j, terms * others[1][j]);
+                put(&mut plane, j, terms, weight);
+                put(&mut across, j, others_of_row, weight);
+                put(&mut along, j, terms, others[1][j]);
             }
             if D == 2 {
                 return (plane, array(zero, |axis| if axis == 0 { across } else { along }));
             }
             let weight = self.weight(lane, 2, k);
-            put(&mut sum, k, plane * weight);
-            put(&mut other[0], k, across * weight);
+            put(&mut sum, k, plane, weight);
+            put(&mut other[0], k, across, weight);
             if D > 2 {
-                put(&mut other[1], k, along * weight);
-                put(&mut other[2], k, plane * others[2][k]);
+                put(&mut other[1], k, along, weight);
+                put(&mut other[2], k, plane, others[2][k]);
             }
         }
         (sum, other)

@@ -16,6 +16,10 @@ pub trait F64x4:
     + Mul<f64, Output = Self>
     + Into<[f64; LANES]>
 {
+    /// `self + a b`, rounded once: IEEE 754's fusedMultiplyAdd, with the same bits on a processor
+    /// that has no instruction for it.
+    fn plus_product(self, a: Self, b: f64) -> Self;
+
     /// Largest integer not above each, for magnitudes up to 2^51.
     fn floor(self) -> Self;
 

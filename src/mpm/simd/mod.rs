@@ -9,8 +9,9 @@
 //! nodes:      one lane for each component of a node (packed_grid), one particle after another
 //! ```
 //!
-//! Each lane does the same IEEE operations at every level, with products and sums never fused, so
-//! results have the same bits on every processor (held by tests in `tests/it/mpm/kernel`).
+//! Each lane does the same IEEE operations at every level, products and sums fused where the source
+//! says so and nowhere else, so that results have the same bits on every processor (held by tests
+//! in `tests/it/mpm/kernel`).
 
 mod batch;
 mod f64x4;

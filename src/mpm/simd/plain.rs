@@ -26,6 +26,17 @@ impl Array {
     }
 }
 
+/// `a b + c`, rounded once. Where every processor of the target has an instruction for it, that;
+/// elsewhere the library's, since not every platform's own is right.
+#[inline(always)]
+fn fused(a: f64, b: f64, c: f64) -> f64 {
+    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+        a.mul_add(b, c)
+    } else {
+        libm::fma(a, b, c)
+    }
+}
+
 impl Add for Array {
     type Output = Self;
 
@@ -86,6 +97,11 @@ impl From<Array> for [f64; LANES] {
 }
 
 impl F64x4 for Array {
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: f64) -> Self {
+        self.zip(a, |sum, a| fused(a, b, sum))
+    }
+
     #[inline(always)]
     fn floor(self) -> Self {
         self.map(floor)

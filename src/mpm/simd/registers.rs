@@ -8,6 +8,11 @@ macro_rules! registers {
     ($processor:ty) => {
         impl F64x4 for fearless_simd::f64x4<$processor> {
             #[inline(always)]
+            fn plus_product(self, a: Self, b: f64) -> Self {
+                a.mul_add_precise(Self::splat(self.simd, b), self)
+            }
+
+            #[inline(always)]
             fn floor(self) -> Self {
                 SimdFloat::floor(self)
             }
