@@ -62,7 +62,10 @@ fn passes<const D: usize>(
 fn main() {
     one_thread();
     let limits = Limits::measured();
-    println!("one core: {:.1} Gflop/s in fours, each product fused with a sum", 1e-9 * limits.flops);
+    println!(
+        "one core: {:.1} Gflop/s in fours, each product fused with a sum",
+        1e-9 * limits.flops
+    );
     println!(
         "          {:.1} GB/s to memory, {:.1} in the second cache",
         1e-9 * limits.memory,
