@@ -18,12 +18,7 @@ pub(super) fn set_stress<const D: usize>(
     particles: &mut Particles<D>,
     cauchy: impl Fn(&Matrix<D>, f64) -> Matrix<D>,
 ) {
-    for p in 0..particles.len().min(particles.def_grad.len()) {
-        let f = &particles.def_grad[p];
-        let j = det(f);
-        particles.vol[p] = j * particles.vol0[p];
-        particles.sigma[p] = cauchy(f, j);
-    }
+    set_stress_by_batch(particles, |j| [*j], |f, [j]| cauchy(f, j));
 }
 
 /// The same for a law of which `of_j` computes what it needs of J, for several particles at a time.
