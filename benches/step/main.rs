@@ -3,11 +3,14 @@
 //! An identifier reads `step/3d/quadratic_bspline/mls/usl/neo_hookean/1e4`, and any part of it
 //! selects: `cargo bench --bench step -- 3d/quadratic_bspline`. A million particles and more are
 //! for `cargo bench --bench scaling`, a comparison with plain loops for `cargo bench --bench
-//! ratio`. Nothing is timed before its first steps have kept momentum.
+//! ratio`. Nothing is timed before a step has kept momentum.
 //!
 //! The short profile varies the transfer and the scheme, and then the law of one method;
 //! `MPM_BENCH=full` takes every basis, transfer, scheme and law, and 1e2 and 1e5 particles too.
 
+#[path = "../transfer/check.rs"]
+#[allow(dead_code, reason = "those of passes are for the bench of transfers")]
+mod check;
 #[path = "../common/one_thread.rs"]
 mod one_thread;
 #[path = "../common/random.rs"]
@@ -16,12 +19,12 @@ mod random;
 #[allow(dead_code, reason = "the passes are for the bench of transfers")]
 mod scene;
 
+use check::checked_solver;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mpm_verify::mpm::{
-    BasisName, FrameName, MassName, MaterialPlan, SchemeName, Setup, Solver, TransferName, combine,
-    mass_matrix,
+    BasisName, FrameName, MassName, MaterialPlan, SchemeName, TransferName, combine,
 };
-use mpm_verify::subject::{Start, Subject};
+use mpm_verify::subject::Subject;
 use one_thread::one_thread;
 use scene::{Method, Order, total};
 use std::hint::black_box;
@@ -30,9 +33,6 @@ use std::time::Duration;
 /// Length of a step (s): no particle of a body of modulus 1 Pa, density 1 and cells of 1 m leaves
 /// its cell, however often a step is repeated.
 const DT: f64 = 1e-12;
-
-/// Steps before the first that is timed.
-const CHECKED: usize = 3;
 
 /// Number of particles in the short profile.
 const SHORT: usize = 10_000;
@@ -61,38 +61,6 @@ fn other_laws() -> Vec<MaterialPlan> {
     all
 }
 
-/// A solver that has kept its momentum.
-fn checked<const D: usize>(id: &str, scene: Scene) -> Solver<D> {
-    let Scene { basis, transfer, scheme, material, count } = scene;
-    let (Method { kernel, transfer, .. }, grid, particles) =
-        Method::<D>::new((basis, transfer), Order::Sorted, count);
-    let setup = Setup {
-        grid,
-        particles,
-        kernel,
-        transfer,
-        mass: mass_matrix(MassName::Lumped),
-        frame: FrameName::Updated,
-        material: material.build(),
-        effects: Vec::new(),
-        boundary: Vec::new(),
-        scheme,
-        start: Start::AtZero,
-    };
-    let mut solver = Solver::new(setup).expect("every particle is inside");
-    let totals = |solver: &Solver<D>| solver.totals().expect("a body that moves has them");
-    let before = totals(&solver);
-    for _ in 0..CHECKED {
-        solver.step(DT).expect("the first steps succeed");
-    }
-    for (found, expected) in totals(&solver).momentum.iter().zip(before.momentum) {
-        let lost = (found - expected).abs();
-        let is_kept = lost <= 1e-12 * before.momentum_size;
-        assert!(is_kept, "{id}: not timed, {CHECKED} steps change momentum by {lost}");
-    }
-    solver
-}
-
 fn bench<const D: usize>(criterion: &mut Criterion, scene: Scene) {
     let Scene { basis, transfer, scheme, material, count } = scene;
     let (basis, transfer, scheme) = (basis.name(), transfer.name(), scheme.name());
@@ -100,7 +68,10 @@ fn bench<const D: usize>(criterion: &mut Criterion, scene: Scene) {
     let mut group = criterion.benchmark_group(&id);
     group.throughput(Throughput::Elements(total::<D>(count) as u64));
     group.bench_function(BenchmarkId::from_parameter(format!("{count:e}")), |bencher| {
-        let mut solver = checked::<D>(&id, scene);
+        let (method, grid, particles) =
+            Method::<D>::new((scene.basis, scene.transfer), Order::Sorted, count);
+        let of = (scene.scheme, material);
+        let mut solver = checked_solver(&id, DT, of, method, (grid, particles));
         bencher.iter(|| solver.step(black_box(DT)).expect("a later step succeeds"));
         assert_eq!(solver.counters().crossings, Some(0), "{id}: the order of particles must last");
     });

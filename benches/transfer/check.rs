@@ -2,7 +2,7 @@
 
 use crate::scene::{H, Method, PER_AXIS};
 use mpm_verify::mpm::{
-    FrameName, Grid, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup, Solver, Vector,
+    FrameName, Grid, MassName, MaterialPlan, Matrix, Particles, SchemeName, Setup, Solver, Vector,
     mass_matrix,
 };
 use mpm_verify::subject::{Start, Subject};
@@ -72,15 +72,14 @@ pub(crate) fn check_g2p<const D: usize>(
 pub(crate) fn checked_solver<const D: usize>(
     id: &str,
     dt: f64,
+    (scheme, material): (SchemeName, MaterialPlan),
     Method { kernel, transfer, .. }: Method<D>,
-    grid: Grid<D>,
-    particles: Particles<D>,
+    (grid, particles): (Grid<D>, Particles<D>),
 ) -> Solver<D> {
     let momentum = |p: &Particles<D>| -> Vector<D> { p.v.iter().sum::<Vector<D>>() * p.mass[0] };
     let before = momentum(&particles);
-    let material = Box::new(LinearElastic::new(1.0, 0.3));
+    let (material, start) = (material.build(), Start::AtZero);
     let (effects, boundary) = (Vec::new(), Vec::new());
-    let (scheme, start) = (SchemeName::Musl, Start::AtZero);
     let (mass, frame) = (mass_matrix(MassName::Lumped), FrameName::Updated);
     let setup = Setup {
         grid,

@@ -15,7 +15,7 @@ mod scene;
 
 use check::{check_g2p, check_p2g, checked_solver};
 use criterion::{Bencher, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mpm_verify::mpm::{BasisName, TransferName, Vector};
+use mpm_verify::mpm::{BasisName, MaterialPlan, SchemeName, TransferName, Vector};
 use mpm_verify::subject::Subject;
 use random::Random;
 use rayon::ThreadPoolBuilder;
@@ -53,7 +53,9 @@ fn g2p<const D: usize>(bencher: &mut Bencher, id: &str, scene: Scene) {
 
 fn step<const D: usize>(bencher: &mut Bencher, id: &str, scene: Scene) {
     let (method, grid, particles) = Method::<D>::new(scene.method, scene.order, scene.count);
-    let mut solver = checked_solver(id, DT, method, grid, particles);
+    let material = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.3 };
+    let mut solver =
+        checked_solver(id, DT, (SchemeName::Musl, material), method, (grid, particles));
     bencher.iter(|| solver.step(black_box(DT)).expect("a later step succeeds"));
     assert_eq!(solver.counters().crossings, Some(0), "{id}: the order of particles must last");
 }
