@@ -14,15 +14,21 @@ pub(crate) struct Body {
     pub(crate) nodes: Vec<[f64; 3]>,
 }
 
+/// The first node, and weights and slopes (1/m) of both.
+#[inline(always)]
+fn hats(x: f64, h: f64) -> (usize, [f64; 2], [f64; 2]) {
+    let s = x / h;
+    let base = s as usize;
+    let f = s - base as f64;
+    (base, [1.0 - f, f], [-1.0 / h, 1.0 / h])
+}
+
 /// One step of length `dt` (s) on a grid of cells `h` (m).
 #[inline(never)]
 pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64)) {
     body.nodes.fill([0.0; 3]);
     for p in 0..body.x.len() {
-        let s = body.x[p] / h;
-        let base = s as usize;
-        let f = s - base as f64;
-        let (w, slope) = ([1.0 - f, f], [-1.0 / h, 1.0 / h]);
+        let (base, w, slope) = hats(body.x[p], h);
         for i in 0..2 {
             let at = &mut body.nodes[base + i];
             at[0] += w[i] * body.m;
@@ -37,10 +43,7 @@ pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64
         }
     }
     for p in 0..body.x.len() {
-        let s = body.x[p] / h;
-        let base = s as usize;
-        let f = s - base as f64;
-        let (w, slope) = ([1.0 - f, f], [-1.0 / h, 1.0 / h]);
+        let (base, w, slope) = hats(body.x[p], h);
         let (mut a, mut u, mut gradient) = (0.0, 0.0, 0.0);
         for i in 0..2 {
             a += w[i] * body.nodes[base + i][2];
@@ -60,10 +63,7 @@ pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64
 pub(crate) fn musl_step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64)) {
     body.nodes.fill([0.0; 3]);
     for p in 0..body.x.len() {
-        let s = body.x[p] / h;
-        let base = s as usize;
-        let f = s - base as f64;
-        let (w, slope) = ([1.0 - f, f], [-1.0 / h, 1.0 / h]);
+        let (base, w, slope) = hats(body.x[p], h);
         for i in 0..2 {
             let at = &mut body.nodes[base + i];
             at[0] += w[i] * body.m;
@@ -76,10 +76,7 @@ pub(crate) fn musl_step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64
         }
     }
     for p in 0..body.x.len() {
-        let s = body.x[p] / h;
-        let base = s as usize;
-        let f = s - base as f64;
-        let w = [1.0 - f, f];
+        let (base, w, _) = hats(body.x[p], h);
         let a = w[0] * body.nodes[base][2] + w[1] * body.nodes[base + 1][2];
         body.v[p] += dt * a;
         for i in 0..2 {
@@ -92,10 +89,7 @@ pub(crate) fn musl_step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64
         }
     }
     for p in 0..body.x.len() {
-        let s = body.x[p] / h;
-        let base = s as usize;
-        let f = s - base as f64;
-        let (w, slope) = ([1.0 - f, f], [-1.0 / h, 1.0 / h]);
+        let (base, w, slope) = hats(body.x[p], h);
         let (mut u, mut gradient) = (0.0, 0.0);
         for i in 0..2 {
             u += w[i] * body.nodes[base + i][1];
