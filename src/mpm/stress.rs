@@ -55,7 +55,8 @@ fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matr
                 let mut step = Matrix::zeros();
                 for j in 0..D {
                     for i in 0..D {
-                        step[(i, j)] = if i == j { 1.0 } else { 0.0 } + grad_v[(i, j)] * dt;
+                        let unit = if i == j { 1.0 } else { 0.0 };
+                        step[(i, j)] = unit + grad_v[(i, j)] * dt;
                     }
                 }
                 *f = product(&step, f);

@@ -23,16 +23,6 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     row_weights: [[F64Batch; K]; K],
 }
 
-/// The sum of the parts that are present.
-#[expect(clippy::unnecessary_wraps, reason = "it replaces the part that it is given")]
-#[inline(always)]
-fn plus<F: F64x4>(sum: Option<F>, term: F) -> Option<F> {
-    match sum {
-        Some(sum) => Some(sum + term),
-        None => Some(term),
-    }
-}
-
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
     /// Rows of a plane, and planes: one where there is no such axis.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
@@ -82,7 +72,10 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         for axis in 1..D {
             value += flux[axis] * outward[axis];
         }
-        NodeTerm { value: plus(term.value, value), flux: None, ..term }
+        if let Some(own) = term.value {
+            value = own + value;
+        }
+        NodeTerm { value: Some(value), flux: None, ..term }
     }
 
     /// Adds the term of particle `lane` to its nodes: row after row, each part factorised by axes,

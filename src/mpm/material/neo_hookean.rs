@@ -52,7 +52,8 @@ fn isotropic<const D: usize>(f: &Matrix<D>, [pressure, shear]: [f64; 2]) -> Matr
     for j in 0..D {
         for i in 0..D {
             let square = (1..D).fold(f[(i, 0)] * f[(j, 0)], |sum, k| sum + f[(i, k)] * f[(j, k)]);
-            sigma[(i, j)] = if i == j { pressure } else { 0.0 } + square * shear;
+            let diagonal = if i == j { pressure } else { 0.0 };
+            sigma[(i, j)] = diagonal + square * shear;
         }
     }
     sigma

@@ -25,7 +25,11 @@ const LG7: f64 = 1.479_819_860_511_658_6e-1;
 
 /// `ln x` of each number, with the bits of `libm::log`.
 #[inline(always)]
-#[allow(clippy::manual_range_contains, clippy::needless_bitwise_bool, reason = "a branch")]
+#[allow(
+    clippy::manual_range_contains,
+    clippy::needless_bitwise_bool,
+    reason = "a lazy operator is a branch"
+)]
 pub(in crate::mpm) fn ln(x: &F64Batch) -> F64Batch {
     let mut result = F64Batch::ZERO;
     let mut all_normal = true;
