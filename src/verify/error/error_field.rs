@@ -11,6 +11,9 @@ use std::collections::BTreeMap;
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
+/// Share of a part that is no more than rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// The largest error in each part of the body. Of three dimensions the first two are seen, and the
 /// error is the largest along the third.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,8 +56,14 @@ impl ErrorField {
         let spacing = libm::pow(volume, 1.0 / d as f64);
         let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
+        // The end of the body belongs to the last part, not to one beyond it; a particle that is a
+        // part is one there too.
+        let end = [0, 1].map(|axis| (high[axis] - low[axis]) / size);
+        let last = end
+            .map(|end| if is_coarse { end } else { (libm::ceil(end - ROUNDING) - 1.0).max(0.0) });
         for (x, error) in seen {
-            let part = [0, 1].map(|axis| libm::floor((x[axis] - low[axis]) / size));
+            let part = |axis: usize| libm::floor((x[axis] - low[axis]) / size).min(last[axis]);
+            let part = [0, 1].map(part);
             let place = [0, 1].map(|axis| low[axis] + (part[axis] + 0.5) * size);
             let [x, y] = if is_coarse { x } else { place };
             let worst = parts.entry(part.map(|k| k as i64)).or_insert([x, y, error]);
@@ -100,6 +109,18 @@ mod tests {
         assert!(field.is_plane && field.parts.len() <= most, "{}", field.parts.len());
         let largest = field.parts.iter().map(|part| part[2]).fold(0.0, f64::max);
         assert_eq!(largest, (n * n - 1) as f64 * 1e-6);
+    }
+
+    /// Of the last particles along an axis only a few have its largest place.
+    #[test]
+    fn no_part_of_a_whole_body_is_left_out() {
+        let mut samples = square(32);
+        samples.weight.fill(1.0 / 1024.0);
+        for (p, u) in samples.displacement.iter_mut().enumerate() {
+            *u = 1e-9 * (p * 7 % 5) as f64;
+        }
+        let field = ErrorField::of(Quantity::Displacement, &samples, &AtRest, 0.0).unwrap();
+        assert_eq!(field.parts.len(), 400);
     }
 
     /// A particle without a place is left out; one without an error marks its part.
