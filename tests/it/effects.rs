@@ -6,9 +6,9 @@ use crate::common::effect::add;
 use crate::common::interrupted::goes_on;
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
-    BasisName, Bodies, Boundary, Fixed, Friction, Grid, Heat, HeatSolver, HeatSource, NeoHookean,
-    Particles, Prescribed, Roller, SchemeName, Setup, Side, Solver, ThermalExpansion, TransferName,
-    Vector,
+    BasisName, Block, Bodies, Boundary, Effect, Fixed, Friction, Grid, Heat, HeatSolver,
+    HeatSource, NeoHookean, Particles, Placement, Prescribed, Pressure, PressureField, Roller,
+    SchemeName, Setup, Side, Solver, ThermalExpansion, TransferName, Vector, kernel,
 };
 use mpm_verify::study;
 use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
@@ -360,4 +360,20 @@ fn an_effect_needs_others() {
         let alone = EffectName::combine(&[effect]).is_ok();
         assert_eq!(alone, effect.needs().is_empty(), "`{}` alone", effect.name());
     }
+}
+
+/// A plate that has moved to the right bears the pressures X of where it began, 1/2 and 3/2.
+#[test]
+fn a_pressure_is_that_of_the_reference_place() {
+    let (from, to) = (Vector::zeros(), Vector::<2>::new(2.0, 1.0));
+    let mut plate = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+    plate.track_deformation();
+    plate.positions_mut().iter_mut().for_each(|x| x[0] += 0.25);
+    let kernel = kernel::<2>(BasisName::Linear);
+    let mut grid = kernel.grid(Vector::zeros(), 1.0, [3, 2], [false; 2]);
+    let value: PressureField<2> = Box::new(|x, _| x[0]);
+    let mut pressure = Pressure::at(&plate, 1, Side::High, Placement::Particles, value);
+    pressure.add_force(0.0, &plate, kernel.as_ref(), &mut grid);
+    let sum: Vector<2> = grid.force.iter().sum();
+    assert!((sum - Vector::<2>::new(0.0, -2.0)).norm() < 1e-14, "{sum}");
 }

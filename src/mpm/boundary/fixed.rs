@@ -47,3 +47,21 @@ impl<const D: usize> Boundary<D> for Fixed {
         self.hold(field);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mass matrices and reactions clear what is held: every component.
+    #[test]
+    fn all_components_are_held() {
+        let grid = Grid::<2>::new(Vector::zeros(), 1.0, [2, 1], [false; 2], [3, 2]);
+        let wall = Fixed::face(&grid, 1, Side::Low);
+        let mut cleared = vec![Vector::<2>::from_element(7.0); grid.nodes()];
+        let mut held = cleared.clone();
+        Boundary::clear(&wall, &mut cleared);
+        wall.hold_velocity(&mut held, 0.0);
+        assert_eq!(cleared, held);
+        assert_eq!(cleared.iter().filter(|v| v.norm() == 0.0).count(), 3);
+    }
+}

@@ -186,3 +186,27 @@ impl<const D: usize> Effect<D> for Heat<D> {
         Ok(visits + 3 * particles.len() as u64 * kernel.support())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::{Block, Matrix};
+    use approx::assert_relative_eq;
+
+    /// A body that starts stretched and sheared has the gradient with respect to x of its
+    /// temperature, `F^T grad T = Grad T`.
+    #[test]
+    fn slopes_at_the_start_are_those_of_the_deformed_body() {
+        let (from, to) = (Vector::zeros(), Vector::<2>::new(2.0, 1.0));
+        let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        body.track_deformation();
+        let f = Matrix::<2>::new(2.0, 0.5, 0.0, 4.0);
+        body.def_grad.fill(f);
+        let along = Vector::<2>::new(3.0, -1.0);
+        let heat = Heat::new((1.0, 1.0), &mut body, |x| (along.dot(x), along));
+        for slope in heat.fields().1 {
+            assert_relative_eq!(f.transpose() * slope, along, max_relative = 1e-15);
+        }
+        assert_eq!(body.temperature, [1.0, 4.0]);
+    }
+}

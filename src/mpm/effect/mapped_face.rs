@@ -54,11 +54,13 @@ impl MappedFace {
 mod tests {
     use crate::mpm::{Quadrilateral, Vector};
     use approx::assert_relative_eq;
+    use rstest::rstest;
 
     /// The sides of a panel that are upright or level, whatever the map calls them.
-    #[test]
-    fn each_side_is_found() {
-        let corners = [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    #[rstest]
+    fn each_side_is_found(#[values(0, 1, 2, 3)] first: usize) {
+        let mut corners = [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+        corners.rotate_left(first);
         let panel = Quadrilateral::new(corners.map(Vector::from)).unwrap();
         let particles = panel.fill::<2>(1.0, 0.5, 2);
         for (axis, outwards, length, place) in

@@ -141,6 +141,21 @@ fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) 
     ends.into_iter().zip(speeds).map(body).collect()
 }
 
+/// Whatever two bodies that collide are to each other, one far away that is listed before them is
+/// nothing to them, bit for bit.
+#[rstest]
+fn a_body_far_away_changes_no_contact(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    let method = (BasisName::Linear, TransferName::Flip);
+    let near = || crash::<2>(method, scheme).split_off(1);
+    let far = part::<2>(method, scheme, [0.3, 0.9]);
+    let two = ran(Bodies::new(near(), Some(0.3)).unwrap(), 60);
+    let three = [far].into_iter().chain(near()).collect();
+    let three = ran(Bodies::new(three, Some(0.3)).unwrap(), 60);
+    assert!(three.displacement.ends_with(&two.displacement));
+}
+
 fn momentum_is_kept<const D: usize>(scheme: SchemeName) {
     for method in coupled_methods(D) {
         for friction in [None, Some(0.0), Some(0.4)] {
