@@ -94,4 +94,18 @@ mod tests {
         assert!(whole[0] != 0.0, "something varies");
         assert_eq!(solid.divergence(dimension, &grad, &second), whole);
     }
+
+    /// Simple shear along X, u_X = g Y: the top keeps its area and its normal, and the right end
+    /// turns, `n da = (1, -g) dA` (Nanson).
+    #[test]
+    fn the_face_of_a_sheared_body_turns() {
+        let g = 0.4;
+        let grad = [[0.0, g, 0.0], [0.0; 3], [0.0; 3]];
+        let law: Equation = NeoHookeanLaw::new(7.2, 0.3).into();
+        assert_eq!(law.present_area(&grad, 1, true), [0.0, 1.0, 0.0]);
+        assert_eq!(law.present_area(&grad, 0, true), [1.0, -g, 0.0]);
+        assert_eq!(law.present_area(&grad, 0, false), [-1.0, g, 0.0]);
+        let small: Equation = SmallStrainLaw::new(7.2, 0.3).into();
+        assert_eq!(small.present_area(&grad, 0, true), [1.0, 0.0, 0.0]);
+    }
 }

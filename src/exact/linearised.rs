@@ -20,6 +20,7 @@ pub(super) fn share(left: f64, size: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::exact::Problem;
+    use crate::exact::check::boundary::boundary;
     use crate::exact::law::TaitLaw;
     use crate::exact::tests::{bar, fixed, free};
     use rstest::rstest;
@@ -54,5 +55,22 @@ mod tests {
         assert!(bar(wave, free()).residual() > 0.1, "a traction at the right end");
         let shifted = bar("0.01 + sin(pi*X)*cos(pi*t)/50", fixed());
         assert!(shifted.residual().is_nan(), "the left end is fixed");
+    }
+
+    #[test]
+    fn a_residual_is_a_share_of_what_it_is_compared_with() {
+        assert_eq!(share(-2.0, 4.0), 0.5);
+        assert_eq!(share(0.0, 0.0), 0.0);
+        assert_eq!(share(1.0, 0.0), f64::INFINITY);
+    }
+
+    /// A rod that is pressed has a traction that is all of its stress, whatever its sign.
+    #[test]
+    fn a_traction_that_presses_is_left_over_too() {
+        let left = |u| {
+            let linearised = Some(Linearised { tolerance: f64::INFINITY, because: String::new() });
+            boundary(&Problem { linearised, ..bar(u, free()) }).unwrap()
+        };
+        assert!(left("X/50") > 0.1 && left("X/50") == left("-X/50"), "{}", left("-X/50"));
     }
 }

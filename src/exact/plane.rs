@@ -72,4 +72,22 @@ mod tests {
         let slope = (at(1e-6).grad[2][2] - at(-1e-6).grad[2][2]) / 2e-6;
         assert_relative_eq!(here.second[2][2][0], slope, max_relative = 1e-8, epsilon = 1e-9);
     }
+
+    /// On the axis the hoop and its slopes are the limits of those beside it: of
+    /// `u_r = a r + b r^2 + c r z` the hoop `u_r/r` is `a + b r + c z`.
+    #[rstest]
+    fn the_hoop_is_smooth_on_the_axis(#[values(0.0, 1e-3, 0.5)] radius: f64) {
+        let (a, b, c, z) = (0.1, 0.3, 0.2, 0.7);
+        let mut now = Derivatives::default();
+        now.u[0] = a * radius + b * radius * radius + c * radius * z;
+        now.grad[0] = [a + 2.0 * b * radius + c * z, c * radius, 0.0];
+        (now.second[0][0][0], now.second[0][0][1]) = (2.0 * b, c);
+        let law = SmallStrainLaw::new(1.0, 0.0).into();
+        complete(PlaneState::Axisymmetric, &law, &[radius, z], &mut now);
+        assert_relative_eq!(now.grad[2][2], a + b * radius + c * z, max_relative = 1e-14);
+        let [along_r, along_z, across] = now.second[2][2];
+        assert_relative_eq!(along_r, b, max_relative = 1e-11);
+        assert_relative_eq!(along_z, c, max_relative = 1e-14);
+        assert_relative_eq!(across, 0.0);
+    }
 }

@@ -6,7 +6,7 @@ use super::random::Random;
 use super::truth::Truth;
 use super::{
     Condition, Equation, Face, FacePoint, Forcing, HenckyLaw, InitialStress, Motion, NeoHookeanLaw,
-    Problem, SmallStrainLaw, Term, Violation,
+    Problem, Round, SmallStrainLaw, Term, Violation,
 };
 use crate::subject::PlaneState;
 use rstest::rstest;
@@ -198,7 +198,9 @@ fn the_force_of_a_run_is_the_force(
     #[values(PlaneState::Strain, PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
 ) {
     let plane = if dimension == 2 { plane } else { PlaneState::Strain };
-    let (problem, mut random) = (Problem { plane, ..held(dimension) }, Random::new(1));
+    let mut problem = Problem { plane, ..held(dimension) };
+    problem.terms.push(Arc::new(Damped(0.7)));
+    let mut random = Random::new(1);
     let labels: Vec<Vec<f64>> = (0..5).map(|_| random.point(&problem.from, &problem.to)).collect();
     let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
     let mut found = [[0.0; 3]; 5];
@@ -368,4 +370,43 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     let weak = Problem { terms: weight(&["8*min(2*t, 1)"]), ..hanging };
     let found = super::check::weak::momentum(&weak).unwrap_err();
     assert!(found.condition.starts_with("momentum balance"), "{found}");
+}
+
+/// A pipe under pressure from within, free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`.
+/// The traction left on the inner rim counts, though none is left on the outer one.
+#[test]
+fn the_residual_is_the_largest_of_all_rims() {
+    let names = ["X", "Y", "t"];
+    let (lambda, mu) = (10.0 * 0.3 / (1.3 * 0.4), 10.0 / 2.6);
+    let b = 0.01;
+    let a = mu * b / (4.0 * (lambda + mu));
+    let along = |x: &str| bind(&format!("{x}*({a} + {b}/(X^2 + Y^2))"), &names);
+    let outline = Round { centre: vec![0.0; 2], inner: 1.0, outer: 2.0 };
+    let pipe = Problem {
+        from: vec![-2.0; 2],
+        to: vec![2.0; 2],
+        outline: Some(Arc::new(outline)),
+        equation: SmallStrainLaw::new(10.0, 0.3).into(),
+        terms: Vec::new(),
+        manufactured: false,
+        at_rest: true,
+        follows_motion: false,
+        faces: Vec::new(),
+        motion: Motion::new(vec![along("X"), along("Y")]),
+        ..held(2)
+    };
+    assert!(pipe.residual() > 0.1, "{}", pipe.residual());
+}
+
+/// A column that is sheared along its axis, so that `P_zR` and `P_Rz` differ: the hoop term of the
+/// equation point by point is that of the weak form.
+#[test]
+fn large_shear_about_an_axis_balances_in_weak_form() {
+    let names = ["X", "Y", "t"];
+    let motion = Motion::new(vec![
+        bind("0.1*sin(pi*(X - 1))*sin(pi*Y)*sin(3*pi*t)", &names),
+        bind("0.6*(X - 1)*(2 - X)*Y*sin(3*pi*t)", &names),
+    ]);
+    let column = Problem { plane: PlaneState::Axisymmetric, motion, ..ring() };
+    super::check::weak::momentum(&column).unwrap();
 }

@@ -149,3 +149,112 @@ pub(crate) fn judged_error(norm: &str, of: Quantity, scale: Option<f64>) -> Stri
         None => format!("{norm} error of {name} ({unit})"),
     }
 }
+
+#[cfg(test)]
+pub(in crate::verify) mod tests {
+    use super::*;
+    use crate::subject::RunCounters;
+    use crate::verify::error::norm::Norms;
+    use crate::verify::order::hypothesis::OrderHypothesis;
+    use crate::verify::order::level::Level;
+    use crate::verify::verdict::judge::judge;
+    use rstest::rstest;
+
+    /// A study of spacings 1, 1/2, 1/4, ... with these errors, judged against the order 2.
+    pub(in crate::verify) fn study(errors: &[f64]) -> Convergence {
+        let spacing = |k: usize| libm::exp2(-(k as f64));
+        let level = |(k, error): (usize, &f64)| LevelOutcome {
+            cells: 1 << k,
+            h: spacing(k),
+            spacing: spacing(k),
+            dt: 0.5 * spacing(k),
+            ppc: Some(2),
+            run: result(),
+            error: *error,
+            usable: true,
+            order: None,
+            stable_time_step: None,
+        };
+        let levels: Vec<Level> =
+            errors.iter().enumerate().map(|(k, error)| Level::new(spacing(k), *error)).collect();
+        Convergence {
+            axis: Axis::Space,
+            formal_order: 2.0,
+            norm: "rms",
+            of: Quantity::Displacement,
+            scale: None,
+            error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
+            compared: true,
+            bounded: false,
+            drifts: Vec::new(),
+            rated: false,
+            judgement: judge(&levels, &OrderHypothesis::formal(2.0)),
+            floor: None,
+            levels: errors.iter().enumerate().map(level).collect(),
+            richardson: Vec::new(),
+            observed_at: None,
+        }
+    }
+
+    fn result() -> RunResult {
+        RunResult {
+            errors: Norms::NONE,
+            max_rms: f64::NAN,
+            at_end: Norms::NONE,
+            largest: Norms::NONE,
+            drift: None,
+            account: Vec::new(),
+            energy_rate: None,
+            counters: RunCounters::new(0),
+            steps: 1,
+            failure: None,
+            history: None,
+            field: None,
+            displacement: None,
+            observed_error: None,
+            residual_speed: None,
+        }
+    }
+
+    #[rstest]
+    #[case(Verdict::Converging, false)]
+    #[case(Verdict::TooGood, false)]
+    #[case(Verdict::PreAsymptotic, false)]
+    #[case(Verdict::TooFewLevels, false)]
+    #[case(Verdict::TooLow, true)]
+    #[case(Verdict::AtFloor, true)]
+    #[case(Verdict::Oscillatory, true)]
+    #[case(Verdict::Divergent, true)]
+    #[case(Verdict::Failed, true)]
+    fn a_verdict_against_the_order_fails(#[case] verdict: Verdict, #[case] fails: bool) {
+        let mut study = study(&[1.0, 0.25]);
+        study.judgement.verdict = verdict;
+        assert_eq!(study.fails(), fails);
+        study.bounded = true;
+        assert!(!study.fails());
+    }
+
+    #[rstest]
+    #[case(Some(0.5), false)]
+    #[case(Some(0.499), true)]
+    #[case(None, false)]
+    fn a_step_at_the_limit_is_stable(#[case] stable: Option<f64>, #[case] is_too_long: bool) {
+        let mut level = study(&[1.0]).levels.remove(0);
+        level.stable_time_step = stable;
+        assert_eq!(level.is_too_long(), is_too_long);
+    }
+
+    /// At the order 2 the limit is 0.04 from the finest value 2, of which the index is 2.5 %.
+    #[rstest]
+    #[case(0.04, true)]
+    #[case(0.06, false)]
+    fn an_index_covers_the_error_of_the_finest_level(#[case] error: f64, #[case] covers: bool) {
+        let mut study = study(&[1.0, 0.25, 0.0625]);
+        for (level, found) in study.levels.iter_mut().zip([10.0 * error, 5.0 * error, error]) {
+            level.run.displacement = Some(vec![2.0]);
+            level.run.observed_error = Some(found);
+        }
+        let values = Richardson::equal_ratio([1.40, 1.88, 2.0], 2.0);
+        assert_eq!(study.covered(&([0, 1, 2], values)), Some((error / 2.0, covers)));
+    }
+}

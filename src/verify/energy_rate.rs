@@ -76,6 +76,8 @@ mod tests {
         assert_relative_eq!(whole.value, -1e-4, max_relative = 1e-9);
         let torn = energy_rate(&account(1130, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
         assert!(torn.low < -1e-4 && -1e-4 < torn.high && torn.half_width() > 1e-7, "{torn:?}");
+        // What a part has beside whole swings is little of its mean.
+        assert!(torn.half_width() < 1e-2 / 1000.0, "{torn:?}");
     }
 
     #[test]

@@ -29,3 +29,24 @@ pub(crate) fn monotone(problem: &Problem) -> Result<(), Violation> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::J2Law;
+    use crate::exact::tests::{bar, free};
+    use rstest::rstest;
+
+    /// The bar flows beyond a strain of 0.01, and turns back at half of the time.
+    #[rstest]
+    #[case::pulled("0.05*X*t", true)]
+    #[case::pressed("-0.05*X*t", true)]
+    #[case::swings_elastically("0.004*X*sin(20*t)", true)]
+    #[case::pulled_and_let_go("0.1*X*(0.1 + t*(1 - t))", false)]
+    #[case::pressed_and_let_go("-0.1*X*(0.1 + t*(1 - t))", false)]
+    fn what_flows_does_not_turn_back(#[case] displacement: &str, #[case] passes: bool) {
+        let equation = J2Law::new(2.0, 0.0, 0.02, 0.1).into();
+        let problem = Problem { equation, ..bar(displacement, free()) };
+        assert_eq!(monotone(&problem).is_ok(), passes);
+    }
+}

@@ -25,6 +25,7 @@ enum Ends {
     Temperature(Formula),
     Flux(Formula),
     Convection { coefficient: f64, ambient: Formula },
+    Periodic,
 }
 
 impl ThermalCondition for Ends {
@@ -39,6 +40,7 @@ impl ThermalCondition for Ends {
                 let given = coefficient * (point.value(ambient) - point.temperature());
                 point.lets_in("is cooled", given, coefficient * point.largest_temperature())
             }
+            Self::Periodic => point.continues_on_opposite_face(),
         }
     }
 }
@@ -120,6 +122,26 @@ fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension
     fin("-12*(T - 5)").check().unwrap();
     refused(&fin("-12*T"), "heat equation");
     refused(&fin("-12*(t - 5)"), "heat equation");
+}
+
+/// Heat that leaves on one side enters on the other.
+#[test]
+fn heat_flows_through_a_periodic_face() {
+    let ring = |temperature: &str| Conduction {
+        manufactured: true,
+        ..bar(temperature, [Ends::Periodic, Ends::Periodic])
+    };
+    ring("5 + sin(2*pi*X)*exp(-t)").check().unwrap();
+    refused(&ring("5 + sin(pi*X)*exp(-t)"), "is periodic, the flow of heat");
+    refused(&ring("5 + cos(pi*X)*exp(-t)"), "is periodic, the temperature");
+}
+
+/// However warm the body is on the whole.
+#[rstest]
+fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
+    let kink = format!("{warm} + abs(X - 0.4)");
+    let found = super::weak::balance(&insulated(1, &kink)).unwrap_err();
+    assert!(found.condition.contains("heat balance"), "{found}");
 }
 
 /// The equation holds on both sides of the kink, which gives off heat all the same.

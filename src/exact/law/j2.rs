@@ -87,3 +87,27 @@ fn mises<T: Number, const D: usize>(deviator: &Tensor<T, D>, third: T, mu: f64) 
     // Where nothing is strained the root has no slope, and nothing flows.
     if square.value() == 0.0 { square } else { Number::sqrt(square * T::from(6.0 * mu * mu)) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// In uniaxial strain eps the elastic q is 2 mu |eps|, and `tau = K eps -+ 2/3 q` of the q that
+    /// is left, `Y + H alpha` with `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
+    #[rstest]
+    fn beyond_yield_the_stress_is_that_of_the_hardened_yield_stress(
+        #[values(-0.2, -0.02, -0.001, 0.001, 0.02, 0.2)] strain: f64,
+    ) {
+        let law = J2Law::new(200.0, 0.25, 1.0, 30.0);
+        let Lame { lambda, mu } = law.lame;
+        let elastic = 2.0 * mu * strain.abs();
+        let alpha = ((elastic - 1.0) / (3.0 * mu + 30.0)).max(0.0);
+        let q = if alpha > 0.0 { 1.0 + 30.0 * alpha } else { elastic };
+        assert_eq!(alpha > 0.0, law.flows(libm::expm1(strain)));
+        let tau = (lambda + 2.0 / 3.0 * mu) * strain + 2.0 / 3.0 * q * strain.signum();
+        let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
+        assert_relative_eq!(piola, tau / libm::exp(strain), max_relative = 1e-12);
+    }
+}

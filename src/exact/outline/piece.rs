@@ -129,3 +129,22 @@ pub fn join_small(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two halves of a rectangle are that rectangle: volume, centroid, moments and domain.
+    #[test]
+    fn halves_make_a_whole() {
+        let half = |x: f64| Piece::whole([x, 0.5], [1.0, 0.5]);
+        let (joined, whole) = (half(1.0).with(&half(3.0)), Piece::whole([2.0, 0.5], [2.0, 0.5]));
+        assert_eq!((joined.volume, joined.place), (whole.volume, whole.place));
+        for (a, b) in joined.spread.iter().zip(whole.spread) {
+            assert!((a - b).abs() < 1e-15, "{joined:?}");
+        }
+        for (a, b) in joined.domain().iter().zip([2.0, 0.0, 0.0, 0.5]) {
+            assert!((a - b).abs() < 1e-15, "{:?}", joined.domain());
+        }
+    }
+}

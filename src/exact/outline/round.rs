@@ -187,8 +187,13 @@ mod tests {
                 prop_assert!(wide.holds(&label), "{label:?}");
             }
             for rim in 0..body.rims().len() {
-                let (label, _) = body.on_rim(rim, &mut random);
+                let (label, normal) = body.on_rim(rim, &mut random);
                 prop_assert!(wide.holds(&label), "{label:?}");
+                // The normal leads out of the body.
+                let beside = |by: f64| -> Vec<f64> {
+                    label.iter().zip(normal).map(|(x, n)| x + by * n).collect()
+                };
+                prop_assert!(!body.holds(&beside(1e-6)) && body.holds(&beside(-1e-6)));
             }
         }
     }

@@ -101,3 +101,20 @@ fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'stati
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(f64::abs).fold(0.0, verify::larger)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_is_no_number_agrees_with_nothing() {
+        let row = |force| ForceRow { position: 0.5, left: 2, right: 2, force, predicted: 1.0 };
+        let judged = |force| {
+            let rows = [row(1.0), row(force), row(1.0)];
+            let wanted = [ForceExpectation::AgreesWithin(0.1), ForceExpectation::StepsBelow(0.1)];
+            wanted.map(|wanted| judged_force(&rows, wanted).0)
+        };
+        assert_eq!(judged(1.05), [true, true]);
+        assert_eq!(judged(f64::NAN), [false, false]);
+    }
+}

@@ -138,4 +138,16 @@ mod tests {
     fn a_single_particle_is_no_field() {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
+
+    /// Four particles, of which two share a part: the error of the first counts, in its middle.
+    #[test]
+    fn a_part_shows_its_largest_error_in_its_middle() {
+        let mut samples = Samples::default();
+        for (x, u) in [(0.0, 0.0), (1.01, 5e-3), (1.02, 1e-3), (80.0, 0.0)] {
+            samples.push(&[x - u], &[u], &[0.0], 0.01);
+        }
+        let field = ErrorField::of(Quantity::Displacement, &samples, &AtRest, 0.0).unwrap();
+        let found: Vec<[f64; 2]> = field.parts.iter().map(|[x, _, error]| [*x, *error]).collect();
+        assert_eq!(found, [[0.5, 0.0], [1.5, 5e-3], [79.5, 0.0]]);
+    }
 }

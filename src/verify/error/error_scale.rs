@@ -59,4 +59,10 @@ mod tests {
         assert!(of.largest_exact(&Rod, &[vec![1.0, 0.0]], &[0.0, until]).is_nan());
         assert!(of.largest_exact(&Rod, &[], &[until]).is_nan());
     }
+
+    #[test]
+    fn a_value_that_is_no_number_is_not_left_out() {
+        let found = Quantity::Displacement.largest_exact(&Rod, &[vec![1.0, 0.0]], &[1.0, f64::NAN]);
+        assert!(found.is_nan(), "{found}");
+    }
 }

@@ -60,3 +60,17 @@ impl JudgedSum {
 pub(super) fn over_instants(errors: &[[f64; 3]]) -> Norms {
     Norms::of(errors.as_flattened(), 3, &vec![1.0; errors.len()])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_error_of_an_instant_is_the_length_of_its_vector() {
+        let Norms { rms, l1, l2, linf } = over_instants(&[[3.0, 0.0, 4.0], [0.0, -5.0, 0.0]]);
+        for norm in [rms, l1, l2, linf] {
+            assert_relative_eq!(norm, 5.0, max_relative = 1e-15);
+        }
+    }
+}

@@ -283,4 +283,24 @@ mod tests {
         let norms = quantity.errors(&samples, &Sheared, 1.0);
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
+
+    /// F of a truth that knows it, held against F of the samples and not against another column.
+    #[test]
+    fn a_deformation_gradient_is_held_against_its_own() {
+        struct Turned;
+        impl Truth for Turned {
+            fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+                into.fill(0.0);
+            }
+            fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+                into.fill(0.0);
+            }
+            fn deformation_gradient(&self, _: &[f64], _: f64, into: &mut [f64]) -> bool {
+                into.copy_from_slice(&[1.0, -2.0, 5.0, 1.0]);
+                true
+            }
+        }
+        let found = Quantity::DeformationGradient.errors(&off_by_five(), &Turned, 1.0);
+        assert_relative_eq!(found.linf, 5.0, max_relative = 1e-15);
+    }
 }

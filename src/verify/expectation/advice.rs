@@ -88,3 +88,39 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
         )
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::convergence::tests::study;
+
+    /// A study of six levels whose order has an interval of -+ 1.
+    fn uncertain() -> Convergence {
+        let errors: Vec<f64> = (0..6).map(|k| libm::exp2(-2.0 * f64::from(k))).collect();
+        let mut study = study(&errors);
+        study.judgement.order = Some(Interval { value: 2.0, low: 1.0, high: 3.0 });
+        study
+    }
+
+    /// With t(4) = 2.776 and t(6) = 2.447, and Sxx ~ n (n^2 - 1) of n levels at equal ratios.
+    #[test]
+    fn more_levels_narrow_an_interval_as_those_of_a_line() {
+        let width = 2.447 / 2.776 * (6.0 * 35.0 / (8.0 * 63.0_f64)).sqrt();
+        let expected = format!(
+            "levels: two more would narrow the interval from -+ 1.00 to about -+ {width:.2}"
+        );
+        assert!(advice(&uncertain()).contains(&expected), "{:?}", advice(&uncertain()));
+    }
+
+    /// The norm with the narrowest interval is of no use if its order is another one.
+    #[test]
+    fn a_norm_is_advised_only_if_it_converges() {
+        let mut study = uncertain();
+        for (k, level) in study.levels.iter_mut().enumerate() {
+            level.run.at_end.l1 = level.spacing;
+            level.run.at_end.l2 = level.spacing * level.spacing * (1.0 + 0.01 * (k % 2) as f64);
+        }
+        let advice = advice(&study);
+        assert!(advice.iter().any(|line| line.contains("{norm: l2}")), "{advice:?}");
+    }
+}

@@ -36,6 +36,8 @@ mod tests {
     #[case::only_just(2.08, 0.015, false)]
     #[case::uncertain(2.0, 0.05, false)]
     #[case::outside(2.11, 0.0, false)]
+    #[case::outside_below(1.89, 0.0, false)]
+    #[case::far_below(1.0, 0.0, false)]
     #[case::nan(f64::NAN, 0.0, false)]
     #[case::no_interval(2.0, f64::NAN, false)]
     fn no_interval_is_met_only_just(

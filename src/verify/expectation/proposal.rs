@@ -190,6 +190,9 @@ fn drifts(study: &Convergence) -> Vec<ProposedKey> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::subject::Totals;
+    use crate::verify::conservation::Balance;
+    use crate::verify::convergence::tests::study;
     use rstest::rstest;
 
     #[rstest]
@@ -199,5 +202,35 @@ mod tests {
     #[case(0.0, 0.0)]
     fn bounds_have_one_digit_and_hold(#[case] value: f64, #[case] bound: f64) {
         assert!(rounded_up(value) == bound && bound >= value, "{}", rounded_up(value));
+    }
+
+    fn keys(study: &Convergence) -> Vec<String> {
+        propose(study).keys.into_iter().map(|key| key.text).collect()
+    }
+
+    /// An order that theory does not give is proposed to the nearest half.
+    #[test]
+    fn orders_go_by_halves() {
+        let halves = |order: f64| {
+            let error = |k: i32| libm::exp2(-order * f64::from(k));
+            keys(&study(&(0..5).map(error).collect::<Vec<_>>()))
+        };
+        assert_eq!(halves(2.0), ["order: [1.9, 2.1]"]);
+        assert_eq!(halves(1.5), ["order: [1.4, 1.6]"]);
+        assert_eq!(halves(1.25), ["verdict: too_low"]);
+    }
+
+    /// A bound on a drift leaves room for thirty times of what was found.
+    #[test]
+    fn a_drift_has_room_below_its_bound() {
+        let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
+        study.drifts = vec![Conserved::Mass];
+        for level in &mut study.levels {
+            let totals = |mass| Totals { mass, ..Totals::default() };
+            let mut balance = Balance::start(totals(1.0));
+            balance.look(Some(&totals(1.0 - 1e-13)));
+            level.run.drift = Some(balance.drift());
+        }
+        assert_eq!(keys(&study), ["order: [1.9, 2.1]", "drift: {mass: 1e-11}"]);
     }
 }

@@ -72,6 +72,7 @@ mod tests {
     #[case(OrderHypothesis::formal(2.0))]
     #[case(OrderHypothesis::within(2.0, 1.6, 2.6))]
     #[case(OrderHypothesis::within(2.0, 2.0, 2.0))]
+    #[case::as_wide_as_may_be(OrderHypothesis::within(2.0, 1.5, 2.5))]
     fn testable(#[case] hypothesis: OrderHypothesis) {
         assert_eq!(hypothesis.diagnostic(), None);
     }
@@ -82,6 +83,7 @@ mod tests {
     #[case(OrderHypothesis::within(2.0, 2.1, 1.9), "[2.1, 1.9] is not a range of orders")]
     #[case(OrderHypothesis::within(2.0, 1.0, f64::INFINITY), "[1, inf] is not a range of orders")]
     #[case(OrderHypothesis::within(60.0, 10.0, 110.0), "too wide to test anything")]
+    #[case(OrderHypothesis::within(2.0, 1.4, 2.5), "too wide to test anything")]
     fn not_testable(#[case] hypothesis: OrderHypothesis, #[case] expected: &str) {
         let diagnostic = hypothesis.diagnostic().unwrap();
         assert!(diagnostic.contains(expected), "{diagnostic}");

@@ -151,6 +151,7 @@ mod tests {
     #[case::floor(&[2.0, 2.0, 2.0, 0.5, 0.0], 0..4)]
     #[case::both_ends(&[4.0, 2.0, 2.0, 2.0, 0.5, 0.0], 1..5)]
     #[case::outlier_kept(&[2.0, 2.0, 0.4, 3.6, 2.0, 2.0, 2.0], 0..8)]
+    #[case::two_outliers_to_either_side(&[3.3, 1.7, 2.0, 2.0, 2.0, 2.0], 0..7)]
     #[case::second_is_outlier(&[0.4, 3.6, 2.0, 2.0, 2.0, 2.0], 0..7)]
     #[case::last_but_one_is_outlier(&[2.0, 2.0, 2.0, 2.0, 0.4, 3.6], 0..7)]
     #[case::superconvergent_fine_end_kept(&[2.0, 2.0, 2.0, 2.0, 4.0], 0..6)]

@@ -73,3 +73,64 @@ fn reduced(full: &DMatrix<f64>) -> DMatrix<f64> {
     let kept: Vec<usize> = (0..full.ncols()).filter(|j| !keeps_itself(*j)).collect();
     DMatrix::from_fn(kept.len(), kept.len(), |i, j| full[(kept[i], kept[j])])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subject::{Failure, RunCounters, Samples, Subject};
+
+    /// A state whose step is `a' = a/2 + b, b' = 3 b`, with a third number that `third` gives.
+    struct Linear {
+        state: Vec<f64>,
+        third: fn(f64) -> f64,
+    }
+
+    impl Subject for Linear {
+        fn step(&mut self, _: f64) -> Result<(), Failure> {
+            let [a, b, c] = self.state[..] else { return Ok(()) };
+            self.state = vec![0.5 * a + b, 3.0 * b, (self.third)(c)];
+            Ok(())
+        }
+
+        fn sample(&self, _: &mut Samples) {}
+
+        fn counters(&self) -> RunCounters {
+            RunCounters::new(0)
+        }
+    }
+
+    impl Perturbable for Linear {
+        fn fix_configuration(&mut self) {}
+
+        fn state(&self, state: &mut Vec<f64>) {
+            state.clone_from(&self.state);
+        }
+
+        fn set_state(&mut self, state: &[f64]) {
+            self.state = state.to_vec();
+        }
+
+        fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>) {
+            *sizes = vec![speed, modulus, 1.0];
+        }
+    }
+
+    fn matrix(third: fn(f64) -> f64) -> Result<DMatrix<f64>, String> {
+        amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
+    }
+
+    /// In natural sizes a unit of b is four of a; a number that only keeps itself has no row.
+    #[test]
+    fn the_matrix_of_a_linear_step_is_that_step() {
+        let found = matrix(|c| c).unwrap();
+        let expected = DMatrix::from_row_slice(2, 2, &[0.5, 4.0, 0.0, 3.0]);
+        assert!((found - expected).amax() < 1e-9);
+        assert_eq!(matrix(|c| 2.0 * c).unwrap().nrows(), 3);
+    }
+
+    #[test]
+    fn a_body_that_does_not_rest_has_no_matrix() {
+        assert!(matrix(|c| c + 1e-9).is_err());
+        assert!(matrix(|_| f64::NAN).is_err());
+    }
+}

@@ -81,4 +81,23 @@ mod tests {
         assert!(checkerboard(&row(&[0.0; 4])).is_nan());
         assert!(checkerboard(&row(&[])).is_nan());
     }
+
+    /// The third particle counts neither in the differences nor in the size.
+    #[test]
+    fn particles_without_neighbours_have_no_part_in_it() {
+        let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };
+        assert_relative_eq!(checkerboard(&apart), (8.0_f64 / 10.0).sqrt());
+    }
+
+    #[test]
+    fn a_particle_is_held_against_the_mean_of_its_neighbours() {
+        let found = checkerboard(&row(&[1.0, 4.0, 3.0]));
+        assert_relative_eq!(found, ((9.0 + 4.0 + 1.0) / 26.0_f64).sqrt());
+    }
+
+    #[test]
+    fn a_spread_is_a_share_of_the_largest_in_magnitude() {
+        assert_relative_eq!(stress_spread(&row(&[1.0, -4.0, 2.0])), 1.5);
+        assert_relative_eq!(stress_spread(&row(&[8.0, 2.0])), 0.75);
+    }
 }

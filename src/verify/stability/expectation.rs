@@ -141,3 +141,21 @@ fn unconfirmed(critical: &Critical) -> Vec<String> {
     };
     critical.confirmed.iter().filter_map(disagrees).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    /// Beyond the range a limit is known from one side only.
+    #[rstest]
+    #[case::far_enough(FigureBounds { above: Some(9.0), ..FigureBounds::default() }, true)]
+    #[case::not_far_enough(FigureBounds { above: Some(11.0), ..FigureBounds::default() }, false)]
+    #[case::bounded(FigureBounds { above: Some(9.0), below: Some(99.0), is: None }, false)]
+    #[case::a_value(FigureBounds { above: Some(9.0), below: None, is: Some((9.0, 0.5)) }, false)]
+    #[case::anything(FigureBounds::default(), false)]
+    fn a_limit_above_the_range(#[case] bounds: FigureBounds, #[case] holds: bool) {
+        let unmet = bounds.unmet_by_limit(StabilityLimit::Above(10.0));
+        assert_eq!(unmet.is_empty(), holds, "{unmet:?}");
+    }
+}

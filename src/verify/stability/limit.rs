@@ -89,4 +89,21 @@ mod tests {
         let found = find(|x| x <= 1.0 || x >= 5.0).value().unwrap();
         assert!((found - 1.0).abs() <= 1e-3, "{found}");
     }
+
+    /// Each interval of the scan is longer than the one before by the same ratio, and the limit is
+    /// the middle of the last bracket, which is no longer than the tolerance.
+    #[test]
+    fn values_are_tried_in_geometric_progression() {
+        let mut tried = Vec::new();
+        let stable = |x: f64| {
+            tried.push(x);
+            Ok::<bool, ()>(x < 5.0)
+        };
+        let found = stability_limit((1.0, 16.0), 4, 1.1, stable).unwrap();
+        let expected = [1.0, 2.0, 4.0, 8.0];
+        assert!(tried.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{tried:?}");
+        assert_eq!(tried.len(), 4);
+        let StabilityLimit::At(limit) = found else { panic!("{found:?}") };
+        assert!((limit - 32_f64.sqrt()).abs() < 1e-12, "{limit}");
+    }
 }

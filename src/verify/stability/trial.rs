@@ -247,3 +247,118 @@ fn fastest(samples: &Samples) -> f64 {
 fn length(components: &[f64]) -> f64 {
     components.iter().fold(0.0, |all, c| libm::hypot(all, *c))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subject::{RunCounters, Totals};
+    use crate::verify::StudyResults;
+    use crate::verify::stability::expectation::StabilityExpectation;
+    use crate::verify::stability::figure::RunFigure;
+    use crate::verify::stability::limit::StabilityLimit;
+    use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
+    use approx::assert_relative_eq;
+
+    /// One label of mass 2 under a stress of 1, with a kinetic energy (J) for each step.
+    struct Scripted {
+        kinetic: Vec<f64>,
+        step: usize,
+    }
+
+    impl Subject for Scripted {
+        fn step(&mut self, _: f64) -> Result<(), Failure> {
+            self.step += 1;
+            Ok(())
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            samples.restart(1);
+            samples.push(&[0.0], &[0.0], &[0.0], 1.0);
+            samples.stress.push(1.0);
+        }
+
+        fn counters(&self) -> RunCounters {
+            RunCounters::new(0)
+        }
+
+        fn totals(&self) -> Option<Totals> {
+            let kinetic_energy = self.kinetic[self.step];
+            let momentum = [4.0, 0.0, 0.0];
+            Some(Totals { mass: 2.0, momentum, kinetic_energy, ..Totals::default() })
+        }
+    }
+
+    /// With a modulus of 1/2 the stress stores 1 J.
+    fn watched(kinetic: &[f64], centred: bool) -> Trial {
+        let mut subject = Scripted { kinetic: kinetic.to_vec(), step: 0 };
+        let scales = Scales {
+            speed: 1.0,
+            modulus: 0.5,
+            stable_below: 2.0,
+            unstable_above: 100.0,
+            centred,
+            null_space: false,
+        };
+        trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
+    }
+
+    /// From 4 J to 12 and back to 2: that it grew is not forgotten.
+    #[test]
+    fn the_largest_energy_of_a_run_decides() {
+        let found = watched(&[3.0, 11.0, 1.0], false);
+        assert_eq!(found.verdict, Stability::BoundedGrowth);
+        let figures = [
+            (RunFigure::Energy, 3.0),
+            (RunFigure::EnergyKept, 0.5),
+            (RunFigure::KineticKept, 1.0 / 3.0),
+        ];
+        for (figure, expected) in figures {
+            assert_relative_eq!(figure.of(&found), expected, max_relative = 1e-14);
+        }
+        assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
+    }
+
+    /// 4 kg m/s of 2 kg are 4 J that are no size of the motion about the centre of mass.
+    #[test]
+    fn a_common_motion_is_left_out_where_it_is_asked() {
+        assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);
+        assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
+    }
+
+    /// A run that has grown within bounds confirms no prediction, on either side of it.
+    #[test]
+    fn bounded_growth_is_neither_stable_nor_unstable() {
+        let trial = watched(&[3.0, 11.0, 1.0], false);
+        for share in [0.9, 1.1] {
+            let prediction = Prediction { limit: StabilityLimit::At(1.0), leaves: None };
+            let critical = Critical {
+                predicted: Some(prediction),
+                confirmed: vec![(share, trial.clone())],
+                observed: None,
+            };
+            let row =
+                StabilityRow { value: 1.0, trial: None, critical: Some(critical), refused: None };
+            assert_eq!(StabilityExpectation::default().unmet(&row).len(), 1, "{share}");
+        }
+    }
+
+    #[test]
+    fn one_row_that_is_not_stable_fails_a_study() {
+        let row = |kinetic: &[f64]| StabilityRow {
+            value: 1.0,
+            trial: Some(watched(kinetic, false)),
+            critical: None,
+            refused: None,
+        };
+        let study = |rows| StabilityStudy {
+            swept: "C".to_owned(),
+            sought: None,
+            figures: Vec::new(),
+            rows,
+        };
+        let (stable, grown) = (row(&[3.0, 4.0]), row(&[3.0, 11.0]));
+        assert!(!study(vec![stable.clone(), stable.clone()]).fails());
+        assert!(study(vec![stable.clone(), grown]).fails());
+        assert!(study(vec![StabilityRow { trial: None, ..stable }]).fails());
+    }
+}

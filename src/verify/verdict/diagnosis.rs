@@ -115,3 +115,77 @@ impl Diagnosis {
         most.map(|run| (run, Evidence::Lowered))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::order::level::Level;
+    use crate::verify::verdict::judge::judge;
+
+    /// A judgement with this verdict and order.
+    fn found(verdict: Verdict, order: Interval) -> Judgement {
+        let none = judge(&[Level::new(1.0, 1.0)], &OrderHypothesis::formal(2.0));
+        Judgement { verdict, order: Some(order), ..none }
+    }
+
+    fn order(value: f64, half_width: f64) -> Interval {
+        Interval { value, low: value - half_width, high: value + half_width }
+    }
+
+    fn diagnosis(finest: (Verdict, Interval), run: (Verdict, Interval, f64)) -> Diagnosis {
+        let judgement = found(finest.0, finest.1);
+        let changed = ChangedRun {
+            change: String::new(),
+            cause: "the cause",
+            remedy: "",
+            verdict: run.0,
+            order: Some(run.1),
+            ratio: run.2,
+            is_finer: false,
+        };
+        Diagnosis {
+            case: String::new(),
+            formal_order: 2.0,
+            finest: judgement.clone(),
+            judgement,
+            levels: Vec::new(),
+            left_grid: false,
+            kink: None,
+            runs: vec![changed],
+            skipped: Vec::new(),
+        }
+    }
+
+    fn evidence(diagnosis: &Diagnosis) -> Option<Evidence> {
+        diagnosis.found().map(|(_, evidence)| evidence)
+    }
+
+    use Verdict::{Converging, TooLow};
+
+    /// 2.05 is nearer to 2 than 1.7, and 2.4 is not.
+    #[test]
+    fn the_order_that_is_nearer_to_theory_is_restored() {
+        let to = |value| (Converging, order(value, 0.05), 0.9);
+        let low = (TooLow, order(1.7, 0.05));
+        assert_eq!(evidence(&diagnosis(low, to(2.05))), Some(Evidence::Restored));
+        assert_eq!(evidence(&diagnosis(low, to(2.4))), None);
+    }
+
+    /// An order whose interval leaves the range of theory explains no order that was nearly right.
+    #[test]
+    fn an_order_nearly_right_is_restored_by_a_whole_interval() {
+        let near = (Converging, order(1.95, 0.04));
+        let to = |half_width| (Converging, order(2.0, half_width), 0.9);
+        assert_eq!(evidence(&diagnosis(near, to(0.05))), Some(Evidence::Restored));
+        assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
+    }
+
+    /// Finer levels have a smaller error whatever its cause is.
+    #[test]
+    fn a_smaller_error_of_finer_levels_is_no_evidence() {
+        let mut found = diagnosis((TooLow, order(1.0, 0.05)), (TooLow, order(1.0, 0.05), 0.25));
+        assert_eq!(evidence(&found), Some(Evidence::Lowered));
+        found.runs[0].is_finer = true;
+        assert_eq!(evidence(&found), None);
+    }
+}

@@ -124,6 +124,7 @@ mod tests {
     #[case::grows_then_stays(&[1.0, 2.0, 4.0, 4.0, 4.0], Some(0))]
     #[case::one_rise(&[9.0, 3.0, 1.0, 4.0], None)]
     #[case::small_rise(&[9.0, 3.0, 1.0, 1.2, 1.4], None)]
+    #[case::rises_and_turns(&[9.0, 3.0, 1.0, 2.0, 4.0, 3.0], None)]
     #[case::low_outlier(&[9.0, 3.0, 0.01, 0.3, 0.1], None)]
     #[case::falling(&[8.0, 4.0, 2.0, 1.0], None)]
     #[case::three_levels(&[1.0, 2.0, 4.0], None)]
@@ -136,6 +137,7 @@ mod tests {
     #[case::after_a_fall(&[16.0, 4.0, 1.0, 1.1, 0.9], Some(2))]
     #[case::one_flat_pair(&[64.0, 16.0, 4.0, 4.0], None)]
     #[case::slow_fall(&[4.0, 3.0, 2.2, 1.6], None)]
+    #[case::slow_rise(&[16.0, 4.0, 1.0, 1.3, 1.6], None)]
     #[case::wide(&[1.0, 3.0, 1.0, 3.0], None)]
     #[case::after_a_rise(&[1.0, 3.0, 3.0, 3.0], None)]
     #[case::two_levels(&[1.0, 1.0], None)]
@@ -145,11 +147,13 @@ mod tests {
 
     #[rstest]
     #[case::even(&[1.0, 2.0, 1.0, 2.0, 1.0], true)]
+    #[case::just_above_the_noise(&[1.0, 1.6, 1.0, 1.6, 1.0], true)]
     #[case::four_levels(&[2.0, 1.0, 2.0, 1.0], true)]
     #[case::with_a_slight_trend(&[1.0, 0.1, 0.5, 0.05, 0.25, 0.025], true)]
     #[case::with_a_clear_trend(&[1.0, 0.1, 0.12, 0.01, 0.012], false)]
     #[case::noise_of_a_floor(&[1.0, 1.2, 0.9, 1.1, 0.8], false)]
     #[case::one_outlier(&[1.0, 0.5, 1.25, 0.125, 0.0625], false)]
+    #[case::one_outlier_on_a_plateau(&[1.0, 0.5, 2.0, 1.0, 0.9], false)]
     #[case::growing(&[1.0, 2.0, 4.0, 8.0], false)]
     fn oscillations(#[case] errors: &[f64], #[case] expected: bool) {
         assert_eq!(oscillates(&points(errors)), expected);

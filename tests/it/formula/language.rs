@@ -43,6 +43,8 @@ use super::{Expr, bind};
 #[case("bessel_j1(1)", 0.440_050_585_744_933_5)]
 #[case("lambert_w(exp(1))", 1.0)]
 #[case("4*atan2(1,1)", PI)]
+#[case("atan2(0,-1)", PI)]
+#[case("2*atan2(1,0)", PI)]
 #[case("sum(n,1,4,n^2)", 30.0)]
 #[case("sum(n,3,2,n)", 0.0)]
 #[case("sum(n,-1,1,n+1)", 3.0)]

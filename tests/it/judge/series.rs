@@ -3,7 +3,7 @@
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
-use super::{Random, halved, judged};
+use super::{Random, halved, halvings, judged};
 use mpm_verify::verify::{Level, OrderHypothesis, Verdict, judge};
 
 const POWERS_OF_4: [f64; 6] = [1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25, 0.000_976_562_5];
@@ -95,6 +95,15 @@ fn a_plateau_of_another_axis_is_a_floor_and_the_order_before_is_kept() {
     assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.03);
 }
 
+/// Levels behind the first error of zero are those of the floor, whatever they show.
+#[test]
+fn the_order_before_a_floor_is_that_of_the_levels_before_it() {
+    let judgement = judged(&[1.0, 0.25, 0.0625, 0.015_625, 0.0, 0.002, 0.0005], 2.0);
+    assert_eq!(judgement.verdict, Verdict::AtFloor, "{}", judgement.reason);
+    assert_eq!(judgement.window, Some(vec![0, 1, 2, 3]));
+    assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 1e-12);
+}
+
 /// Levels whose spacings have this ratio, from 1 on, with errors of order 2.
 fn levels_by(ratio: f64, levels: usize) -> Vec<Level> {
     let spacing = |k: usize| libm::pow(ratio, -(k as f64));
@@ -173,6 +182,16 @@ fn an_unusable_level_in_between_is_skipped_and_one_that_failed_is_not() {
     let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Failed);
     assert_eq!(judgement.reason, "h = 0.25: particle 7 left the domain at t = 0.2");
+}
+
+/// A level that does not count is not quoted either.
+#[test]
+fn a_floor_is_that_of_usable_levels() {
+    let mut series = halvings(&[16.0, 4.0, 1.0, 0.0, 0.0, 0.0]);
+    series[4] = Level::new(series[4].h, 7.0).unusable();
+    let judgement = judge(&series, &OrderHypothesis::formal(2.0));
+    let reason = "the error stays at 0 from h = 0.125 on";
+    assert!(judgement.reason.starts_with(reason), "{}", judgement.reason);
 }
 
 #[rstest]

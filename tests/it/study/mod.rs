@@ -1,6 +1,7 @@
 //! Studies, run through their runner.
 
 mod diagnosis;
+mod error_scale;
 mod fine_grid;
 mod foundation;
 mod interrupted;

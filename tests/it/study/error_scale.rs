@@ -1,0 +1,37 @@
+//! Scales that make errors and work of different cases comparable, of a bar whose solution is known.
+
+use crate::cli::BAR;
+use approx::assert_relative_eq;
+use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::ErrorScale;
+use rstest::rstest;
+
+/// The scale of the first case of the bar, whose text is changed.
+fn scale(from: &str, to: &str) -> ErrorScale {
+    let text = BAR.replace(from, to);
+    assert!(text != BAR || from == to, "no `{from}`");
+    let suite = Suite::load(&Source::from_text("short-bar.yaml", text).unwrap()).unwrap();
+    let outcome = Runner::new(&suite).run(&|| ());
+    outcome.cases[0].convergence().unwrap().error_scale.clone()
+}
+
+/// The free end has the largest displacement, 1e-3 sin(omega t)/omega, an eighth of a period after
+/// the start.
+#[test]
+fn the_size_is_that_of_the_largest_displacement() {
+    let largest = 1e-3 * 0.5_f64.sqrt() / (5.0 * std::f64::consts::PI);
+    assert_relative_eq!(scale("", "").size, largest, max_relative = 1e-12);
+    let stated = "judge: {scale: 1e-4}\nobserve:";
+    assert_relative_eq!(scale("observe:", stated).size, 1.0);
+}
+
+/// One power for the axis of the bar, and as many as the step has of the spacing.
+#[rstest]
+#[case::constant("dt: 1e-3", 1.0)]
+#[case::with_the_spacing("dt: \"h/250\"", 2.0)]
+#[case::with_its_square("dt: \"h^2/63\"", 3.0)]
+fn work_grows_with_the_steps(#[case] dt: &str, #[case] growth: f64) {
+    assert_relative_eq!(scale("dt: 1e-3", dt).growth, growth, max_relative = 0.05);
+}
