@@ -56,16 +56,23 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// The sides of a panel that are upright or level, whatever the map calls them.
+    /// Sides by axis and direction, with their length and place.
+    type Sides<'a> = &'a [(usize, f64, f64, f64)];
+
+    /// The sides of a panel that are upright or level, however steeply its rows rise.
     #[rstest]
-    fn each_side_is_found(#[values(0, 1, 2, 3)] first: usize) {
-        let mut corners = [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
-        corners.rotate_left(first);
+    #[case::slanting(
+        [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]],
+        &[(0, -1.0, 2.0, 0.0), (1, -1.0, 3.0, 0.0), (1, 1.0, 2.0, 2.0)]
+    )]
+    #[case::steep(
+        [[0.0, 0.0], [1.0, 2.0], [1.0, 4.0], [0.0, 2.0]],
+        &[(0, -1.0, 2.0, 0.0), (0, 1.0, 2.0, 1.0)]
+    )]
+    fn each_side_is_found(#[case] corners: [[f64; 2]; 4], #[case] sides: Sides<'_>) {
         let panel = Quadrilateral::new(corners.map(Vector::from)).unwrap();
         let particles = panel.fill::<2>(1.0, 0.5, 2);
-        for (axis, outwards, length, place) in
-            [(0, -1.0, 2.0, 0.0), (1, -1.0, 3.0, 0.0), (1, 1.0, 2.0, 2.0)]
-        {
+        for &(axis, outwards, length, place) in sides {
             let face = super::MappedFace::of(&particles, axis, outwards).unwrap();
             assert_relative_eq!(face.area * face.layer.len() as f64, length, max_relative = 1e-12);
             let (column, sign) = face.column;
