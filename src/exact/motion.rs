@@ -236,6 +236,17 @@ mod tests {
     }
 
     #[test]
+    fn a_deformation_gradient_has_the_identity() {
+        let bind = |text: &str| {
+            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
+        };
+        let motion = Motion::new(["t*Y", "Y"].map(bind).to_vec());
+        let mut f = [f64::NAN; 4];
+        assert!(Truth::deformation_gradient(&motion, &[0.3, 0.7], 0.5, &mut f));
+        assert_eq!(f, [1.0, 0.5, 0.0, 2.0]);
+    }
+
+    #[test]
     fn a_motion_varies_along_the_axes_that_it_reads() {
         let bind = |text: &str| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()

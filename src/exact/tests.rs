@@ -226,6 +226,14 @@ pub(super) fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
     }
 }
 
+/// A thousand oscillations within the step of a difference.
+#[test]
+fn two_differentiations_that_disagree_are_refused() {
+    let fast = bar("X*sin(1e9*t)", free());
+    let found = super::check::differences::differentiation(&fast).unwrap_err();
+    assert!(found.condition.starts_with("agreement of two differentiations"), "{found}");
+}
+
 /// The strain is 1/50 in the first half of the bar and 1/100 in the second, twice as stiff one.
 #[test]
 fn the_stress_of_several_bodies_is_that_of_each() {

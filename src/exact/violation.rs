@@ -43,3 +43,19 @@ fn coordinate(value: f64) -> String {
 }
 
 impl std::error::Error for Violation {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(0.0, "0.000000")]
+    #[case(-0.25, "-0.250000")]
+    #[case(1e-3, "0.001000")]
+    #[case(-2.5e-4, "-2.500000e-4")]
+    #[case(1e6, "1.000000e6")]
+    fn coordinates_have_digits(#[case] value: f64, #[case] text: &str) {
+        assert_eq!(coordinate(value), text);
+    }
+}

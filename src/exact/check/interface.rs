@@ -223,6 +223,29 @@ mod tests {
         }
     }
 
+    /// Plates that are pressed together and move along their common face, each with its velocity.
+    #[rstest]
+    #[case::together(["t/10", "t/10"], "")]
+    #[case::past_each_other(["0", "t/10"], "traction in Y against the velocity")]
+    fn two_pressed_plates(#[case] along: [&str; 2], #[case] violated: &str) {
+        let bind = |source: &str| {
+            let expr = Expr::parse(source).unwrap();
+            Formula::bind(&expr, &Scope::new(), &["X", "Y", "t"]).unwrap()
+        };
+        let [one, other] = bars("X");
+        let [one, other] = [(one, along[0]), (other, along[1])].map(|(bar, along)| Problem {
+            from: vec![bar.from[0], 0.0],
+            to: vec![bar.to[0], 1.0],
+            motion: Motion::new(vec![bind("-X/100"), bind(along)]),
+            ..bar
+        });
+        let found = meets(&one, &other, 0, Some(0.3)).map_err(|found| found.condition);
+        match found {
+            Ok(()) => assert!(violated.is_empty(), "`{violated}` was not seen"),
+            Err(found) => assert!(!violated.is_empty() && found.contains(violated), "{found}"),
+        }
+    }
+
     #[test]
     fn the_bars_are_sound_each_for_itself() {
         for bar in bars(BOUNCE) {

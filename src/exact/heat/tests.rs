@@ -172,6 +172,15 @@ fn a_wrong_condition_on_a_face_is_refused(#[case] wrong: Ends, #[case] words: &s
     }
 }
 
+/// Its jump counts against the temperature, however large or small this is.
+#[rstest]
+fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str) {
+    let bar = |shape: &str| bar(&format!("{size}*{shape}"), [Ends::Periodic, Ends::Periodic]);
+    bar("(5 + cos(2*pi*X)*exp(-2*pi^2*t))").check().unwrap();
+    refused(&bar("X"), "left is periodic, the temperature");
+    refused(&bar("cos(pi*(X - 1/2))*exp(-pi^2*t/2)"), "left is periodic, the flow of heat");
+}
+
 /// The root is 0.86033...: the fourth digit is enough to be refused.
 #[test]
 fn a_root_of_the_eigenvalue_equation_is_verified() {

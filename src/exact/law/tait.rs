@@ -64,4 +64,11 @@ mod tests {
     fn stress_is_the_derivative_of_the_energy() {
         assert_stress_is_derivative(&TaitLaw::new(50.0, 0.0));
     }
+
+    #[test]
+    fn a_viscous_fluid_has_a_state_of_rest_only() {
+        let viscous = TaitLaw::new(50.0, 1e-3);
+        assert!(viscous.admits(2, true).is_ok() && viscous.admits(2, false).is_err());
+        assert!(TaitLaw::new(50.0, 0.0).admits(2, false).is_ok());
+    }
 }

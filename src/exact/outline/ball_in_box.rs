@@ -84,7 +84,12 @@ mod tests {
     #[case::a_cap_along_another_axis(&[(0.5, 3.0), (-2.0, 2.0), (-1.0, 1.0)], 5.0 * PI / 24.0)]
     #[case::a_box_in_the_ball(&[(-0.1, 0.2), (0.3, 0.5), (0.0, 0.5)], 0.03)]
     fn a_closed_form_is_met(#[case] ends: &[(f64, f64)], #[case] volume: f64) {
-        assert_relative_eq!(ball_in_box(1.0, ends), volume, max_relative = 1e-11, epsilon = 1e-15);
+        for scale in [1.0, 0.01, 3.0] {
+            let ends: Vec<_> = ends.iter().map(|(low, high)| (scale * low, scale * high)).collect();
+            let volume = volume * scale.powi(ends.len() as i32);
+            let found = ball_in_box(scale, &ends);
+            assert_relative_eq!(found, volume, max_relative = 1e-11, epsilon = 1e-15);
+        }
     }
 
     proptest! {

@@ -198,6 +198,16 @@ mod tests {
         }
     }
 
+    /// Its polygon is closed and has the area of the body, whose hole goes round the other way.
+    #[rstest]
+    fn the_drawn_rims_are_those_of_the_body(#[values(0.0, 0.4)] inner: f64) {
+        let trace = Round { centre: vec![1.0, 2.0], inner, outer: 1.5 }.trace();
+        let next = trace.iter().cycle().skip(1);
+        let doubled: f64 = trace.iter().zip(next).map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum();
+        let area = std::f64::consts::PI * (1.5 * 1.5 - inner * inner);
+        assert!((0.5 * doubled / area - 1.0).abs() < 0.01, "{doubled}");
+    }
+
     /// Half of the points of a body lie nearer to its centre than the radius that halves it.
     #[rstest]
     #[case(2, 0.75, 1.25)]

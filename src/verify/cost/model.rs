@@ -175,6 +175,14 @@ mod tests {
         assert_eq!(Model::fit(&[(nothing, 1.0)]), None);
     }
 
+    #[test]
+    fn a_run_that_took_no_time_is_left_out() {
+        let mut runs = runs([2e-9, 0.0, 5e-9, 1e-7], 0.0);
+        let model = Model::fit(&runs);
+        runs.extend([0.0, -1.0, f64::INFINITY, f64::NAN].map(|seconds| (load(64.0), seconds)));
+        assert_eq!(Model::fit(&runs), model);
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 

@@ -86,6 +86,7 @@ mod tests {
     #[case::one_step(0.5, 1.0, 50, Some((1, 1)))]
     #[case::zero(0.5, 0.0, 50, None)]
     #[case::negative(0.5, -1e-3, 50, None)]
+    #[case::no_time(0.0, 1e-3, 50, None)]
     #[case::nan(0.5, f64::NAN, 50, None)]
     #[case::no_instants(0.5, 1e-3, 0, None)]
     #[case::years(1.0, 1e-12, 50, None)]

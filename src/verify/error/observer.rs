@@ -145,6 +145,23 @@ mod tests {
     }
 
     #[test]
+    fn a_history_is_that_of_its_label() {
+        struct Falls;
+        impl Truth for Falls {
+            fn displacement(&self, _: &[f64], _: f64, _: &mut [f64]) {}
+            fn velocity(&self, _: &[f64], t: f64, into: &mut [f64]) {
+                into.copy_from_slice(&[2.0 * t, -t]);
+            }
+        }
+        let velocity = (0..20).map(f64::from).collect();
+        let samples = Samples { velocity, ..plate() };
+        let (at, mut history) = History::start(&samples, &[0.8, 1.1]).unwrap();
+        assert_eq!((at, history.label.as_slice()), (8, &[0.75, 1.0][..]));
+        history.record(at, &samples, &Falls, 7.0);
+        assert_eq!(history.velocity, [[7.0, 16.0, 14.0]]);
+    }
+
+    #[test]
     fn a_truth_at_rest_has_no_relative_velocity_error() {
         let history = History { label: vec![0.0], velocity: vec![[0.0, 1e-9, 0.0]] };
         assert_eq!(history.relative_error(), None);

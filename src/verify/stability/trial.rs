@@ -361,4 +361,13 @@ mod tests {
         assert!(study(vec![stable.clone(), grown]).fails());
         assert!(study(vec![StabilityRow { trial: None, ..stable }]).fails());
     }
+
+    #[test]
+    fn the_fastest_counts_whatever_its_direction() {
+        let velocity = vec![1.0, -1.0, 3.0, -4.0, 0.0, 4.5];
+        assert_eq!(fastest(&Samples { dimension: 2, velocity, ..Samples::default() }), 5.0);
+        assert_eq!(fastest(&Samples::default()), 0.0);
+        let velocity = vec![1.0, f64::NAN, 2.0];
+        assert!(fastest(&Samples { dimension: 1, velocity, ..Samples::default() }).is_nan());
+    }
 }
