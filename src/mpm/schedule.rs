@@ -46,22 +46,30 @@ pub(super) enum CouplingPoint {
 }
 
 impl Pass {
-    /// The pass as reports list it: `P2G(mass, momentum)`. A stage that has a pass of P2G or G2P is
-    /// named there only; `state` are the passes of the effects' own state.
-    fn texts(self, state: &[&str]) -> Vec<String> {
+    /// Name of the pass, `P2G(mass, momentum)`. The rest of a stage has the name of the stage.
+    pub(super) fn name(self) -> String {
         let of = |kind: &str, stages: &[Stage]| {
             let names: Vec<&str> = stages.iter().map(|stage| stage.name()).collect();
-            vec![format!("{kind}({})", names.join(", "))]
+            format!("{kind}({})", names.join(", "))
         };
         match self {
             Self::P2g(stages) => of("P2G", stages),
             Self::G2p(stages) => of("G2P", stages),
-            Self::Update(stage @ (Stage::Acceleration | Stage::GridVelocity)) => {
-                vec![stage.name().to_owned()]
-            }
-            Self::Update(_) => Vec::new(),
+            Self::Update(stage) => stage.name().to_owned(),
+            Self::IntegrateState => "state of effects".to_owned(),
+            Self::Couple(point) => format!("coupling({})", point.name()),
+        }
+    }
+
+    /// The pass as reports list it. A stage that has a pass of P2G or G2P is named there only;
+    /// `state` are the passes of the effects' own state.
+    fn texts(self, state: &[&str]) -> Vec<String> {
+        match self {
             Self::IntegrateState => state.iter().map(|pass| (*pass).to_owned()).collect(),
-            Self::Couple(point) => vec![format!("coupling({})", point.name())],
+            Self::Update(stage) if !matches!(stage, Stage::Acceleration | Stage::GridVelocity) => {
+                Vec::new()
+            }
+            _ => vec![self.name()],
         }
     }
 }

@@ -11,9 +11,40 @@ use crate::subject::{
 };
 
 impl<const D: usize> Solver<D> {
+    /// The step of [`Subject::step`], which calls `after` with the name of each pass when it is done:
+    /// for those who time passes.
+    ///
+    /// # Errors
+    /// Those of [`Subject::step`].
+    pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
+        self.step_with(dt, &mut |pass| after(pass.name()))
+    }
+
+    fn step_with(&mut self, dt: f64, after: &mut dyn FnMut(Pass)) -> Result<(), Failure> {
+        let StepSchedule { opening, passes } = self.schedule.clone();
+        if !self.started {
+            self.open(dt);
+            self.run_each(&opening, dt, after)?;
+            self.opened(dt);
+        }
+        self.run_each(&passes, dt, after)?;
+        self.time += dt;
+        Ok(())
+    }
+
     pub(super) fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
+        self.run_each(passes, dt, &mut |_| {})
+    }
+
+    fn run_each(
+        &mut self,
+        passes: &[Pass],
+        dt: f64,
+        after: &mut dyn FnMut(Pass),
+    ) -> Result<(), Failure> {
         for pass in passes {
             self.run(*pass, dt)?;
+            after(*pass);
         }
         Ok(())
     }
@@ -57,15 +88,7 @@ impl<const D: usize> Solver<D> {
 
 impl<const D: usize> Subject for Solver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        let StepSchedule { opening, passes } = self.schedule.clone();
-        if !self.started {
-            self.open(dt);
-            self.run_all(&opening, dt)?;
-            self.opened(dt);
-        }
-        self.run_all(&passes, dt)?;
-        self.time += dt;
-        Ok(())
+        self.step_with(dt, &mut |_| {})
     }
 
     fn sample(&self, samples: &mut Samples) {

@@ -4,6 +4,7 @@ mod gimp;
 mod heat;
 mod kernel;
 mod null_space;
+mod passes;
 mod reaction;
 mod second_opinion;
 mod stable_time_step;

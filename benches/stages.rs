@@ -1,0 +1,95 @@
+//! Where the time of a step goes, pass by pass, and what a second thread brings to each.
+//!
+//! `cargo bench --bench stages` times steps of 1e4 particles of six methods; a number takes as many
+//! particles (`-- 1e6`), and words select methods (`-- 1e6 3d mls`). One thread and two take turns,
+//! and the shortest time of each pass counts. Nothing is timed before a step has kept momentum.
+
+#[path = "transfer/check.rs"]
+#[allow(dead_code, reason = "those of passes are for the bench of transfers")]
+mod check;
+#[path = "common/random.rs"]
+mod random;
+#[path = "transfer/scene.rs"]
+#[allow(dead_code, reason = "the passes are for the bench of transfers")]
+mod scene;
+
+use check::checked_solver;
+use mpm_verify::mpm::{BasisName, MaterialPlan, SchemeName, Solver, TransferName};
+use rayon::ThreadPoolBuilder;
+use scene::{Method, Order, total};
+use std::time::Instant;
+
+/// Length of a step (s): no particle leaves its cell, however many steps are made.
+const DT: f64 = 1e-12;
+
+/// Shortest times of a pass (s), on one thread and on two.
+struct PassTime {
+    name: String,
+    shortest: [f64; 2],
+}
+
+/// Steps on `threads` threads until at least five, and half a second of them, are made.
+fn step<const D: usize>(solver: &mut Solver<D>, threads: usize, passes: &mut Vec<PassTime>) {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+    let (begin, mut steps) = (Instant::now(), 0);
+    while steps < 5 || begin.elapsed().as_secs_f64() < 0.5 {
+        pool.install(|| {
+            let (mut index, mut last) = (0, Instant::now());
+            let mut after = |name: String| {
+                if index == passes.len() {
+                    passes.push(PassTime { name, shortest: [f64::INFINITY; 2] });
+                }
+                let shortest = &mut passes[index].shortest[threads - 1];
+                *shortest = shortest.min(last.elapsed().as_secs_f64());
+                (index, last) = (index + 1, Instant::now());
+            };
+            solver.step_by_pass(DT, &mut after).expect("a step succeeds");
+        });
+        steps += 1;
+    }
+}
+
+fn profile<const D: usize>(
+    words: &[String],
+    count: usize,
+    (basis, transfer, scheme): (BasisName, TransferName, SchemeName),
+) {
+    let id = format!("{D}d/{}/{}/{}", basis.name(), transfer.name(), scheme.name());
+    if !words.iter().all(|word| id.contains(word.as_str())) {
+        return;
+    }
+    let (method, grid, particles) = Method::<D>::new((basis, transfer), Order::Sorted, count);
+    let law = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.3 };
+    let mut solver = checked_solver(&id, DT, (scheme, law), method, (grid, particles));
+    let mut passes = Vec::new();
+    for _ in 0..2 {
+        step(&mut solver, 1, &mut passes);
+        step(&mut solver, 2, &mut passes);
+    }
+    let whole = |threads: usize| passes.iter().map(|pass| pass.shortest[threads - 1]).sum::<f64>();
+    let (per_particle, all) = (1e9 / total::<D>(count) as f64, whole(1));
+    println!("{id}, {count:e} particles");
+    let line = |name: &str, [one, two]: [f64; 2]| {
+        let (share, faster) = (100.0 * one / all, one / two);
+        println!("  {name:<44} {:>8.2} {share:>5.1} % {faster:>6.2}", one * per_particle);
+    };
+    for PassTime { name, shortest } in &passes {
+        line(name, *shortest);
+    }
+    line("a step", [all, whole(2)]);
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
+    let (numbers, words): (Vec<String>, Vec<String>) =
+        words.into_iter().partition(|word| word.parse::<f64>().is_ok());
+    let count = numbers.first().and_then(|word| word.parse::<f64>().ok()).unwrap_or(1e4) as usize;
+    println!("ns per particle on one thread, share of the step, times faster on two threads");
+    let (quadratic, usl) = (BasisName::QuadraticBSpline, SchemeName::Usl);
+    profile::<1>(&words, count, (BasisName::Linear, TransferName::Flip, SchemeName::Musl));
+    profile::<2>(&words, count, (quadratic, TransferName::Mls, usl));
+    profile::<3>(&words, count, (quadratic, TransferName::Flip, usl));
+    profile::<3>(&words, count, (quadratic, TransferName::Flip, SchemeName::Musl));
+    profile::<3>(&words, count, (quadratic, TransferName::Apic, usl));
+    profile::<3>(&words, count, (quadratic, TransferName::Mls, usl));
+}
