@@ -50,7 +50,8 @@ impl<const D: usize> Solver<D> {
         for effect in effects {
             effect.start(material.as_mut(), particles);
         }
-        particles.strained_finite()?;
+        particles.deformed_finite()?;
+        particles.stressed_finite()?;
         if setup.frame == FrameName::Total {
             setup.particles.stay_in_reference();
         }

@@ -22,7 +22,12 @@ impl<const D: usize> Solver<D> {
         }
         strain(effects, material.as_mut(), dt, particles);
         self.jacobians()?;
-        self.setup.particles.strained_finite()
+        let Setup { particles, material, .. } = &self.setup;
+        // A law of F takes J from F: each number of F is a factor in J, which is finite by now.
+        if !material.reads_deformation() {
+            particles.deformed_finite()?;
+        }
+        particles.stressed_finite()
     }
 
     /// `J = V / V0` of every particle: the smallest so far is kept.

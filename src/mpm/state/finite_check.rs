@@ -23,15 +23,23 @@ impl<const D: usize> Particles<D> {
         first("volume", &self.vol, |vol| vol.is_finite())?;
         first("velocity gradient", &self.grad_v, matrix)?;
         first("temperature", &self.temperature, |t| t.is_finite())?;
-        self.strained_finite()
+        self.deformed_finite()?;
+        self.stressed_finite()
     }
 
-    /// The same for F and the stress, after an update from velocity gradients.
+    /// The same for F, after an update from velocity gradients.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
-    pub(in crate::mpm) fn strained_finite(&self) -> Result<(), Failure> {
-        first("deformation gradient", &self.def_grad, matrix)?;
+    pub(in crate::mpm) fn deformed_finite(&self) -> Result<(), Failure> {
+        first("deformation gradient", &self.def_grad, matrix)
+    }
+
+    /// The same for stresses.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(in crate::mpm) fn stressed_finite(&self) -> Result<(), Failure> {
         first("hoop stress", &self.stress_across, |s| s.is_finite())?;
         first("stress", &self.sigma, matrix)
     }
