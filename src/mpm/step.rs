@@ -11,7 +11,7 @@ use crate::subject::{
 };
 
 impl<const D: usize> Solver<D> {
-    /// The step of [`Subject::step`], which calls `after` with the name of each pass when it is done:
+    /// The step of [`Subject::step`]; `after` is called with the name of each pass when it is done,
     /// for those who time passes.
     ///
     /// # Errors

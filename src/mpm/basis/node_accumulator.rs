@@ -10,21 +10,21 @@ use crate::mpm::simd::Simd;
 
 /// Field under way, with the sums of K nodes in a row.
 #[derive(Debug)]
-pub(super) struct NodeAccumulator<'a, S: Simd, const K: usize> {
+pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     pub(in crate::mpm) simd: S,
-    pub(in crate::mpm) field: FieldViewMut<'a>,
+    pub(in crate::mpm) field: FieldViewMut<'a, N>,
     /// First of the nodes whose sums are in registers, or [`NONE`].
     start: usize,
-    sums: [S::F64x4; K],
+    sums: [N::Lanes<S>; K],
 }
 
 /// No node.
 const NONE: usize = usize::MAX;
 
-impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
+impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
     #[inline(always)]
-    pub(in crate::mpm) fn new(simd: S, field: FieldViewMut<'a>) -> Self {
-        Self { simd, field, start: NONE, sums: [simd.splat(0.0); K] }
+    pub(in crate::mpm) fn new(simd: S, field: FieldViewMut<'a, N>) -> Self {
+        Self { simd, field, start: NONE, sums: [N::splat(simd, 0.0); K] }
     }
 
     /// Adds to row `j` of plane `k` of the box of nodes from `start` on, in D dimensions.
@@ -34,23 +34,27 @@ impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
         &mut self,
         start: usize,
         (j, k): (usize, usize),
-        with_term: impl Fn(usize, S::F64x4) -> S::F64x4,
+        with_term: impl Fn(usize, N::Lanes<S>) -> N::Lanes<S>,
     ) {
         if D == 1 {
             return self.add_in_registers(start, with_term);
         }
         let row = self.field.row::<K>(start + self.field.layout.row(j, k));
-        for (i, PackedNode(node)) in row.iter_mut().enumerate() {
-            *node = with_term(i, self.simd.load(*node)).into();
+        for (i, node) in row.iter_mut().enumerate() {
+            node.store::<S>(with_term(i, node.load(self.simd)));
         }
     }
 
     #[inline(always)]
-    fn add_in_registers(&mut self, start: usize, with_term: impl Fn(usize, S::F64x4) -> S::F64x4) {
+    fn add_in_registers(
+        &mut self,
+        start: usize,
+        with_term: impl Fn(usize, N::Lanes<S>) -> N::Lanes<S>,
+    ) {
         if start != self.start {
             self.flush();
             let row = self.field.row::<K>(start);
-            self.sums = array(self.sums[0], |i| self.simd.load(row[i].0));
+            self.sums = array(self.sums[0], |i| row[i].load(self.simd));
             self.start = start;
         }
         for i in 0..K {
@@ -64,7 +68,7 @@ impl<'a, S: Simd, const K: usize> NodeAccumulator<'a, S, K> {
         if self.start != NONE {
             let row = self.field.row::<K>(self.start);
             for i in 0..K {
-                row[i].0 = self.sums[i].into();
+                row[i].store::<S>(self.sums[i]);
             }
             self.start = NONE;
         }

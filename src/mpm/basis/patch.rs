@@ -1,9 +1,9 @@
 //! Patches: the nodes of a particle and the functions there.
 
-use crate::mpm::algebra::{Matrix, Vector, array};
+use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{FieldView, FieldViewMut, Layout};
-use crate::mpm::simd::{F64x4, Simd};
+use crate::mpm::packed_grid::{FieldView, FieldViewMut, Layout, PackedNode};
+use crate::mpm::simd::{Register, Simd};
 use std::fmt::Debug;
 use std::ops::Range;
 
@@ -50,8 +50,8 @@ pub trait Patch<const D: usize>: Copy {
 }
 
 /// Contribution of a particle to each of its nodes,
-/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, four components at
-/// once. Parts that are absent cost nothing.
+/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, all components of a
+/// node at once. Parts that are absent cost nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeTerm<F, const D: usize> {
     /// Constant part.
@@ -62,22 +62,9 @@ pub struct NodeTerm<F, const D: usize> {
     pub flux: Option<[F; D]>,
 }
 
-impl<F: F64x4, const D: usize> NodeTerm<F, D> {
+impl<F: Register, const D: usize> NodeTerm<F, D> {
     /// No part.
     pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
-
-    /// Momentum of an affine velocity field: `value` is m v, `slope` C.
-    #[inline(always)]
-    pub(in crate::mpm) fn affine(value: F, slope: [F; D], m: f64) -> Self {
-        let slope = array(slope[0], |axis| slope[axis] * m);
-        Self { value: Some(value), slope: Some(slope), flux: None }
-    }
-
-    /// Part along the gradient alone.
-    #[inline(always)]
-    pub(in crate::mpm) fn flux(flux: [F; D]) -> Self {
-        Self { flux: Some(flux), ..Self::NONE }
-    }
 }
 
 /// Patches of a batch of particles. Weights are computed for four particles at once; the loops over
@@ -104,12 +91,12 @@ pub trait PatchBatch<const D: usize>: Debug {
     fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
     /// Adds the terms of particles, each with its lane, to their nodes in `field`.
-    fn scatter<S: Simd, T>(
+    fn scatter<S: Simd, N: PackedNode, T>(
         &self,
         simd: S,
-        field: FieldViewMut<'_>,
+        field: FieldViewMut<'_, N>,
         particles: impl Iterator<Item = (usize, T)>,
-        term: impl Fn(usize, T) -> NodeTerm<S::F64x4, D>,
+        term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
     );
 
     /// `sum_i field_i N_i`.

@@ -4,8 +4,8 @@ use super::node_accumulator::NodeAccumulator;
 use super::patch::{NodeTerm, PatchBatch};
 use super::weights_1d_batch::{Weights1dBatch, of};
 use crate::mpm::algebra::{Vector, array};
-use crate::mpm::packed_grid::{FieldView, FieldViewMut};
-use crate::mpm::simd::{BATCH, F64Batch, F64x4, LANES, Simd, registers_of};
+use crate::mpm::packed_grid::{FieldView, FieldViewMut, PackedNode};
+use crate::mpm::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
 use std::ops::Range;
 
 /// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its
@@ -21,6 +21,15 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
     /// Weights of the rows of a plane times those of the planes.
     row_weights: [[F64Batch; K]; K],
+}
+
+/// `sum + a b`, where there is a sum.
+#[inline(always)]
+fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
+    match sum {
+        Some(sum) => sum.plus_product(a, b),
+        None => a * b,
+    }
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
@@ -51,21 +60,26 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
     }
 
-    /// `flux . grad` of row `j` in plane `k` without the factor of the first axis.
+    /// Adds `flux . grad` of row `j` in plane `k` without its part along the first axis.
     #[inline(always)]
-    fn flux_across<F: F64x4>(&self, lane: usize, flux: &[F; D], j: usize, k: usize) -> F {
-        let slope = self.axes[1].slope[j].get(lane);
-        let mut across = flux[1] * (slope * self.weight(lane, 2, k));
-        if D > 2 {
-            let slope = self.axes[2].slope[k].get(lane);
-            across = across.plus_product(flux[2], slope * self.weight(lane, 1, j));
+    fn flux_across<F: Register>(
+        &self,
+        lane: usize,
+        sum: Option<F>,
+        flux: &[F; D],
+        (j, k): (usize, usize),
+    ) -> F {
+        let along = self.axes[1].slope[j].get(lane) * self.weight(lane, 2, k);
+        let sum = plus_product(sum, flux[1], along);
+        if D == 2 {
+            return sum;
         }
-        across
+        sum.plus_product(flux[2], self.axes[2].slope[k].get(lane) * self.weight(lane, 1, j))
     }
 
     /// The flux as a part of the value, where gradients are weights times a vector.
     #[inline(always)]
-    fn fold_flux<F: F64x4>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
+    fn fold_flux<F: Register>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
         let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
         let outward = &outward[lane % BATCH];
         let mut value = flux[0] * outward[0];
@@ -78,29 +92,29 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         NodeTerm { value: Some(value), flux: None, ..term }
     }
 
-    /// Adds the term of particle `lane` to its nodes: row after row, each part factorised by axes,
-    /// so that a node costs a product and a sum for each part, not for each axis.
+    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) takes
+    /// `first_i weight_jk + row_jk weight_i`: a product and a sum twice, not for each axis.
     #[inline(always)]
-    fn add<S: Simd>(
+    fn add<S: Simd, N: PackedNode>(
         &self,
         lane: usize,
-        term: NodeTerm<S::F64x4, D>,
-        accumulator: &mut NodeAccumulator<'_, S, K>,
+        term: NodeTerm<N::Lanes<S>, D>,
+        accumulator: &mut NodeAccumulator<'_, S, N, K>,
     ) {
         let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
-        let (start, x, zero) = (self.start(lane), &self.axes[0], accumulator.simd.splat(0.0));
-        let weights = of(&x.weight, lane);
-        // The parts along the first axis are the same for all rows.
-        let (mut growth, mut rise, mut along) = (None, None, None);
-        if let Some(slope) = &slope {
-            growth = Some(array::<K, _>(zero, |i| slope[0] * x.weighted_offset[i].get(lane)));
-            if D > 1 {
-                let y = &self.axes[1];
-                rise = Some(array::<K, _>(zero, |j| slope[1] * y.offset_from_mean[j].get(lane)));
+        let (start, x, weights) = (self.start(lane), &self.axes[0], of(&self.axes[0].weight, lane));
+        // Loops, as closures are not always inlined.
+        let (mut first, mut rise) = ([None; K], [None; K]);
+        for i in 0..K {
+            if let Some(slope) = &slope {
+                first[i] = Some(slope[0] * x.weighted_offset[i].get(lane));
+                if D > 1 {
+                    rise[i] = Some(slope[1] * self.axes[1].offset_from_mean[i].get(lane));
+                }
             }
-        }
-        if let Some(flux) = &flux {
-            along = Some(array::<K, _>(zero, |i| flux[0] * x.slope[i].get(lane)));
+            if let Some(flux) = &flux {
+                first[i] = Some(plus_product(first[i], flux[0], x.slope[i].get(lane)));
+            }
         }
         for k in 0..Self::PLANES {
             let mut of_plane = value;
@@ -111,38 +125,37 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                 of_plane = Some(value.plus_product(slope[2], offset));
             }
             for j in 0..Self::ROWS {
-                let weight = self.row_weight(lane, j, k);
-                let (mut of_row, mut across) = (of_plane, None);
-                if let (Some(value), Some(rise)) = (of_plane, &rise) {
-                    of_row = Some(value + rise[j]);
+                let (weight, mut of_row) = (self.row_weight(lane, j, k), of_plane);
+                if let (Some(value), Some(rise)) = (of_plane, rise[j]) {
+                    of_row = Some(value + rise);
                 }
                 if let (true, Some(value)) = (D > 1, of_row) {
                     of_row = Some(value * weight);
                 }
                 if let (true, Some(flux)) = (D > 1, &flux) {
-                    across = Some(self.flux_across(lane, flux, j, k));
+                    of_row = Some(self.flux_across(lane, of_row, flux, (j, k)));
                 }
                 accumulator.add::<D>(
                     start,
                     (j, k),
                     #[inline(always)]
                     |i, node| {
-                        // Along one axis a sum waits for that of the particle before: it takes
-                        // one addition, and the terms are made beside it.
-                        let mut sum = if D > 1 { node } else { zero };
-                        if let Some(value) = of_row {
-                            sum = sum.plus_product(value, weights[i]);
+                        let Some(first) = first[i] else {
+                            return match of_row {
+                                // A sum waits for that of the particle before: along one axis the
+                                // term is made beside it.
+                                Some(row) if D == 1 => node + row * weights[i],
+                                Some(row) => node.plus_product(row, weights[i]),
+                                None => node,
+                            };
+                        };
+                        match of_row {
+                            Some(row) if D == 1 => node + (row * weights[i] + first),
+                            Some(row) => {
+                                node.plus_product(first, weight).plus_product(row, weights[i])
+                            }
+                            None => node + first * weight,
                         }
-                        if let Some(growth) = &growth {
-                            sum = sum.plus_product(growth[i], weight);
-                        }
-                        if let Some(along) = &along {
-                            sum = sum.plus_product(along[i], weight);
-                        }
-                        if let Some(across) = across {
-                            sum = sum.plus_product(across, weights[i]);
-                        }
-                        if D > 1 { sum } else { node + sum }
                     },
                 );
             }
@@ -198,12 +211,12 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
     }
 
     #[inline(always)]
-    fn scatter<S: Simd, T>(
+    fn scatter<S: Simd, N: PackedNode, T>(
         &self,
         simd: S,
-        field: FieldViewMut<'_>,
+        field: FieldViewMut<'_, N>,
         particles: impl Iterator<Item = (usize, T)>,
-        term: impl Fn(usize, T) -> NodeTerm<S::F64x4, D>,
+        term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
     ) {
         let mut accumulator = NodeAccumulator::new(simd, field);
         for (lane, particle) in particles {

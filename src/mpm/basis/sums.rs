@@ -4,12 +4,12 @@
 use super::product_batch::ProductBatch;
 use super::weights_1d_batch::of;
 use crate::mpm::algebra::array;
-use crate::mpm::packed_grid::{FieldView, PackedNode};
-use crate::mpm::simd::{F64x4, Simd};
+use crate::mpm::packed_grid::{FieldView, Node4};
+use crate::mpm::simd::{Register, Simd};
 
 /// `sum_k row_k factors_k`.
 #[inline(always)]
-fn dot<S: Simd, const K: usize>(simd: S, row: &[PackedNode], factors: &[f64; K]) -> S::F64x4 {
+fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S::F64x4 {
     let mut sum = simd.load(row[0].0) * factors[0];
     for k in 1..K {
         sum = sum.plus_product(simd.load(row[k].0), factors[k]);
@@ -19,7 +19,7 @@ fn dot<S: Simd, const K: usize>(simd: S, row: &[PackedNode], factors: &[f64; K])
 
 /// Adds term `k` of a sum, which begins with term 0.
 #[inline(always)]
-fn put<F: F64x4>(sum: &mut F, k: usize, a: F, b: f64) {
+fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
     *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
 }
 

@@ -116,7 +116,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                     put::<B, _>(&mut sums.moment[lane][axis], moment[axis]);
                 }
                 if request.fit.is_some() {
-                    let fit = divide::<B, S, D>((simd, patches, lane), of_all, &moment, h);
+                    let fit = divide::<B, S, D>((simd, patches, lane), of_all, (&moment, 0), h);
                     for axis in 0..D {
                         put::<B, _>(&mut sums.fit[lane][axis], fit[axis]);
                     }
@@ -172,12 +172,12 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             let parts = [(&mut request.moment, &sums.moment), (&mut request.fit, &sums.fit)];
             for (part, sums) in parts {
                 let matrices = part.iter_mut().flat_map(|part| &mut part[first..]);
-                matrices.zip(sums).for_each(|(matrix, sums)| put_columns(matrix, sums));
+                matrices.zip(sums).for_each(|(matrix, sums)| put_columns(matrix, sums, 0));
             }
         }
         if let Some(gradient) = &mut request.gradient {
             for (gradient, sums) in gradient[first..].iter_mut().zip(&sums.gradient) {
-                put_columns(gradient, sums);
+                put_columns(gradient, sums, 0);
             }
         }
         if let Some((dt, advected)) = &mut request.advected {
@@ -191,7 +191,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 
 impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
     // Sums for two axes at once, with their factors.
-    const NEEDS_32_REGISTERS: bool = D == 3;
+    const NEEDS_AVX512: bool = D == 3;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {

@@ -7,7 +7,7 @@
 //! (K = 3, 2-D)             . x x x .                one register holds the components of a node
 //!                          . x x x .                K nodes of a row are neighbours in memory
 //!                  |
-//! grid         packed_grid: four numbers a node, packed before a pass, unpacked after it
+//! grid         packed_grid: four or eight numbers a node, packed before a pass, unpacked after it
 //!
 //! threads      |  even 0  | odd 0 |  even 1  | odd 1 |  even 2  |      blocks along the last axis
 //!              +----------+-------+----------+-------+----------+
@@ -104,7 +104,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
             mass: request.mass.then_some(&mut mass),
             momentum: request.momentum.is_some().then_some(&mut momentum),
             force: request.force.is_some().then_some(&mut force),
-            ..Columns::default()
+            before: 0,
         };
         self.workspace().scatter::<B, D>(particles, request, grid, columns);
         (grid.mass, grid.velocity, grid.force) = (mass, momentum, force);

@@ -7,38 +7,27 @@ use super::request::{Affine, Divergence, P2gRequest};
 use crate::mpm::algebra::Vector;
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
 use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::FieldViewMut;
+use crate::mpm::packed_grid::{FieldViewMut, PackedNode, force_lane};
 use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, LANES, Simd, SimdPass};
+use crate::mpm::simd::{BATCH, Simd, SimdPass};
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// Pass of P2G to two packed fields: momentum with mass in the last lane, and force; or to one
-/// field that holds all ([`has_one_field`]).
-pub(in crate::mpm) struct Scatter<'a, const D: usize, B> {
+/// Pass of P2G to a packed field.
+pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
     /// Particles of the pass.
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: &'a P2gRequest<'a, D>,
-    pub(in crate::mpm) fields: [FieldViewMut<'a>; 2],
+    pub(in crate::mpm) field: FieldViewMut<'a, N>,
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether one packed field holds momentum, force (in this order) and mass (in the last lane), so
-/// that nodes are visited once: in 1-D.
-pub(in crate::mpm) fn has_one_field<const D: usize>(
-    particles: &Particles<D>,
-    request: &P2gRequest<'_, D>,
-) -> bool {
-    let by_gradient =
-        request.force == Some(Divergence::Gradient) && particles.current_position.is_empty();
-    fits_one_field::<D>() && request.momentum.is_some() && by_gradient
-}
-
-/// Whether momentum, force and mass are at most four numbers.
-const fn fits_one_field<const D: usize>() -> bool {
-    2 * D < LANES
+/// Whether a request takes nodes of eight numbers: those of four hold momentum, mass and force only
+/// along one axis.
+pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, D>) -> bool {
+    D > 1 && request.force.is_some() && (request.mass || request.momentum.is_some())
 }
 
 /// Momentum and, in the last lane, mass of a particle.
@@ -51,152 +40,107 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
     simd.load(lanes) * m
 }
 
-impl<const D: usize, B: Basis> Scatter<'_, D, B> {
-    /// Momentum, with mass in the last lane; mass alone where no momentum is asked for.
-    #[inline(always)]
-    fn momentum<S: Simd>(
-        &mut self,
-        simd: S,
-        (first, lanes): (usize, Range<usize>),
-        patches: &Batch<B, D>,
-        of_all: Option<&InertiaTensor<D>>,
-    ) {
-        let (h, here) = (self.grid.h, first + lanes.start..first + lanes.end);
-        let (field, mass) = (self.fields[0].reborrow(), &self.particles.mass[here.clone()]);
-        let Some(of) = &self.request.momentum else {
-            return patches.scatter(
-                simd,
-                field,
-                lanes.zip(mass),
-                #[inline(always)]
-                |_, m| NodeTerm { value: Some(simd.load([0.0, 0.0, 0.0, *m])), ..NodeTerm::NONE },
-            );
-        };
-        let particles = mass.iter().zip(&of.v[here.clone()]);
-        match of.affine {
-            None => patches.scatter(
-                simd,
-                field,
-                lanes.zip(particles),
-                #[inline(always)]
-                |_, (m, v)| NodeTerm { value: Some(inertial(simd, *m, v)), ..NodeTerm::NONE },
-            ),
-            Some(affine) => patches.scatter(
-                simd,
-                field,
-                lanes.zip(particles.zip(&affine.state()[here])),
-                #[inline(always)]
-                |lane, ((m, v), state)| {
-                    let slope = match affine {
-                        Affine::Slope(_) => columns(simd, state, 0),
-                        Affine::Moment(_) => {
-                            let state = columns(simd, state, 0);
-                            divide::<B, S, D>((simd, patches, lane), of_all, &state, h)
-                        }
-                    };
-                    NodeTerm::affine(inertial(simd, *m, v), slope, *m)
-                },
-            ),
-        }
-    }
+/// Columns of `-V sigma` (J) of particle `p`, or of its like in the total-Lagrangian frame.
+#[inline(always)]
+fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) -> [S::F64x4; D] {
+    columns(simd, &-particles.flux(p), force_lane(D))
+}
 
-    /// Internal force.
-    #[inline(always)]
-    fn force<S: Simd>(
-        &mut self,
-        simd: S,
-        divergence: Divergence,
-        (first, lanes): (usize, Range<usize>),
-        patches: &Batch<B, D>,
-        of_all: Option<&InertiaTensor<D>>,
-    ) {
-        let (h, particles, field) = (self.grid.h, self.particles, self.fields[1].reborrow());
-        if divergence == Divergence::Fit {
-            patches.scatter(
-                simd,
-                field,
-                lanes.map(|lane| (lane, ())),
-                #[inline(always)]
-                |lane, ()| {
-                    let flux = columns(simd, &-particles.flux(first + lane), 0);
-                    let slope = divide::<B, S, D>((simd, patches, lane), of_all, &flux, h);
-                    let value = Some(simd.splat(0.0));
-                    NodeTerm { value, slope: Some(slope), flux: None }
-                },
-            );
-        } else if particles.current_position.is_empty() {
-            // `flux`, with the choice of its columns taken out of the loop.
-            let here = first + lanes.start..first + lanes.end;
-            let stresses = particles.sigma[here.clone()].iter().zip(&particles.vol[here]);
-            patches.scatter(
-                simd,
-                field,
-                lanes.zip(stresses),
-                #[inline(always)]
-                |_, (sigma, vol)| NodeTerm::flux(columns(simd, &-(sigma * *vol), 0)),
-            );
-        } else {
-            patches.scatter(
-                simd,
-                field,
-                lanes.map(|lane| (lane, ())),
-                #[inline(always)]
-                |lane, ()| NodeTerm::flux(columns(simd, &-particles.flux(first + lane), 0)),
-            );
-        }
+/// Columns of a matrix for momentum, times a mass, together with those of one for the force.
+#[inline(always)]
+fn join<S: Simd, N: PackedNode, const D: usize>(
+    simd: S,
+    (inertia, m): (&[S::F64x4; D], f64),
+    force: &[S::F64x4; D],
+) -> [N::Lanes<S>; D] {
+    let mut columns = [N::splat(simd, 0.0); D];
+    for axis in 0..D {
+        columns[axis] = N::join(simd, inertia[axis] * m, force[axis]);
     }
+    columns
+}
 
-    /// Mass, momentum and force in one field.
+/// The particles `first + lanes` with their patches, and the moments of all patches of a particle
+/// that has several.
+struct Visit<'a, const D: usize, B: Basis> {
+    first: usize,
+    lanes: Range<usize>,
+    patches: &'a Batch<B, D>,
+    of_all: Option<&'a InertiaTensor<D>>,
+}
+
+impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
+    /// Whether a node has lanes for momentum and mass beside those of the force.
+    const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
+
+    /// Adds the terms of particles, which have an affine part (`SLOPE`) and one along the gradient
+    /// (`FLUX`).
     #[inline(always)]
-    fn all<S: Simd>(
+    fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
         &mut self,
         simd: S,
-        (first, lanes): (usize, Range<usize>),
-        patches: &Batch<B, D>,
-        of_all: Option<&InertiaTensor<D>>,
+        Visit { first, lanes, patches, of_all }: Visit<'_, D, B>,
     ) {
-        let (h, particles) = (self.grid.h, self.particles);
-        let Some(of) = &self.request.momentum else { return };
+        let Self { grid, particles, request, .. } = self;
+        let (zero, h) = (simd.splat(0.0), grid.h);
+        // Lanes that nobody asked for are not unpacked: positions, which every body has, do as well
+        // there as velocities, which a body at rest has not.
+        let (v, affine) =
+            request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
+        let is_fit = request.force == Some(Divergence::Fit);
+        let has_inertia = Self::HOLDS_ALL || !(FLUX || is_fit);
         let here = first + lanes.start..first + lanes.end;
-        let inertias = particles.mass[here.clone()].iter().zip(&of.v[here.clone()]);
-        let stresses = particles.sigma[here.clone()].iter().zip(&particles.vol[here]);
         patches.scatter(
             simd,
-            self.fields[0].reborrow(),
-            lanes.zip(inertias.zip(stresses)),
+            self.field.reborrow(),
+            lanes.zip(particles.mass[here.clone()].iter().zip(&v[here])),
             #[inline(always)]
-            |lane, ((m, v), (sigma, vol))| {
-                let (value, flux) = (inertial(simd, *m, v), columns(simd, &-(sigma * *vol), D));
-                let slope = match of.affine {
-                    None => return NodeTerm { value: Some(value), ..NodeTerm::flux(flux) },
-                    Some(Affine::Slope(c)) => columns(simd, &c[first + lane], 0),
-                    Some(Affine::Moment(b)) => {
-                        let b = columns(simd, &b[first + lane], 0);
-                        divide::<B, S, D>((simd, patches, lane), of_all, &b, h)
+            |lane, (m, v)| {
+                let (p, at) = (first + lane, (simd, patches, lane));
+                let value = if has_inertia { inertial(simd, *m, v) } else { zero };
+                let mut term = NodeTerm::NONE;
+                if Self::HOLDS_ALL || !FLUX {
+                    term.value = Some(N::join(simd, value, zero));
+                }
+                if SLOPE {
+                    let growth = match affine {
+                        None => [zero; D],
+                        Some(Affine::Slope(c)) => columns(simd, &c[p], 0),
+                        Some(Affine::Moment(b)) => {
+                            let b = columns(simd, &b[p], 0);
+                            divide::<B, S, D>(at, of_all, (&b, 0), h)
+                        }
+                    };
+                    let mut fit = [zero; D];
+                    if is_fit {
+                        let flux = flux(simd, particles, p);
+                        fit = divide::<B, S, D>(at, of_all, (&flux, force_lane(D)), h);
                     }
-                };
-                NodeTerm { flux: Some(flux), ..NodeTerm::affine(value, slope, *m) }
+                    term.slope = Some(join::<S, N, D>(simd, (&growth, *m), &fit));
+                }
+                if FLUX {
+                    let flux = flux(simd, particles, p);
+                    term.flux = Some(join::<S, N, D>(simd, (&[zero; D], 0.0), &flux));
+                }
+                term
             },
         );
     }
 }
 
-impl<const D: usize, B: Basis> SimdPass for Scatter<'_, D, B> {
-    const NEEDS_32_REGISTERS: bool = false;
+impl<const D: usize, B: Basis, N: PackedNode> SimdPass for Scatter<'_, D, B, N> {
+    const NEEDS_AVX512: bool = N::IS_WIDE;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
         let Self { grid, particles, request, .. } = self;
         let range = std::mem::take(&mut self.range);
-        let is_affine = request.momentum.is_some_and(|shown| shown.affine.is_some())
+        let has_slope = request.momentum.is_some_and(|field| field.affine.is_some())
             || request.force == Some(Divergence::Fit);
-        let wants_inertia = request.mass || request.momentum.is_some();
-        let has_one_field = has_one_field(particles, request);
-        let layout = self.fields[usize::from(!wants_inertia)].layout;
+        let has_flux = request.force == Some(Divergence::Gradient);
         let mut patches = Batch::<B, D>::none();
-        let slopes = request.force == Some(Divergence::Gradient);
-        let needs = WeightNeeds { slopes, offsets: is_affine };
-        let batches = ParticleBatches::<B, D>::new((grid, layout), particles, needs);
+        let needs = WeightNeeds { slopes: has_flux, offsets: has_slope };
+        let batches = ParticleBatches::<B, D>::new((grid, self.field.layout), particles, needs);
         for first in range.step_by(BATCH) {
             batches.visit(
                 simd,
@@ -205,23 +149,19 @@ impl<const D: usize, B: Basis> SimdPass for Scatter<'_, D, B> {
                 #[inline(always)]
                 |patches, lanes, of_all| {
                     patches.compute_row_weights(simd, &lanes);
-                    if is_affine {
-                        patches.compute_offsets(
-                            simd,
-                            &lanes,
-                            grid.h,
-                            of_all.map(|of_all| &of_all.mean),
-                        );
+                    if has_slope {
+                        let mean = of_all.map(|of_all| &of_all.mean);
+                        patches.compute_offsets(simd, &lanes, grid.h, mean);
                     }
-                    // Known in each dimension: where it is false, the loop is not compiled.
-                    if const { fits_one_field::<D>() } && has_one_field {
-                        return self.all(simd, (first, lanes), patches, of_all);
-                    }
-                    if wants_inertia {
-                        self.momentum(simd, (first, lanes.clone()), patches, of_all);
-                    }
-                    if let Some(divergence) = request.force {
-                        self.force(simd, divergence, (first, lanes), patches, of_all);
+                    let visit = Visit { first, lanes, patches, of_all };
+                    match (has_slope, has_flux) {
+                        (true, true) if const { Self::HOLDS_ALL } => {
+                            self.add::<S, true, true>(simd, visit);
+                        }
+                        (true, _) => self.add::<S, true, false>(simd, visit),
+                        (false, true) => self.add::<S, false, true>(simd, visit),
+                        (false, false) if const { N::IS_WIDE } => {}
+                        (false, false) => self.add::<S, false, false>(simd, visit),
                     }
                 },
             );

@@ -6,68 +6,64 @@
 
 use super::colouring::ParticleBlock;
 use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, layers};
+use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedNode, layers};
 use crate::mpm::threads::join;
 use std::ops::Range;
 
-/// Target of P2G: two packed fields, and the columns to which they are unpacked.
+/// Target of P2G: a packed field, and the columns to which it is unpacked.
 #[derive(Debug)]
-pub(in crate::mpm) struct Target<'a, const D: usize> {
-    pub(in crate::mpm) fields: [FieldViewMut<'a>; 2],
+pub(in crate::mpm) struct Target<'a, const D: usize, N> {
+    pub(in crate::mpm) field: FieldViewMut<'a, N>,
     pub(in crate::mpm) columns: Columns<'a, D>,
 }
 
-impl<const D: usize> Target<'_, D> {
-    fn reborrow(&mut self) -> Target<'_, D> {
-        let fields = self.fields.each_mut().map(FieldViewMut::reborrow);
-        Target { fields, columns: self.columns.reborrow() }
+impl<const D: usize, N: PackedNode> Target<'_, D, N> {
+    fn reborrow(&mut self) -> Target<'_, D, N> {
+        Target { field: self.field.reborrow(), columns: self.columns.reborrow() }
     }
 
     /// Nodes before `layer`, and nodes from there on.
     fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
-        let [a, b] = self.fields.map(|field| field.split_at::<D>(layer));
+        let field = self.field.split_at::<D>(layer);
         let columns = self.columns.split_at(grid, layer);
-        (
-            Self { fields: [a.0, b.0], columns: columns.0 },
-            Self { fields: [a.1, b.1], columns: columns.1 },
-        )
+        (Self { field: field.0, columns: columns.0 }, Self { field: field.1, columns: columns.1 })
     }
 }
 
-/// Adds a block of particles to fields that hold its nodes.
-type Add<'a> = dyn Fn(&ParticleBlock, [FieldViewMut<'_>; 2]) + Sync + 'a;
+/// Adds a block of particles to a field that holds its nodes.
+type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
-/// Clears `target`, calls `add` for all blocks, each with fields that hold its nodes, and unpacks
+/// Clears `target`, calls `add` for all blocks, each with a field that holds its nodes, and unpacks
 /// the sums. Two-colour schedule: odd block k runs after even blocks k and k + 1, which it shares
 /// nodes with.
-pub(in crate::mpm) fn two_colour_schedule<const D: usize>(
+pub(in crate::mpm) fn two_colour_schedule<const D: usize, N: PackedNode>(
     grid: &Grid<D>,
     [even, odd]: [&[ParticleBlock]; 2],
-    target: Target<'_, D>,
-    add: &Add<'_>,
+    target: Target<'_, D, N>,
+    add: &Add<'_, N>,
 ) {
     let (between, last) = odd.split_at(odd.len().min(even.len().saturating_sub(1)));
     Schedule { grid, add }.tree(0..layers(grid).end, [even, between, last], target);
 }
 
-struct Schedule<'a, const D: usize> {
+struct Schedule<'a, const D: usize, N> {
     grid: &'a Grid<D>,
-    add: &'a Add<'a>,
+    add: &'a Add<'a, N>,
 }
 
-impl<const D: usize> Schedule<'_, D> {
+impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
     /// Even blocks, the odd ones between them, and perhaps one after the last. No other block adds
     /// to the layers in `own`.
     fn tree(
         &self,
         own: Range<usize>,
         [even, odd, last]: [&[ParticleBlock]; 3],
-        mut target: Target<'_, D>,
+        mut target: Target<'_, D, N>,
     ) {
         let end = last.first().map_or(own.end, |last| last.layers.start);
         let middle = even.len() / 2;
         let (between, done) = if middle == 0 {
-            target.fields.iter_mut().for_each(FieldViewMut::clear);
+            target.field.clear();
             (even, own.start..end)
         } else {
             let (layer, between) = (even[middle].layers.start, &odd[middle - 1..middle]);
@@ -91,10 +87,10 @@ impl<const D: usize> Schedule<'_, D> {
     }
 
     /// Adds a block, if there is one, and unpacks `done`, the layers to which no later block adds.
-    fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D>) {
+    fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D, N>) {
         if let [block] = block {
-            (self.add)(block, target.reborrow().fields);
+            (self.add)(block, target.field.reborrow());
         }
-        target.columns.unpack(self.grid, &target.fields, done);
+        target.columns.unpack(self.grid, &target.field, done);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::colouring::{Blocks, ParticleBlock};
 use super::g2p::{Gather, are_beside};
-use super::p2g::{Scatter, has_one_field};
+use super::p2g::{Scatter, wants_wide_nodes};
 use super::par_split::par_split;
 use super::parallel::{Target, two_colour_schedule};
 use super::request::{G2pRequest, P2gRequest};
@@ -10,7 +10,7 @@ use super::settings::LoopSettings;
 use crate::mpm::algebra::Vector;
 use crate::mpm::basis::Basis;
 use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedField};
+use crate::mpm::packed_grid::{Columns, FieldViewMut, Node4, Node8, PackedField, PackedNode};
 use crate::mpm::particles::Particles;
 use crate::mpm::simd;
 use fearless_simd::Level;
@@ -20,27 +20,15 @@ use std::marker::PhantomData;
 #[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
     level: Level,
-    /// Two packed fields of nodes.
-    fields: [PackedField; 2],
+    /// Packed fields of nodes.
+    fields: [PackedField<Node4>; 2],
+    wide: PackedField<Node8>,
     blocks: Blocks,
-}
-
-/// Views of the wanted fields, in the shape of `grid`, empty for the others.
-fn views<'a, const D: usize>(
-    fields: &'a mut [PackedField; 2],
-    grid: &Grid<D>,
-    wanted: [bool; 2],
-) -> [FieldViewMut<'a>; 2] {
-    let mut wanted = wanted.into_iter();
-    fields.each_mut().map(|field| match wanted.next() {
-        Some(true) => field.shaped(grid),
-        _ => FieldViewMut::none(),
-    })
 }
 
 /// Packs velocities and, if wanted, accelerations.
 fn pack<const D: usize>(
-    [first, second]: &mut [PackedField; 2],
+    [first, second]: &mut [PackedField<Node4>; 2],
     grid: &Grid<D>,
     velocity: &[Vector<D>],
     wants_acceleration: bool,
@@ -52,9 +40,47 @@ fn pack<const D: usize>(
     }
 }
 
+/// Pass of P2G on threads.
+struct P2g<'a, const D: usize> {
+    level: Level,
+    particles: &'a Particles<D>,
+    request: &'a P2gRequest<'a, D>,
+    grid: &'a Grid<D>,
+    blocks: &'a Blocks,
+}
+
+impl<const D: usize> P2g<'_, D> {
+    fn run<B: Basis, N: PackedNode>(self, field: &mut PackedField<N>, columns: Columns<'_, D>) {
+        let Self { level, particles, request, grid, blocks } = self;
+        let add = |block: &ParticleBlock, field: FieldViewMut<'_, N>| {
+            let range = block.particles.clone();
+            let basis = PhantomData;
+            let pass = Scatter::<D, B, N> { grid, particles, range, request, field, basis };
+            simd::run(level, pass);
+        };
+        // Sums beyond a periodic end must be folded back before anything is unpacked.
+        let (at_once, after) = if grid.periodic.contains(&true) {
+            (None, Some(columns))
+        } else {
+            (Some(columns), None)
+        };
+        let target = Target { field: field.shaped(grid), columns: at_once.unwrap_or_default() };
+        let colours = blocks.colours.each_ref().map(|colour| &colour[..]);
+        two_colour_schedule(grid, colours, target, &add);
+        let Some(columns) = after else { return };
+        field.fold(grid);
+        columns.unpack_all(grid, &field.shaped(grid));
+    }
+}
+
 impl Workspace {
     pub(in crate::mpm) fn new(settings: LoopSettings) -> Self {
-        Self { level: settings.level, fields: Default::default(), blocks: Blocks::new(settings) }
+        Self {
+            level: settings.level,
+            fields: Default::default(),
+            wide: PackedField::default(),
+            blocks: Blocks::new(settings),
+        }
     }
 
     /// P2G of all parts of `request` into `columns`.
@@ -63,38 +89,16 @@ impl Workspace {
         particles: &Particles<D>,
         request: &P2gRequest<'_, D>,
         grid: &Grid<D>,
-        mut columns: Columns<'_, D>,
+        columns: Columns<'_, D>,
     ) {
-        let Self { level, fields, blocks } = self;
+        let Self { level, fields: [four, _], wide, blocks } = self;
         blocks.cut::<B, D>(grid, particles);
-        columns.is_one_field = has_one_field(particles, request);
-        let wants_inertia = request.mass || request.momentum.is_some();
-        let wanted = [wants_inertia, request.force.is_some() && !columns.is_one_field];
-        let add = |block: &ParticleBlock, fields: [FieldViewMut<'_>; 2]| {
-            let range = block.particles.clone();
-            let basis = PhantomData;
-            let pass = Scatter::<D, B> { grid, particles, range, request, fields, basis };
-            simd::run(*level, pass);
-        };
-        // Sums beyond a periodic end must be folded back before anything is unpacked.
-        let (at_once, after) = if grid.periodic.contains(&true) {
-            (None, Some(columns))
+        let pass = P2g { level: *level, particles, request, grid, blocks };
+        if const { D > 1 } && wants_wide_nodes(request) {
+            pass.run::<B, _>(wide, columns);
         } else {
-            (Some(columns), None)
-        };
-        let target =
-            Target { fields: views(fields, grid, wanted), columns: at_once.unwrap_or_default() };
-        two_colour_schedule(
-            grid,
-            blocks.colours.each_ref().map(|colour| &colour[..]),
-            target,
-            &add,
-        );
-        let Some(columns) = after else { return };
-        for (field, _) in fields.iter_mut().zip(wanted).filter(|(_, wanted)| *wanted) {
-            field.fold(grid);
+            pass.run::<B, _>(four, columns);
         }
-        columns.unpack_all(grid, &views(fields, grid, wanted));
     }
 
     /// G2P of all parts of `request`, with `field` for the velocities of nodes.

@@ -1,5 +1,6 @@
 //! Columns of nodes to which packed fields are unpacked.
 
+use super::node::{PackedNode, force_lane};
 use super::view::FieldViewMut;
 use super::{FEW, MARGIN};
 use crate::mpm::algebra::Vector;
@@ -11,17 +12,15 @@ use std::ops::Range;
 /// Nodes of a piece of a 1-D grid, few enough to stay in the cache for all columns.
 const PIECE: usize = 1 << 9;
 
-/// Targets of unpacking two fields: all nodes, or those of some layers across the last axis.
+/// Targets of unpacking a field: all nodes, or those of some layers across the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
-    /// From the last lane of the first field.
+    /// From the last lane of four.
     pub(in crate::mpm) mass: Option<&'a mut [f64]>,
-    /// From the first field.
+    /// From the first lanes.
     pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
-    /// From the second field, or from the lanes after the momentum where there is one field.
+    /// From the lanes after it, or from the first ones where they hold nothing else.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
-    /// Whether one field holds all.
-    pub(in crate::mpm) is_one_field: bool,
     /// Nodes of the grid before the first one of these columns.
     pub(in crate::mpm) before: usize,
 }
@@ -39,33 +38,31 @@ fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
 impl<const D: usize> Columns<'_, D> {
     /// The same columns.
     pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
-        let Self { mass, momentum, force, is_one_field, before } = self;
+        let Self { mass, momentum, force, before } = self;
         let (mass, momentum, force) =
             (mass.as_deref_mut(), momentum.as_deref_mut(), force.as_deref_mut());
-        Columns { mass, momentum, force, is_one_field: *is_one_field, before: *before }
+        Columns { mass, momentum, force, before: *before }
     }
 
     /// Nodes before `layer` of the grid, and nodes from there on.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
-        let Self { is_one_field, before, .. } = self;
+        let before = self.before;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
         let count = from.saturating_sub(before);
         let mass = split(self.mass, count);
         let momentum = split(self.momentum, count);
         let force = split(self.force, count);
-        let part =
-            |mass, momentum, force, before| Self { mass, momentum, force, is_one_field, before };
         (
-            part(mass.0, momentum.0, force.0, before),
-            part(mass.1, momentum.1, force.1, before + count),
+            Self { mass: mass.0, momentum: momentum.0, force: force.0, before },
+            Self { mass: mass.1, momentum: momentum.1, force: force.1, before: before + count },
         )
     }
 
     /// Unpacks these layers, which must be part of the columns.
-    pub(in crate::mpm) fn unpack(
+    pub(in crate::mpm) fn unpack<N: PackedNode>(
         &mut self,
         grid: &Grid<D>,
-        fields: &[FieldViewMut<'_>; 2],
+        field: &FieldViewMut<'_, N>,
         layers: Range<usize>,
     ) {
         let end = layers.end.min(grid.counts[D - 1]);
@@ -73,7 +70,7 @@ impl<const D: usize> Columns<'_, D> {
         if D == 1 {
             for start in (layers.start..end).step_by(PIECE) {
                 index[0] = start;
-                self.unpack_row(fields, &index, start, PIECE.min(end - start));
+                self.unpack_row(field, &index, start, PIECE.min(end - start));
             }
             return;
         }
@@ -82,55 +79,58 @@ impl<const D: usize> Columns<'_, D> {
             for row in 0..rows {
                 index[1] = row;
                 index[D - 1] = layer;
-                self.unpack_row(fields, &index, (layer * rows + row) * across, across);
+                self.unpack_row(field, &index, (layer * rows + row) * across, across);
             }
         }
     }
 
     /// Unpacks all layers, on several threads.
-    pub(in crate::mpm) fn unpack_all(mut self, grid: &Grid<D>, fields: &[FieldViewMut<'_>; 2]) {
-        self.par_split(grid, fields, layers(grid));
+    pub(in crate::mpm) fn unpack_all<N: PackedNode>(
+        mut self,
+        grid: &Grid<D>,
+        field: &FieldViewMut<'_, N>,
+    ) {
+        self.par_split(grid, field, layers(grid));
     }
 
-    fn par_split(&mut self, grid: &Grid<D>, fields: &[FieldViewMut<'_>; 2], layers: Range<usize>) {
+    fn par_split<N: PackedNode>(
+        &mut self,
+        grid: &Grid<D>,
+        field: &FieldViewMut<'_, N>,
+        layers: Range<usize>,
+    ) {
         if layers.len() < 2 || layers.len() * nodes_of_layer(grid) <= FEW {
-            return self.unpack(grid, fields, layers);
+            return self.unpack(grid, field, layers);
         }
         let middle = layers.start + layers.len() / 2;
         let (mut left, mut right) = self.reborrow().split_at(grid, middle);
         join(
-            || left.par_split(grid, fields, layers.start..middle),
-            || right.par_split(grid, fields, middle..layers.end),
+            || left.par_split(grid, field, layers.start..middle),
+            || right.par_split(grid, field, middle..layers.end),
         );
     }
 
     /// Unpacks `count` nodes in a row, from the one with this index, number `to` of the grid.
-    fn unpack_row(
+    fn unpack_row<N: PackedNode>(
         &mut self,
-        fields: &[FieldViewMut<'_>; 2],
+        field: &FieldViewMut<'_, N>,
         index: &[usize; D],
         to: usize,
         count: usize,
     ) {
         let to = to - self.before..to - self.before + count;
-        let lanes = |field: usize| {
-            let from = fields[field].layout.number(index);
-            fields[field].nodes[from..from + count].iter().map(|node| node.0)
-        };
+        let from = field.layout.number(index);
+        let nodes = &field.nodes[from..from + count];
         if let Some(mass) = &mut self.mass {
-            mass[to.clone()].iter_mut().zip(lanes(0)).for_each(|(m, lanes)| *m = lanes[3]);
+            mass[to.clone()].iter_mut().zip(nodes).for_each(|(m, node)| *m = node.inertia()[3]);
         }
         if let Some(momentum) = &mut self.momentum {
             let column = momentum[to.clone()].iter_mut();
-            column.zip(lanes(0)).for_each(|(value, lanes)| *value = components(lanes, 0));
+            column.zip(nodes).for_each(|(value, node)| *value = components(node.inertia(), 0));
         }
-        let Some(force) = &mut self.force else { return };
-        let column = force[to].iter_mut();
-        // Two branches, so that the lane is a constant in each.
-        if self.is_one_field {
-            column.zip(lanes(0)).for_each(|(value, lanes)| *value = components(lanes, D));
-        } else {
-            column.zip(lanes(1)).for_each(|(value, lanes)| *value = components(lanes, 0));
+        if let Some(force) = &mut self.force {
+            let column = force[to].iter_mut().zip(nodes);
+            column.for_each(|(value, node)| *value = components(node.force(), force_lane(D)));
         }
     }
 }

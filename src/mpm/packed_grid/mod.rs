@@ -1,13 +1,15 @@
 //! Nodal fields in the layout of the loops of P2G and G2P.
 //!
 //! ```text
-//! node (32 bytes)     lane 0   lane 1   lane 2   lane 3
-//!   P2G 1-D              p_x      f_x        -        m     all in one field
-//!   P2G 2-D              p_x      p_y        -        m     and a second field for f
-//!   P2G 3-D              p_x      p_y      p_z        m     and a second field for f
-//!   G2P 1-D              v_x      a_x        -        -
-//!   G2P 2-D              v_x      v_y      a_x      a_y
-//!   G2P 3-D              v_x      v_y      v_z        -     and a second field for a
+//! node                   lane 0   lane 1   lane 2   lane 3   lanes 4, 5, 6, 7
+//!   P2G 1-D                 p_x      f_x        -        m
+//!   P2G 2-D                 p_x      p_y        -        m   f_x  f_y   -   -
+//!   P2G 3-D                 p_x      p_y      p_z        m   f_x  f_y  f_z  -
+//!   2-D, 3-D, without f     p_x      p_y      p_z        m
+//!   2-D, 3-D, f alone       f_x      f_y      f_z        -
+//!   G2P 1-D                 v_x      a_x        -        -
+//!   G2P 2-D                 v_x      v_y      a_x      a_y
+//!   G2P 3-D                 v_x      v_y      v_z        -   and a second field for a
 //!
 //! row     | node 0 | node 1 | ... | node n-1 | MARGIN nodes |     x fastest, then y, then z
 //! ```
@@ -16,10 +18,12 @@
 //! neighbours. Elsewhere it is zero: functions of weight zero may belong to it.
 
 mod columns;
+mod node;
 mod view;
 
 pub(in crate::mpm) use columns::{Columns, layers};
-pub(in crate::mpm) use view::{FieldView, FieldViewMut, Layout, MARGIN, PackedNode};
+pub(in crate::mpm) use node::{Node4, Node8, PackedNode, force_lane};
+pub(in crate::mpm) use view::{FieldView, FieldViewMut, Layout, MARGIN};
 
 use super::algebra::Vector;
 use super::grid::Grid;
@@ -33,8 +37,8 @@ const PIECE: usize = 1 << 12;
 
 /// Packed field of nodes.
 #[derive(Debug, Default)]
-pub(in crate::mpm) struct PackedField {
-    nodes: Vec<PackedNode>,
+pub(in crate::mpm) struct PackedField<N> {
+    nodes: Vec<N>,
     layout: Layout,
 }
 
@@ -49,15 +53,44 @@ fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
     std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
 }
 
-impl PackedField {
+impl<N: PackedNode> PackedField<N> {
     /// The field in the shape of `grid`, with undefined values.
-    pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_> {
+    pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
         let layout = Layout::of(grid);
-        self.nodes.resize(layout.strides[3], PackedNode::default());
+        self.nodes.resize(layout.strides[3], N::default());
         self.layout = layout;
         FieldViewMut { nodes: &mut self.nodes, layout }
     }
 
+    /// Adds the margins of periodic axes to the nodes that they repeat.
+    pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
+        for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
+            for (beyond, node) in self.seam(grid, axis) {
+                let more = self.nodes[beyond];
+                self.nodes[node].add(&more);
+            }
+        }
+    }
+
+    /// Nodes of the margin of a periodic `axis`, each with the node that it repeats.
+    fn seam<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+    ) -> impl Iterator<Item = (usize, usize)> + use<D, N> {
+        let (stride, count) = (self.layout.strides[axis], grid.counts[axis]);
+        let (length, total) = (stride * (count + MARGIN), self.nodes.len());
+        (0..total).step_by(length).flat_map(move |block| {
+            (0..MARGIN * stride).map(move |k| {
+                let (layer, rest) = (k / stride, k % stride);
+                let at = |layer: usize| block + layer * stride + rest;
+                (at(count + layer), at(layer % count))
+            })
+        })
+    }
+}
+
+impl PackedField<Node4> {
     /// Shared view of the field.
     pub(in crate::mpm) fn view(&self) -> FieldView<'_> {
         FieldView { nodes: &self.nodes, layout: self.layout }
@@ -84,50 +117,21 @@ impl PackedField {
             let (here, beyond) = here.split_at_mut(there.len());
             let values = here.iter_mut().zip(&field[there.clone()]);
             if let Some(beside) = beside {
-                for ((PackedNode(here), value), beside) in values.zip(&beside[there]) {
+                for ((Node4(here), value), beside) in values.zip(&beside[there]) {
                     *here = lanes(value);
                     here[D..2 * D].copy_from_slice(beside.as_slice());
                 }
             } else {
-                values.for_each(|(PackedNode(here), value)| *here = lanes(value));
+                values.for_each(|(Node4(here), value)| *here = lanes(value));
             }
             // Functions of weight zero may belong here: no NaN of an earlier pass may remain.
-            beyond.fill(PackedNode::default());
+            beyond.fill(Node4::default());
         });
         for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {
                 self.nodes[beyond] = self.nodes[node];
             }
         }
-    }
-
-    /// Adds the margins of periodic axes to the nodes that they repeat.
-    pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
-        for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
-            for (beyond, node) in self.seam(grid, axis) {
-                let PackedNode(more) = self.nodes[beyond];
-                for (sum, more) in self.nodes[node].0.iter_mut().zip(more) {
-                    *sum += more;
-                }
-            }
-        }
-    }
-
-    /// Nodes of the margin of a periodic `axis`, each with the node that it repeats.
-    fn seam<const D: usize>(
-        &self,
-        grid: &Grid<D>,
-        axis: usize,
-    ) -> impl Iterator<Item = (usize, usize)> + use<D> {
-        let (stride, count) = (self.layout.strides[axis], grid.counts[axis]);
-        let (length, total) = (stride * (count + MARGIN), self.nodes.len());
-        (0..total).step_by(length).flat_map(move |block| {
-            (0..MARGIN * stride).map(move |k| {
-                let (layer, rest) = (k / stride, k % stride);
-                let at = |layer: usize| block + layer * stride + rest;
-                (at(count + layer), at(layer % count))
-            })
-        })
     }
 }
 
@@ -150,7 +154,7 @@ mod tests {
         ) {
             let grid = grid(counts, periodic);
             let field: Vec<_> = (0..grid.nodes()).map(|i| Vector::<2>::new(i as f64, 1.0)).collect();
-            let mut packed = PackedField::default();
+            let mut packed = PackedField::<Node4>::default();
             packed.pack(&grid, &field, Some(&field));
             let reach = |axis: usize| counts[axis] + if periodic[axis] { MARGIN } else { 0 };
             for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
@@ -159,14 +163,14 @@ mod tests {
                 let there = packed.view().row::<1>(at)[0].0;
                 prop_assert_eq!(there, [node as f64, 1.0, node as f64, 1.0]);
 
-                let mut one = PackedField::default();
+                let mut one = PackedField::<Node4>::default();
                 let mut view = one.shaped(&grid);
                 view.clear();
                 view.row::<1>(at)[0].0[3] = 1.0;
                 one.fold(&grid);
                 let mut found = vec![0.0; grid.nodes()];
                 let columns = Columns { mass: Some(&mut found), ..Columns::default() };
-                columns.unpack_all(&grid, &[one.shaped(&grid), FieldViewMut::none()]);
+                columns.unpack_all(&grid, &one.shaped(&grid));
                 let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
                 prop_assert_eq!(found, expected);
             }

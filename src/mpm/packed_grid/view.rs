@@ -1,14 +1,10 @@
 //! Views of packed fields: all of a field, or consecutive layers of it.
 
+use super::node::{Node4, PackedNode};
 use crate::mpm::grid::Grid;
 
 /// Additional nodes of an axis: one fewer than the functions of a patch along it.
 pub(in crate::mpm) const MARGIN: usize = 3;
-
-/// Node of a packed field: four numbers in one cache line.
-#[derive(Debug, Clone, Copy, Default)]
-#[repr(align(32))]
-pub(in crate::mpm) struct PackedNode(pub(in crate::mpm) [f64; 4]);
 
 /// Positions of nodes in a packed field.
 #[derive(Debug, Clone, Copy, Default)]
@@ -50,46 +46,41 @@ impl Layout {
 /// Field that a loop reads.
 #[derive(Debug, Clone, Copy)]
 pub struct FieldView<'a> {
-    pub(in crate::mpm) nodes: &'a [PackedNode],
+    pub(in crate::mpm) nodes: &'a [Node4],
     pub(in crate::mpm) layout: Layout,
 }
 
 /// Field, or consecutive layers of it, to which a loop adds.
 #[derive(Debug)]
-pub struct FieldViewMut<'a> {
-    pub(in crate::mpm) nodes: &'a mut [PackedNode],
+pub struct FieldViewMut<'a, N> {
+    pub(in crate::mpm) nodes: &'a mut [N],
     pub(in crate::mpm) layout: Layout,
 }
 
 impl FieldView<'_> {
     /// K nodes in a row.
     #[inline(always)]
-    pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[PackedNode] {
+    pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node4] {
         &self.nodes[start..start + K]
     }
 }
 
-impl FieldViewMut<'_> {
-    /// Empty view.
-    pub(in crate::mpm) fn none() -> Self {
-        Self { nodes: &mut [], layout: Layout::default() }
-    }
-
+impl<N: PackedNode> FieldViewMut<'_, N> {
     /// Reborrowed view.
     #[inline(always)]
-    pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_> {
+    pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_, N> {
         FieldViewMut { nodes: self.nodes, layout: self.layout }
     }
 
     /// K nodes in a row.
     #[inline(always)]
-    pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [PackedNode] {
+    pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [N] {
         &mut self.nodes[start..start + K]
     }
 
     /// Zero everywhere.
     pub(in crate::mpm) fn clear(&mut self) {
-        self.nodes.fill(PackedNode::default());
+        self.nodes.fill(N::default());
     }
 
     /// Nodes before a layer across the last of D axes, and nodes from there on.

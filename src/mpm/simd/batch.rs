@@ -1,7 +1,8 @@
 //! Columns of one batch of particles in memory.
 
-use super::f64x4::{F64x4, LANES};
+use super::f64x4::F64x4;
 use super::level::Simd;
+use super::register::LANES;
 use crate::mpm::algebra::{Vector, array};
 use std::ops::Range;
 

@@ -1,25 +1,12 @@
 //! Arithmetic of a register of four `f64`.
 
-use std::ops::{Add, AddAssign, Mul, Sub};
-
-/// Numbers in a register.
-pub(in crate::mpm) const LANES: usize = 4;
+use super::register::{LANES, Register};
+use std::ops::{Add, Mul, Sub};
 
 /// Four `f64`.
 pub trait F64x4:
-    Copy
-    + Add<Output = Self>
-    + Add<f64, Output = Self>
-    + AddAssign
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Mul<f64, Output = Self>
-    + Into<[f64; LANES]>
+    Register + Add<f64, Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Into<[f64; LANES]>
 {
-    /// `self + a b`, rounded once: IEEE 754's fusedMultiplyAdd, with the same bits on a processor
-    /// that has no instruction for it.
-    fn plus_product(self, a: Self, b: f64) -> Self;
-
     /// Largest integer not above each, for magnitudes up to 2^51.
     fn floor(self) -> Self;
 

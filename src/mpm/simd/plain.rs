@@ -1,6 +1,7 @@
 //! Register emulated by an array, for every processor.
 
-use super::f64x4::{F64x4, LANES};
+use super::f64x4::F64x4;
+use super::register::{LANES, Register};
 use crate::mpm::grid::floor;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
@@ -96,12 +97,14 @@ impl From<Array> for [f64; LANES] {
     }
 }
 
-impl F64x4 for Array {
+impl Register for Array {
     #[inline(always)]
     fn plus_product(self, a: Self, b: f64) -> Self {
         self.zip(a, |sum, a| fused(a, b, sum))
     }
+}
 
+impl F64x4 for Array {
     #[inline(always)]
     fn floor(self) -> Self {
         self.map(floor)

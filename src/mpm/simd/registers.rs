@@ -1,17 +1,27 @@
 //! Registers of x86.
 
 use super::f64x4::F64x4;
+use super::register::Register;
 use fearless_simd::{Select, SimdBase, SimdFloat, SimdMask};
 
-/// Implements [`F64x4`] for the 256-bit registers of a processor level.
-macro_rules! registers {
-    ($processor:ty) => {
-        impl F64x4 for fearless_simd::f64x4<$processor> {
+/// Implements [`Register`].
+macro_rules! sums {
+    ($register:ty) => {
+        impl Register for $register {
             #[inline(always)]
             fn plus_product(self, a: Self, b: f64) -> Self {
                 a.mul_add_precise(Self::splat(self.simd, b), self)
             }
+        }
+    };
+}
 
+/// Implements [`F64x4`] for the 256-bit registers of a processor level.
+macro_rules! registers {
+    ($processor:ty) => {
+        sums!(fearless_simd::f64x4<$processor>);
+
+        impl F64x4 for fearless_simd::f64x4<$processor> {
             #[inline(always)]
             fn floor(self) -> Self {
                 SimdFloat::floor(self)
@@ -54,3 +64,4 @@ macro_rules! registers {
 
 registers!(fearless_simd::x86::Avx2);
 registers!(fearless_simd::x86::Avx512);
+sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);

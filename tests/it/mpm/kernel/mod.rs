@@ -234,6 +234,16 @@ fn fast_loops_are_the_textbook_loops<const D: usize>(kernel: &dyn Kernel<D>, per
     let (mut fit, mut moments) = (particles.sigma.clone(), Moments::default());
     moments.resize(particles.len());
     kernel.moments(&start, &particles, &mut moments);
+
+    let mut pulled = particles.clone();
+    for (p, sigma) in pulled.sigma.iter_mut().enumerate() {
+        *sigma = slopes[p] * moments.second[p] / particles.vol[p];
+    }
+    let request = P2gRequest { mass: true, force: Some(Divergence::Fit), ..P2gRequest::default() };
+    kernel.p2g(&pulled, &request, &mut grid);
+    let force = textbook::force_by_fit(kernel, &pulled, &slopes, &start);
+    agree("force by fit", grid.force.iter().flatten(), force.iter().flatten());
+
     let alone = G2pRequest { fit: Some(&mut fit), ..G2pRequest::default() };
     kernel.g2p_all(&start, &particles, alone);
     let product: Vec<Matrix<D>> = fit.iter().zip(&moments.second).map(|(c, d)| c * d).collect();

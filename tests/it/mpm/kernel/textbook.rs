@@ -5,6 +5,7 @@
 //! m_i     =  sum_p m_p N_i(x_p)                                    (Sulsky, Chen & Schreyer 1994)
 //! (m v)_i =  sum_p m_p (v_p + C_p (x_i - x_p - mean_p)) N_i(x_p)   (APIC: Jiang et al. 2015)
 //! f_i     = -sum_p V_p sigma_p grad N_i(x_p)                       (Sulsky, Chen & Schreyer 1994)
+//! f_i     = -sum_p V_p sigma_p D_p^-1 (x_i - x_p - mean_p) N_i(x_p)       (MLS: Hu et al. 2018)
 //! v_p     =  sum_i v_i N_i(x_p)
 //! B_p     =  sum_i v_i (x) (x_i - x_p - mean_p) N_i(x_p)           (APIC: Jiang et al. 2015)
 //! L_p     =  sum_i v_i (x) grad N_i(x_p)
@@ -102,6 +103,24 @@ pub(super) fn p2g<const D: usize>(
         }
     }
     NodeSums { mass, momentum, force }
+}
+
+/// Internal force by fit of particles whose `V_p sigma_p D_p^-1` is `c`.
+pub(super) fn force_by_fit<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    particles: &Particles<D>,
+    c: &[Matrix<D>],
+    grid: &Grid<D>,
+) -> Vec<Vector<D>> {
+    let mut force = vec![Vector::zeros(); grid.nodes()];
+    for (p, c) in c.iter().enumerate() {
+        let nodes = node_weights(kernel, (grid, particles), p);
+        let mean = mean(&nodes);
+        for i in nodes {
+            force[i.node] -= c * (i.offset - mean * i.weight);
+        }
+    }
+    force
 }
 
 /// Velocity, first moment and gradient of the nodal velocities `v`.
