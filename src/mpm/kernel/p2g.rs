@@ -46,20 +46,6 @@ fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) ->
     columns(simd, &-particles.flux(p), force_lane(D))
 }
 
-/// Columns of a matrix for momentum, times a mass, together with those of one for the force.
-#[inline(always)]
-fn join<S: Simd, N: PackedNode, const D: usize>(
-    simd: S,
-    (inertia, m): (&[S::F64x4; D], f64),
-    force: &[S::F64x4; D],
-) -> [N::Lanes<S>; D] {
-    let mut columns = [N::splat(simd, 0.0); D];
-    for axis in 0..D {
-        columns[axis] = N::join(simd, inertia[axis] * m, force[axis]);
-    }
-    columns
-}
-
 /// The particles `first + lanes` with their patches, and the moments of all patches of a particle
 /// that has several.
 struct Visit<'a, const D: usize, B: Basis> {
@@ -100,7 +86,7 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                 let value = if has_inertia { inertial(simd, *m, v) } else { zero };
                 let mut term = NodeTerm::NONE;
                 if Self::HOLDS_ALL || !FLUX {
-                    term.value = Some(N::join(simd, value, zero));
+                    term.value = Some(N::of_inertia(simd, value));
                 }
                 if SLOPE {
                     let growth = match affine {
@@ -111,16 +97,25 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                             divide::<B, S, D>(at, of_all, (&b, 0), h)
                         }
                     };
-                    let mut fit = [zero; D];
-                    if is_fit {
-                        let flux = flux(simd, particles, p);
-                        fit = divide::<B, S, D>(at, of_all, (&flux, force_lane(D)), h);
+                    let mut slope = [N::splat(simd, 0.0); D];
+                    for axis in 0..D {
+                        slope[axis] = N::of_inertia(simd, growth[axis] * *m);
                     }
-                    term.slope = Some(join::<S, N, D>(simd, (&growth, *m), &fit));
+                    if is_fit {
+                        let force = (&flux(simd, particles, p), force_lane(D));
+                        let fit = divide::<B, S, D>(at, of_all, force, h);
+                        for axis in 0..D {
+                            slope[axis] = N::join(simd, growth[axis] * *m, fit[axis]);
+                        }
+                    }
+                    term.slope = Some(slope);
                 }
                 if FLUX {
-                    let flux = flux(simd, particles, p);
-                    term.flux = Some(join::<S, N, D>(simd, (&[zero; D], 0.0), &flux));
+                    let (columns, mut flux) = (flux(simd, particles, p), [N::splat(simd, 0.0); D]);
+                    for axis in 0..D {
+                        flux[axis] = N::of_force(simd, columns[axis]);
+                    }
+                    term.flux = Some(flux);
                 }
                 term
             },

@@ -20,6 +20,12 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Copies one value to all lanes.
     fn splat<S: Simd>(simd: S, value: f64) -> Self::Lanes<S>;
 
+    /// Lanes of momentum and mass alone.
+    fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> Self::Lanes<S>;
+
+    /// Lanes of a force alone.
+    fn of_force<S: Simd>(simd: S, force: S::F64x4) -> Self::Lanes<S>;
+
     /// Lanes of momentum and mass together with those of a force.
     fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> Self::Lanes<S>;
 
@@ -70,6 +76,16 @@ impl PackedNode for Node4 {
     }
 
     #[inline(always)]
+    fn of_inertia<S: Simd>(_: S, inertia: S::F64x4) -> S::F64x4 {
+        inertia
+    }
+
+    #[inline(always)]
+    fn of_force<S: Simd>(_: S, force: S::F64x4) -> S::F64x4 {
+        force
+    }
+
+    #[inline(always)]
     fn join<S: Simd>(_: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x4 {
         inertia + force
     }
@@ -108,6 +124,16 @@ impl PackedNode for Node8 {
     #[inline(always)]
     fn splat<S: Simd>(simd: S, value: f64) -> S::F64x8 {
         simd.join(simd.splat(value), simd.splat(value))
+    }
+
+    #[inline(always)]
+    fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> S::F64x8 {
+        simd.join(inertia, simd.splat(0.0))
+    }
+
+    #[inline(always)]
+    fn of_force<S: Simd>(simd: S, force: S::F64x4) -> S::F64x8 {
+        simd.join(simd.splat(0.0), force)
     }
 
     #[inline(always)]
