@@ -10,6 +10,8 @@
 mod one_thread;
 #[path = "common/random.rs"]
 mod random;
+#[path = "common/words.rs"]
+mod words;
 mod yardstick;
 
 use mpm_verify::mpm::{
@@ -93,14 +95,9 @@ fn quartiles(of: impl Iterator<Item = f64>) -> Timing {
     Timing::of(&of.collect::<Vec<_>>()).expect("times are numbers")
 }
 
-/// Words of the command line, but for options that `cargo bench` adds.
-fn words() -> impl Iterator<Item = String> {
-    std::env::args().skip(1).filter(|word| !word.starts_with('-'))
-}
-
 /// Runs both in turn and prints what they take for a particle.
 fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn FnMut()) {
-    if !words().all(|word| word.parse::<f64>().is_ok() || id.contains(&word)) {
+    if !words::selects(id) {
         return;
     }
     let once = time(plain).max(1e-6);
@@ -292,7 +289,7 @@ fn flip_step(id: &str, scheme: SchemeName, step: FlipStep, count: f64) {
 
 fn main() {
     one_thread();
-    let count = words().find_map(|word| word.parse().ok()).unwrap_or(1e5);
+    let count = words::count(1e5);
     println!("ns per particle, {count:e} particles, sorted by cell, one thread");
     println!(
         "{:<28} {:>10} {:>10} {:>7}  quartiles      best",

@@ -12,6 +12,8 @@ mod random;
 #[path = "transfer/scene.rs"]
 #[allow(dead_code, reason = "the passes are for the bench of transfers")]
 mod scene;
+#[path = "common/words.rs"]
+mod words;
 
 use check::checked_solver;
 use mpm_verify::mpm::{BasisName, MaterialPlan, SchemeName, Solver, TransferName};
@@ -50,12 +52,11 @@ fn step<const D: usize>(solver: &mut Solver<D>, threads: usize, passes: &mut Vec
 }
 
 fn profile<const D: usize>(
-    words: &[String],
     count: usize,
     (basis, transfer, scheme): (BasisName, TransferName, SchemeName),
 ) {
     let id = format!("{D}d/{}/{}/{}", basis.name(), transfer.name(), scheme.name());
-    if !words.iter().all(|word| id.contains(word.as_str())) {
+    if !words::selects(&id) {
         return;
     }
     let (method, grid, particles) = Method::<D>::new((basis, transfer), Order::Sorted, count);
@@ -80,16 +81,13 @@ fn profile<const D: usize>(
 }
 
 fn main() {
-    let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
-    let (numbers, words): (Vec<String>, Vec<String>) =
-        words.into_iter().partition(|word| word.parse::<f64>().is_ok());
-    let count = numbers.first().and_then(|word| word.parse::<f64>().ok()).unwrap_or(1e4) as usize;
+    let count = words::count(1e4) as usize;
     println!("ns per particle on one thread, share of the step, times faster on two threads");
     let (quadratic, usl) = (BasisName::QuadraticBSpline, SchemeName::Usl);
-    profile::<1>(&words, count, (BasisName::Linear, TransferName::Flip, SchemeName::Musl));
-    profile::<2>(&words, count, (quadratic, TransferName::Mls, usl));
-    profile::<3>(&words, count, (quadratic, TransferName::Flip, usl));
-    profile::<3>(&words, count, (quadratic, TransferName::Flip, SchemeName::Musl));
-    profile::<3>(&words, count, (quadratic, TransferName::Apic, usl));
-    profile::<3>(&words, count, (quadratic, TransferName::Mls, usl));
+    profile::<1>(count, (BasisName::Linear, TransferName::Flip, SchemeName::Musl));
+    profile::<2>(count, (quadratic, TransferName::Mls, usl));
+    profile::<3>(count, (quadratic, TransferName::Flip, usl));
+    profile::<3>(count, (quadratic, TransferName::Flip, SchemeName::Musl));
+    profile::<3>(count, (quadratic, TransferName::Apic, usl));
+    profile::<3>(count, (quadratic, TransferName::Mls, usl));
 }
