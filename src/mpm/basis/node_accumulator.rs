@@ -24,7 +24,7 @@ const NONE: usize = usize::MAX;
 impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
     #[inline(always)]
     pub(in crate::mpm) fn new(simd: S, field: FieldViewMut<'a, N>) -> Self {
-        Self { simd, field, start: NONE, sums: [N::splat(simd, 0.0); K] }
+        Self { simd, field, start: NONE, sums: [N::zero(simd); K] }
     }
 
     /// Adds to row `j` of plane `k` of the box of nodes from `start` on, in D dimensions.

@@ -24,10 +24,10 @@ pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether a request takes nodes of eight numbers: those of four hold momentum, mass and force only
-/// along one axis.
+/// Whether a request takes nodes of eight numbers, where those of four cannot hold momentum, mass
+/// and force: beyond one axis.
 pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, D>) -> bool {
-    D > 1 && request.force.is_some() && (request.mass || request.momentum.is_some())
+    request.force.is_some() && (request.mass || request.momentum.is_some())
 }
 
 /// Momentum and, in the last lane, mass of a particle.
@@ -97,21 +97,22 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                             divide::<B, S, D>(at, of_all, (&b, 0), h)
                         }
                     };
-                    let mut slope = [N::splat(simd, 0.0); D];
-                    for axis in 0..D {
-                        slope[axis] = N::of_inertia(simd, growth[axis] * *m);
-                    }
+                    let (mut slope, mut fit) = ([N::zero(simd); D], None);
                     if is_fit {
                         let force = (&flux(simd, particles, p), force_lane(D));
-                        let fit = divide::<B, S, D>(at, of_all, force, h);
-                        for axis in 0..D {
-                            slope[axis] = N::join(simd, growth[axis] * *m, fit[axis]);
-                        }
+                        fit = Some(divide::<B, S, D>(at, of_all, force, h));
+                    }
+                    for axis in 0..D {
+                        let growth = growth[axis] * *m;
+                        slope[axis] = match &fit {
+                            Some(fit) => N::join(simd, growth, fit[axis]),
+                            None => N::of_inertia(simd, growth),
+                        };
                     }
                     term.slope = Some(slope);
                 }
                 if FLUX {
-                    let (columns, mut flux) = (flux(simd, particles, p), [N::splat(simd, 0.0); D]);
+                    let (columns, mut flux) = (flux(simd, particles, p), [N::zero(simd); D]);
                     for axis in 0..D {
                         flux[axis] = N::of_force(simd, columns[axis]);
                     }

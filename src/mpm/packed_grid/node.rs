@@ -1,6 +1,6 @@
 //! Nodes of packed fields: as many numbers as a register has.
 
-use crate::mpm::simd::{LANES, Register, Simd};
+use crate::mpm::simd::{LANES, Plain, Register, Simd};
 use std::fmt::Debug;
 
 /// Node of a packed field.
@@ -17,8 +17,11 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Stores the numbers of a register.
     fn store<S: Simd>(&mut self, numbers: Self::Lanes<S>);
 
-    /// Copies one value to all lanes.
-    fn splat<S: Simd>(simd: S, value: f64) -> Self::Lanes<S>;
+    /// All lanes zero.
+    #[inline(always)]
+    fn zero<S: Simd>(simd: S) -> Self::Lanes<S> {
+        Self::default().load(simd)
+    }
 
     /// Lanes of momentum and mass alone.
     fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> Self::Lanes<S>;
@@ -29,8 +32,11 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Lanes of momentum and mass together with those of a force.
     fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> Self::Lanes<S>;
 
-    /// Adds those of another node.
-    fn add(&mut self, other: &Self);
+    /// Adds the numbers of another node.
+    #[inline(always)]
+    fn add(&mut self, other: &Self) {
+        self.store::<Plain>(self.load(Plain) + other.load(Plain));
+    }
 
     /// The first four numbers: momentum, and mass in the last lane.
     fn inertia(&self) -> [f64; LANES];
@@ -71,11 +77,6 @@ impl PackedNode for Node4 {
     }
 
     #[inline(always)]
-    fn splat<S: Simd>(simd: S, value: f64) -> S::F64x4 {
-        simd.splat(value)
-    }
-
-    #[inline(always)]
     fn of_inertia<S: Simd>(_: S, inertia: S::F64x4) -> S::F64x4 {
         inertia
     }
@@ -88,11 +89,6 @@ impl PackedNode for Node4 {
     #[inline(always)]
     fn join<S: Simd>(_: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x4 {
         inertia + force
-    }
-
-    #[inline(always)]
-    fn add(&mut self, other: &Self) {
-        self.0.iter_mut().zip(other.0).for_each(|(sum, more)| *sum += more);
     }
 
     #[inline(always)]
@@ -122,11 +118,6 @@ impl PackedNode for Node8 {
     }
 
     #[inline(always)]
-    fn splat<S: Simd>(simd: S, value: f64) -> S::F64x8 {
-        simd.join(simd.splat(value), simd.splat(value))
-    }
-
-    #[inline(always)]
     fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> S::F64x8 {
         simd.join(inertia, simd.splat(0.0))
     }
@@ -139,11 +130,6 @@ impl PackedNode for Node8 {
     #[inline(always)]
     fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x8 {
         simd.join(inertia, force)
-    }
-
-    #[inline(always)]
-    fn add(&mut self, other: &Self) {
-        self.0.iter_mut().zip(other.0).for_each(|(sum, more)| *sum += more);
     }
 
     #[inline(always)]
