@@ -223,10 +223,17 @@ mod tests {
         }
     }
 
-    /// Plates that are pressed together and move along their common face, each with its velocity.
+    /// Plates that are pressed together by 1/100 and move along their common face, each with its
+    /// velocity; at mu = 0.3 friction shears them by 3/500.
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]
-    #[case::past_each_other(["0", "t/10"], "traction in Y against the velocity")]
+    #[case::past_each_other(["X*3/500", "t/10 + X*3/500"], "")]
+    #[case::without_friction(["0", "t/10"], "traction in Y against the velocity")]
+    #[case::with_too_little(["X*2.97/500", "t/10 + X*2.97/500"], "traction in Y against")]
+    #[case::with_too_much(["X*3.03/500", "t/10 + X*3.03/500"], "traction in Y against")]
+    #[case::driven_by_friction(["-X*3/500", "t/10 - X*3/500"], "traction in Y against")]
+    #[case::held(["t/10 + X*2/500", "t/10 + X*2/500"], "")]
+    #[case::held_too_well(["t/10 + X*4/500", "t/10 + X*4/500"], "a face that rests")]
     fn two_pressed_plates(#[case] along: [&str; 2], #[case] violated: &str) {
         let bind = |source: &str| {
             let expr = Expr::parse(source).unwrap();

@@ -22,6 +22,7 @@ use rstest::rstest;
     "prediction        -sigma*Omega*(n_left - n_right)/h N",
     "mpm-linear\n  expected: agrees with the prediction within 1e-14\n  because: the gradients",
 ])]
+#[case::a_study_of_stability("courant-limit", &["mpm-linear-flip-usl\n  expected: predictions confirmed by runs; the limit 1/sqrt(2 - short) within"])]
 fn a_suite_that_is_built_in(#[case] name: &str, #[case] words: &[&str]) {
     let found = Folder::new().call(&["explain", name]);
     assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
@@ -52,8 +53,8 @@ fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
     for words in [
         "effects           body_force, force\n",
         "a step            P2G(mass, force), acceleration, G2P(particle velocity), P2G(momentum), ",
-        "particle visits   p2g mass, p2g momentum, p2g internal force, p2g point force at 24 of 16",
-        "force share 16 at 8 of 16\n",
+        "particle visits   p2g mass, p2g momentum, p2g internal force, p2g point force at 20 of 16",
+        "force share 16 at 4 of 16\n",
         "without           `force` these lines change:\n",
         "    becomes         body_force\n",
     ] {

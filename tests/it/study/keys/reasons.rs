@@ -10,10 +10,6 @@ const SMALL: [&str; 4] = ["0.01 %", "0.1 %", "1 %", "+ 1"];
 /// Keys, or keys and names as `key: name`, with their reasons.
 const REASONS: &[(&str, &str)] = &[
     ("scene.dimension", "another dimension is another text: vectors lack components"),
-    (
-        "scene.sets.box.from",
-        "a set is the particles in its box, and none lies in a hundredth of it",
-    ),
     ("particles.perturb", "any place of a particle is right: errors are taken where it is"),
     ("particles.shift", "any place of a particle is right: errors are taken where it is"),
     ("internal_force.positions", "what is predicted holds wherever the particle is"),
@@ -27,7 +23,6 @@ const REASONS: &[(&str, &str)] = &[
     ("expect.drift.mass", "masses are never written: the drift is zero, whatever the bound"),
     ("internal_force.expect.agrees_within", "linear functions meet the prediction to the last bit"),
     ("run.dt.courant", "any stable step is right, and what is expected has room for its error"),
-    ("scene.contact.friction", "zero in every suite; a share of the pressure in tests/it/bodies"),
     ("reference.fem.dt", "a finer computation is the same truth"),
     ("equilibrium.equation: corotated", "one check serves this and exact"),
     ("equilibrium.equation: j2", "one check serves this and exact"),
