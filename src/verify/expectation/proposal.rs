@@ -220,6 +220,18 @@ mod tests {
         assert_eq!(halves(1.25), ["verdict: too_low"]);
     }
 
+    /// A run that fails has crossings up to there, and no others are to be expected.
+    #[test]
+    fn crossings_are_proposed_of_runs_that_end() {
+        let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
+        for level in &mut study.levels {
+            level.run.counters.crossings = Some(3);
+        }
+        assert_eq!(keys(&study), ["order: [1.9, 2.1]", "crossings: some"]);
+        study.judgement.verdict = Verdict::Failed;
+        assert_eq!(keys(&study), ["verdict: failed"]);
+    }
+
     /// A bound on a drift leaves room for thirty times of what was found.
     #[test]
     fn a_drift_has_room_below_its_bound() {

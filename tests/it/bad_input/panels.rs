@@ -37,6 +37,10 @@ const COOK: &str = include_str!("../../../verification/equilibrium/cooks-membran
     &[("{on: right,", "{on: ▸bottom,")],
     &["no side of the quadrilateral lies on its `bottom` face"]
 )]
+#[case::loaded_where_its_side_leans(
+    &[("[48, 44], ", "[40, 40], "), ("{on: right,", "{on: ▸right,")],
+    &["no side of the quadrilateral lies on its `right` face"]
+)]
 #[case::loaded_on_no_face(&[("{on: right,", "{on: ▸rigth,")], &["`rigth`", "did you mean `right`?"])]
 #[case::without_an_end(
     &[("{left: fixed}", "{▸left: periodic, right: periodic}")], &["does not go on periodically"]

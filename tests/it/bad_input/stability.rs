@@ -25,6 +25,10 @@ use rstest::rstest;
     &[("{d: [0.5, 0.1,", "{d: [0.5, 7,"), ("extra: [[\"4 + d\"]]", "extra: [▸[\"4 + d\"]]")],
     &["at 11", "outside the grid"]
 )]
+#[case::beside_a_grid_of_half_metres(
+    &[("cells: 10", "cells: 20"), ("extra: [[\"4 + d\"]]", "extra: [▸[9]]")],
+    &["a particle at 9 is outside the grid", "expected a place from -2 to 8"]
+)]
 #[case::of_a_loaded_body(
     &[("\nparticles:", "  loads:\n    - gravity: [-1]\n\nparticles:"), ("frozen: true", "▸frozen: true")],
     &["a frozen body rests"]

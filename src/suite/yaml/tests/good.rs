@@ -139,6 +139,7 @@ fn a_key_is_found_and_what_is_not_there_is_not() {
 #[case::escape("é: \"2*\\u0041\"", 2..3, (1, 4, 10))]
 #[case::doubled_quote("é: '2''L'", 2..3, (1, 4, 6))]
 #[case::block("é: |\n  2*L", 2..3, (1, 4, 1))]
+#[case::after_a_block_of_stated_indentation("t: |2-\n    deep\n  [no list\né: 2*L+M", 4..5, (4, 8, 1))]
 #[case::folded("é: 2*\n  L", 2..3, (1, 4, 2))]
 #[case::not_text("é: [2]", 0..1, (1, 4, 1))]
 #[case::too_long("é: 2*L", 2..9, (1, 4, 3))]
