@@ -61,6 +61,7 @@ pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
     Hencky, J2, LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan,
     MaterialProperties, MaterialSpec, NeoHookean, Newtonian, Prestressed, Range, Rigid,
+    StressBlock, StressUpdate,
 };
 pub use multibody::Bodies;
 pub use particles::{Block, Particles};

@@ -1,6 +1,9 @@
 //! Recursive halving of work among threads. Every number is computed by one thread from the same
 //! inputs, so that results do not depend on the number of threads.
 
+/// Most particles or nodes for one thread.
+pub(super) const FEW: usize = 1 << 14;
+
 /// Runs both, at once if there are several threads. With one thread, rayon is bypassed: it would
 /// wake another one.
 pub(super) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {

@@ -4,6 +4,7 @@ use crate::mpm::algebra::Vector;
 use crate::mpm::grid::{Grid, floor};
 use crate::mpm::particles::Particles;
 use crate::mpm::simd::{BATCH, vectorized};
+use crate::mpm::threads::{FEW, join};
 use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
 
 /// The cells of all particles, with counters.
@@ -44,42 +45,70 @@ impl<const D: usize> CellTracker<D> {
         grid: &Grid<D>,
         particles: &Particles<D>,
     ) -> Result<(), Failure> {
-        let Self { cells, crossings, left_domain } = self;
-        let mut found = Ok(());
-        let mut miss = |p: usize, x: &Vector<D>| {
-            *left_domain += u64::from(is_finite(x));
-            if found.is_ok() {
-                found = Err(nowhere(p, x));
-            }
+        let x = particles.positions();
+        let found = if particles.current_position.is_empty() {
+            enter_all(grid, (&mut self.cells, x), 0)
+        } else {
+            let lost = x.iter().position(|x| !is_finite(x));
+            CellChanges { lost, ..CellChanges::default() }
         };
-        if !particles.current_position.is_empty() {
-            let moved = particles.current_position.iter().enumerate();
-            moved.filter(|(_, x)| !is_finite(x)).for_each(|(p, x)| miss(p, x));
-            return found;
-        }
-        let is_periodic = grid.periodic.contains(&true);
-        vectorized(
-            #[inline(always)]
-            || {
-                let batches = cells.chunks_mut(BATCH).zip(particles.x.chunks(BATCH));
-                for (batch, (cells, x)) in batches.enumerate() {
-                    // Known in each branch, so that one has no division.
-                    let now = if is_periodic {
-                        all_inside::<D, true>(grid, x)
-                    } else {
-                        all_inside::<D, false>(grid, x)
-                    };
-                    match now {
-                        Some(now) => *crossings += enter(cells, &now),
-                        None => enter_each(grid, cells, x, crossings, &mut |lane, x| {
-                            miss(batch * BATCH + lane, x);
-                        }),
-                    }
-                }
-            },
-        );
-        found
+        self.crossings += found.crossings;
+        self.left_domain += found.left_domain;
+        found.lost.map_or(Ok(()), |p| Err(nowhere(p, &x[p])))
     }
+}
+
+/// Counts of some particles that have moved.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+struct CellChanges {
+    crossings: u64,
+    left_domain: u64,
+    /// The first particle that is in no cell.
+    lost: Option<usize>,
+}
+
+/// Puts particles, of which `first` is the number of the first, into the cells of their positions,
+/// on all threads.
+fn enter_all<const D: usize>(
+    grid: &Grid<D>,
+    (cells, x): (&mut [[f64; D]], &[Vector<D>]),
+    first: usize,
+) -> CellChanges {
+    let mut found = CellChanges::default();
+    if x.len() > FEW {
+        let middle = (x.len() / 2).next_multiple_of(BATCH);
+        let ((low, high), (x_of_low, x_of_high)) = (cells.split_at_mut(middle), x.split_at(middle));
+        let mut of_high = found;
+        join(
+            || found = enter_all(grid, (low, x_of_low), first),
+            || of_high = enter_all(grid, (high, x_of_high), first + middle),
+        );
+        return CellChanges {
+            crossings: found.crossings + of_high.crossings,
+            left_domain: found.left_domain + of_high.left_domain,
+            lost: found.lost.or(of_high.lost),
+        };
+    }
+    let is_periodic = grid.periodic.contains(&true);
+    vectorized(
+        #[inline(always)]
+        || {
+            let batches = cells.chunks_mut(BATCH).zip(x.chunks(BATCH));
+            for (batch, (cells, x)) in batches.enumerate() {
+                // Known in each branch, so that one has no division.
+                let now = if is_periodic {
+                    all_inside::<D, true>(grid, x)
+                } else {
+                    all_inside::<D, false>(grid, x)
+                };
+                match now {
+                    Some(now) => found.crossings += enter(cells, &now),
+                    None => enter_each(grid, (cells, x), first + batch * BATCH, &mut found),
+                }
+            }
+        },
+    );
+    found
 }
 
 impl<const D: usize> Memory for CellTracker<D> {
@@ -126,22 +155,22 @@ fn enter<const D: usize>(cells: &mut [[f64; D]], now: &[[f64; D]; BATCH]) -> u64
     crossings
 }
 
-/// The same one by one, where some are in no cell, which `miss` is told, with their numbers.
+/// The same one by one, where some are in no cell.
 #[inline(never)]
 fn enter_each<const D: usize>(
     grid: &Grid<D>,
-    cells: &mut [[f64; D]],
-    x: &[Vector<D>],
-    crossings: &mut u64,
-    miss: &mut dyn FnMut(usize, &Vector<D>),
+    (cells, x): (&mut [[f64; D]], &[Vector<D>]),
+    first: usize,
+    found: &mut CellChanges,
 ) {
     for (lane, (at, x)) in cells.iter_mut().zip(x).enumerate() {
-        let Some(now) = cell(grid, x) else {
-            miss(lane, x);
-            continue;
-        };
-        *crossings += u64::from(now != *at);
-        *at = now;
+        if let Some(now) = cell(grid, x) {
+            found.crossings += u64::from(now != *at);
+            *at = now;
+        } else {
+            found.left_domain += u64::from(is_finite(x));
+            found.lost = found.lost.or(Some(first + lane));
+        }
     }
 }
 
@@ -160,5 +189,38 @@ fn nowhere<const D: usize>(p: usize, x: &Vector<D>) -> Failure {
         Failure::LeftDomain { site, position: x.iter().copied().collect() }
     } else {
         Failure::NonFinite { quantity: "position", site }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::particles::Block;
+    use rayon::ThreadPoolBuilder;
+    use rstest::rstest;
+
+    /// A row of particles, one to a cell, of which some go to the next cell, some leave the grid
+    /// and one is nowhere.
+    #[rstest]
+    fn particles_are_counted_alike_on_any_number_of_threads(#[values(1, 3)] threads: usize) {
+        let total = 2 * FEW + 37;
+        let (from, to) = (Vector::zeros(), Vector::<1>::new(total as f64));
+        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let grid = Grid::new(Vector::zeros(), 1.0, [total], [false], [total + 1]);
+        let mut tracker = CellTracker::new(&grid, &row).unwrap();
+        let crossing = [3, FEW - 1, FEW, 2 * FEW, total - 2];
+        for p in crossing {
+            row.x[p][0] += 1.0;
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| tracker.track(&grid, &row)), Ok(()));
+        assert_eq!((tracker.crossings, tracker.left_domain), (5, 0));
+        for p in [FEW + 7, FEW + 9, total - 1] {
+            row.x[p][0] = -1.0;
+        }
+        row.x[5][0] = f64::NAN;
+        let lost = Failure::NonFinite { quantity: "position", site: Site::Particle(5) };
+        assert_eq!(pool.install(|| tracker.track(&grid, &row)), Err(lost));
+        assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
     }
 }

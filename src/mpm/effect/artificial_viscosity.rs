@@ -72,7 +72,7 @@ impl<const D: usize> Effect<D> for ArtificialViscosity {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{Block, LinearElastic, Material, Matrix, Vector};
+    use crate::mpm::{Block, LinearElastic, Material, Matrix, StressUpdate, Vector};
     use approx::assert_relative_eq;
 
     /// Two particles, of which one is compressed and the other stretched, by turns.
@@ -95,9 +95,9 @@ mod tests {
             for particles in [&mut body, &mut plain] {
                 (particles.grad_v[0], particles.grad_v[1]) = (rate, -rate);
             }
-            law.update(1e-3, &mut plain);
+            law.update(&mut StressUpdate::new(1e-3, &mut plain));
             effect.before_stress(&mut body);
-            law.update(1e-3, &mut body);
+            law.update(&mut StressUpdate::new(1e-3, &mut body));
             effect.after_stress(&mut body);
             let compressed = step % 2;
             let density = body.mass[compressed] / body.vol[compressed];

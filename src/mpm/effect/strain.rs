@@ -1,31 +1,32 @@
 //! Constitutive update with the hooks of the effects.
 
 use super::contract::Effect;
-use crate::mpm::material::Material;
-use crate::mpm::particles::Particles;
+use crate::mpm::material::{Material, StressUpdate};
 
-/// New stresses after `dt` (s).
+/// New stresses; returns [`StressUpdate::least_j`].
 pub(in crate::mpm) fn strain<const D: usize>(
     effects: &mut [Box<dyn Effect<D>>],
     material: &mut dyn Material<D>,
-    dt: f64,
-    particles: &mut Particles<D>,
-) {
-    for effect in effects.iter_mut() {
-        effect.before_stress(particles);
+    mut body: StressUpdate<'_, D>,
+) -> Option<f64> {
+    for effect in effects.iter_mut().filter(|effect| effect.makes_stress()) {
+        effect.before_stress(body.particles());
     }
-    material.update(dt, particles);
+    material.update(&mut body);
     // Brackets: an effect finds the particles as its hook before has left them. The volume that
     // thermal expansion gives back is that of the density which artificial viscosity takes.
-    for effect in effects.iter_mut().rev() {
-        effect.after_stress(particles);
+    for effect in effects.iter_mut().rev().filter(|effect| effect.makes_stress()) {
+        effect.after_stress(body.particles());
     }
+    body.least_j()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{ArtificialViscosity, Block, Hencky, Matrix, ThermalExpansion, Vector};
+    use crate::mpm::{
+        ArtificialViscosity, Block, Hencky, Matrix, Particles, ThermalExpansion, Vector,
+    };
     use approx::assert_relative_eq;
 
     /// A hot bar that closes: Hencky's stress of its elastic stretch 1.5/1.2 with E = 50, less
@@ -44,7 +45,7 @@ mod tests {
         expansion.start(&mut law, &mut bar);
         bar.grad_v[0] = Matrix::<1>::new(-3.0);
         let mut effects: Vec<Box<dyn Effect<1>>> = vec![Box::new(viscosity), Box::new(expansion)];
-        strain(&mut effects, &mut law, 0.0, &mut bar);
+        strain(&mut effects, &mut law, StressUpdate::new(0.0, &mut bar));
         let expected = 50.0 * libm::log(1.25) / 1.25 - 2.0 * 0.09;
         assert_relative_eq!(bar.sigma[0][(0, 0)], expected, max_relative = 1e-14);
         assert_relative_eq!(bar.vol[0], 1.5, max_relative = 1e-14);

@@ -12,7 +12,7 @@
 
 use super::contract::Effect;
 use crate::mpm::algebra::Matrix;
-use crate::mpm::material::Material;
+use crate::mpm::material::{Material, StressUpdate};
 use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column};
 
@@ -85,7 +85,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
             }
         }
         self.before_stress(particles);
-        material.update(0.0, particles);
+        material.update(&mut StressUpdate::new(0.0, particles));
         self.after_stress(particles);
     }
 
@@ -170,7 +170,7 @@ mod tests {
         assert_relative_eq!(plate.sigma[0], expected(30.0), max_relative = 1e-14);
         plate.temperature[0] = 17.0;
         expansion.before_stress(&mut plate);
-        law.update(0.1, &mut plate);
+        law.update(&mut StressUpdate::new(0.1, &mut plate));
         expansion.after_stress(&mut plate);
         assert_relative_eq!(plate.sigma[0], expected(17.0), max_relative = 1e-13);
     }

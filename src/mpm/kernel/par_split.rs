@@ -2,11 +2,8 @@
 
 use super::request::G2pRequest;
 use crate::mpm::simd::BATCH;
-use crate::mpm::threads::{join, split};
+use crate::mpm::threads::{FEW, join, split};
 use std::ops::Range;
-
-/// Most particles for one thread.
-const FEW: usize = 1 << 14;
 
 impl<const D: usize> G2pRequest<'_, D> {
     /// Requests for the first `count` particles and for the others.

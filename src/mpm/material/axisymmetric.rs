@@ -4,6 +4,7 @@
 //! between the meridian plane and the hoop are zero.
 
 use super::contract::Material;
+use super::stress_update::StressUpdate;
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::{Block, Particles};
 use crate::subject::{Checkpoint, Column, Failure};
@@ -113,8 +114,9 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.in_space(particles, |law, space| law.start_deformed(space))
     }
 
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        self.in_space(particles, |law, space| law.update(dt, space));
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let dt = body.dt();
+        self.in_space(body.particles(), |law, space| law.update(&mut StressUpdate::new(dt, space)));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Interface of materials to the solver, and to those who state problems.
 
+use super::stress_update::StressUpdate;
 #[cfg(test)]
 use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
@@ -121,11 +122,11 @@ pub trait Material<const D: usize>: Send {
         if !self.reads_deformation() {
             return Err(Failure::NotOfDeformation);
         }
-        self.update(0.0, particles);
+        self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
     }
 
-    /// New stresses and volumes of all particles from their velocity gradients over `dt` (s). F,
-    /// where it exists, is that of the end of the step already. Allocates in the first call only.
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>);
+    /// New stresses and volumes of all particles from F, where it exists, and from their velocity
+    /// gradients. Allocates in the first call only.
+    fn update(&mut self, body: &mut StressUpdate<'_, D>);
 }

@@ -10,6 +10,7 @@ use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::spectral::{assembled, spectral};
+use super::stress_update::StressUpdate;
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 
@@ -66,8 +67,8 @@ impl<const D: usize> Material<D> for Corotated {
         Some(stored_energy(particles, |f| self.density(f)))
     }
 
-    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        set_stress(particles, |f, j| self.cauchy(f, j));
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        set_stress(body, |f, j| self.cauchy(f, j));
     }
 }
 

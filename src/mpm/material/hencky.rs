@@ -10,6 +10,7 @@ use super::hyperelastic::{set_stress, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
 use super::spectral::{assembled, half_log, spectral};
+use super::stress_update::StressUpdate;
 use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
 
@@ -90,8 +91,8 @@ impl<const D: usize> Material<D> for Hencky {
         Some(stored_energy(particles, |f| self.density(f)))
     }
 
-    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        set_stress(particles, |f, j| self.cauchy(f, j));
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        set_stress(body, |f, j| self.cauchy(f, j));
     }
 }
 

@@ -11,6 +11,7 @@
 use super::contract::{Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
 use super::spectral::{assembled, half_log, spectral};
+use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::algebra::{Matrix, Vector, det};
 use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column, Entry, Memory};
@@ -140,16 +141,19 @@ impl<const D: usize> Material<D> for J2 {
         Some(all.map(|(p, (f, vol0))| vol0 * density(p, f)).sum())
     }
 
-    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        self.flowed.resize(particles.len(), Flowed::NOT);
-        for p in 0..particles.len().min(particles.def_grad.len()) {
-            let f = &particles.def_grad[p];
-            let j = det(f);
-            let (stress, flowed) = self.kirchhoff(&in_space(f), self.flowed[p]);
-            self.flowed[p] = flowed;
-            particles.vol[p] = j * particles.vol0[p];
-            particles.sigma[p] = Matrix::from_fn(|i, k| stress[(i, k)] / j);
-        }
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let mut flowed = std::mem::take(&mut self.flowed);
+        body.by_block_with(&mut flowed, &|StressBlock { def_grad, vol, vol0, sigma, .. },
+                                          flowed| {
+            let results = vol.iter_mut().zip(vol0.iter()).zip(sigma.iter_mut());
+            for ((f, flowed), ((vol, vol0), sigma)) in def_grad.iter().zip(flowed).zip(results) {
+                let (j, (stress, after)) = (det(f), self.kirchhoff(&in_space(f), *flowed));
+                *flowed = after;
+                *vol = j * vol0;
+                *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j);
+            }
+        });
+        self.flowed = flowed;
     }
 }
 

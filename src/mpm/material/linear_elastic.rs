@@ -15,6 +15,7 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::plane_stress::RatePlaneStress;
+use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 use crate::subject::Failure;
@@ -137,13 +138,15 @@ impl<const D: usize> Material<D> for LinearElastic {
         Ok(())
     }
 
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        let Particles { grad_v, vol, sigma, .. } = particles;
-        for ((grad_v, vol), sigma) in grad_v.iter().zip(vol).zip(sigma) {
-            let step = grad_v * dt;
-            *vol *= det(&(Matrix::identity() + step));
-            *sigma += self.increment(&((step + step.transpose()) * 0.5));
-        }
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let dt = body.dt();
+        body.by_block(|StressBlock { grad_v, vol, sigma, .. }| {
+            for ((grad_v, vol), sigma) in grad_v.iter().zip(vol.iter_mut()).zip(sigma.iter_mut()) {
+                let step = grad_v * dt;
+                *vol *= det(&(Matrix::identity() + step));
+                *sigma += self.increment(&((step + step.transpose()) * 0.5));
+            }
+        });
     }
 }
 
@@ -180,7 +183,8 @@ mod tests {
         let mut bar = one_particle::<1>();
         for _ in 0..steps {
             bar.grad_v[0] = Matrix::<1>::new(1.0 / bar.vol[0]);
-            LinearElastic::new(young, 0.0).update(0.1 / f64::from(steps), &mut bar);
+            let dt = 0.1 / f64::from(steps);
+            LinearElastic::new(young, 0.0).update(&mut StressUpdate::new(dt, &mut bar));
         }
         assert_relative_eq!(bar.vol[0], 1.1, max_relative = 1e-12);
         assert_relative_eq!(bar.sigma[0][(0, 0)], young * libm::log(1.1), max_relative = 1e-6);
@@ -197,7 +201,7 @@ mod tests {
             let middle = (f64::from(step) + 0.5) / f64::from(steps);
             let now = Matrix::identity() + grad * middle;
             pulled.grad_v[0] = grad * now.try_inverse().unwrap();
-            { law }.update(1.0 / f64::from(steps), &mut pulled);
+            { law }.update(&mut StressUpdate::new(1.0 / f64::from(steps), &mut pulled));
         }
         assert_relative_eq!(started(law, f).sigma[0], pulled.sigma[0], epsilon = 1e-5);
     }
@@ -263,7 +267,7 @@ mod tests {
         solid.sigma[0] = Matrix::<2>::new(3.0, 0.5, 0.5, -1.0);
         let before = solid.sigma[0];
         solid.grad_v[0] = Matrix::<2>::new(0.0, -1.0, 1.0, 0.0);
-        LinearElastic::new(50.0, 0.3).update(0.1, &mut solid);
+        LinearElastic::new(50.0, 0.3).update(&mut StressUpdate::new(0.1, &mut solid));
         assert_eq!(solid.sigma[0], before);
     }
 }

@@ -9,6 +9,7 @@
 //! Of the deformation the fluid knows J alone, which it integrates, `J *= det(I + grad v dt)`.
 
 use super::contract::{Material, MaterialProperties};
+use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 use crate::subject::Failure;
@@ -42,7 +43,7 @@ impl MaterialProperties for LinearFluid {
 
 impl<const D: usize> Material<D> for LinearFluid {
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
-        self.update(0.0, particles);
+        self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
     }
 
@@ -56,12 +57,16 @@ impl<const D: usize> Material<D> for LinearFluid {
         Some(all.map(|(vol, vol0)| vol0 * density(vol / vol0)).sum())
     }
 
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        for p in 0..particles.len() {
-            particles.vol[p] *= det(&(Matrix::identity() + particles.grad_v[p] * dt));
-            let dilation = particles.vol[p] / particles.vol0[p] - 1.0;
-            particles.sigma[p] = Matrix::identity() * (self.bulk * dilation);
-        }
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let dt = body.dt();
+        body.by_block(|StressBlock { grad_v, vol, vol0, sigma, .. }| {
+            let volumes = vol.iter_mut().zip(vol0.iter());
+            for ((grad_v, (vol, vol0)), sigma) in grad_v.iter().zip(volumes).zip(sigma.iter_mut()) {
+                *vol *= det(&(Matrix::identity() + grad_v * dt));
+                let dilation = *vol / vol0 - 1.0;
+                *sigma = Matrix::identity() * (self.bulk * dilation);
+            }
+        });
     }
 }
 

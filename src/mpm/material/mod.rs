@@ -2,8 +2,6 @@
 //! material has is one line in `parameter`.
 
 mod axisymmetric;
-#[cfg(test)]
-mod closed_forms;
 mod contract;
 mod hyperelastic;
 #[cfg(test)]
@@ -15,12 +13,14 @@ mod registry;
 #[cfg(test)]
 mod specimen;
 mod spectral;
+mod stress_update;
 
 #[cfg(test)]
 use contract::ClosedForms;
 pub use contract::{Material, MaterialProperties};
 pub use parameter::{MaterialParameter, Range};
 pub use prestressed::Prestressed;
+pub use stress_update::{StressBlock, StressUpdate};
 
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;

@@ -8,6 +8,7 @@ use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_by_batch, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, thinning};
+use super::stress_update::StressUpdate;
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 use crate::mpm::simd::{BATCH, F64Batch, ln};
@@ -127,9 +128,9 @@ impl<const D: usize> Material<D> for NeoHookean {
         Some(stored_energy(particles, |f| self.density(f)))
     }
 
-    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
         set_stress_by_batch(
-            particles,
+            body,
             #[inline(always)]
             |j| {
                 let (log_j, mut factors) = (ln(j), [F64Batch::ZERO; 2]);

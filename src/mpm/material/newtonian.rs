@@ -10,6 +10,7 @@
 //! grows without limit in a flow, and is not kept.
 
 use super::contract::{Material, MaterialProperties};
+use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 use crate::subject::Failure;
@@ -54,7 +55,7 @@ impl MaterialProperties for Newtonian {
 impl<const D: usize> Material<D> for Newtonian {
     /// The pressure of J and the viscous stress of the velocity.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
-        self.update(0.0, particles);
+        self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
     }
 
@@ -76,15 +77,18 @@ impl<const D: usize> Material<D> for Newtonian {
         Some(all.map(|(vol, vol0)| vol0 * density(vol / vol0)).sum())
     }
 
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        for p in 0..particles.len() {
-            let grad_v = &particles.grad_v[p];
-            particles.vol[p] *= det(&(Matrix::identity() + grad_v * dt));
-            let pressure = self.pressure(particles.vol[p] / particles.vol0[p]);
-            let isotropic = -pressure - 2.0 / 3.0 * self.viscosity * grad_v.trace();
-            let shear = (grad_v + grad_v.transpose()) * self.viscosity;
-            particles.sigma[p] = Matrix::identity() * isotropic + shear;
-        }
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let dt = body.dt();
+        body.by_block(|StressBlock { grad_v, vol, vol0, sigma, .. }| {
+            let volumes = vol.iter_mut().zip(vol0.iter());
+            for ((grad_v, (vol, vol0)), sigma) in grad_v.iter().zip(volumes).zip(sigma.iter_mut()) {
+                *vol *= det(&(Matrix::identity() + grad_v * dt));
+                let pressure = self.pressure(*vol / vol0);
+                let isotropic = -pressure - 2.0 / 3.0 * self.viscosity * grad_v.trace();
+                let shear = (grad_v + grad_v.transpose()) * self.viscosity;
+                *sigma = Matrix::identity() * isotropic + shear;
+            }
+        });
     }
 }
 

@@ -4,12 +4,13 @@
 //! plate that becomes thinner are those of its present thickness.
 
 use super::contract::Material;
+use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::algebra::{Matrix, det};
 use crate::mpm::particles::Particles;
 use crate::subject::Failure;
 
 /// A law of the whole deformation that is known in plane stress.
-pub(super) trait FreeAcross: Send {
+pub(super) trait FreeAcross: Send + Sync {
     /// F_33 of a plate whose F in the plane has the determinant `area`.
     fn stretch(&self, area: f64) -> f64;
 
@@ -37,16 +38,19 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
         Some(all.map(|((f, across), vol0)| vol0 * self.0.density(f, *across)).sum())
     }
 
-    fn update(&mut self, _: f64, particles: &mut Particles<D>) {
-        let Particles { def_grad, across, vol0, vol, sigma, .. } = particles;
-        for (p, f) in def_grad.iter().enumerate() {
-            let area = det(f);
-            // Of a particle inside out the solver says so by its volume.
-            across[p] = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
-            let j = area * across[p];
-            vol[p] = j * vol0[p];
-            sigma[p] = self.0.cauchy(f, j);
-        }
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        body.by_block(|StressBlock { def_grad, across, vol0, vol, sigma, .. }| {
+            let volumes = vol.iter_mut().zip(vol0.iter()).zip(across.iter_mut());
+            let results = volumes.zip(sigma.iter_mut());
+            for (f, (((vol, vol0), across), sigma)) in def_grad.iter().zip(results) {
+                let area = det(f);
+                // Of a particle inside out the solver says so by its volume.
+                *across = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
+                let j = area * *across;
+                *vol = j * vol0;
+                *sigma = self.0.cauchy(f, j);
+            }
+        });
     }
 }
 
@@ -95,9 +99,10 @@ impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
         Ok(())
     }
 
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        self.plane.update(dt, particles);
-        let Particles { grad_v, across, vol, .. } = particles;
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        self.plane.update(body);
+        let dt = body.dt();
+        let Particles { grad_v, across, vol, .. } = body.particles();
         for ((grad_v, across), vol) in grad_v.iter().zip(across).zip(vol) {
             let step = 1.0 - self.thinning * grad_v.trace() * dt;
             *across *= step;

@@ -6,6 +6,7 @@
 //! Non-Linear Mech. 56). A law in rate form goes on from the Cauchy stress S0 by itself.
 
 use super::contract::Material;
+use super::stress_update::StressUpdate;
 use crate::mpm::algebra::Matrix;
 use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
@@ -81,9 +82,9 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         Ok(())
     }
 
-    fn update(&mut self, dt: f64, particles: &mut Particles<D>) {
-        self.law.update(dt, particles);
-        self.add(particles);
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        self.law.update(body);
+        self.add(body.particles());
     }
 }
 
@@ -142,7 +143,7 @@ mod tests {
             for (plan, mut law, mut body) in bodies::<D>() {
                 assert_eq!(body.sigma[0], initial::<D>(), "{plan:?}");
                 body.track_deformation();
-                law.update(0.1, &mut body);
+                law.update(&mut StressUpdate::new(0.1, &mut body));
                 assert_abs_diff_eq!(body.sigma[0], initial::<D>(), epsilon = 1e-13);
             }
         }

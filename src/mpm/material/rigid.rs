@@ -1,9 +1,9 @@
 //! Rigid bodies at rest: no law, a body that neither deforms nor moves, in which heat may flow.
 
 use super::contract::{Material, MaterialProperties};
+use super::stress_update::StressUpdate;
 #[cfg(test)]
 use crate::mpm::algebra::Matrix;
-use crate::mpm::particles::Particles;
 
 /// A rigid body at rest. Nothing is computed for its motion, and its stress is never read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +36,7 @@ impl<const D: usize> Material<D> for Rigid {
         false
     }
 
-    fn update(&mut self, _: f64, _: &mut Particles<D>) {}
+    fn update(&mut self, _: &mut StressUpdate<'_, D>) {}
 }
 
 #[cfg(test)]

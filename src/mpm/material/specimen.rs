@@ -1,5 +1,6 @@
 //! One particle of each registered material, for the tests of the family.
 
+use super::stress_update::StressUpdate;
 use super::{Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::{Block, Particles};
@@ -47,7 +48,7 @@ impl<const D: usize> Specimen<D> {
         let Self(material, particles) = self;
         particles.grad_v[0] = *grad_v;
         particles.def_grad[0] = (Matrix::identity() + grad_v * dt) * particles.def_grad[0];
-        material.update(dt, particles);
+        material.update(&mut StressUpdate::new(dt, particles));
         particles.sigma[0]
     }
 

@@ -1,12 +1,11 @@
 //! Columns of nodes to which packed fields are unpacked.
 
 use super::node::{PackedNode, force_lane};
-use super::view::FieldViewMut;
-use super::{FEW, MARGIN};
+use super::view::{FieldViewMut, MARGIN};
 use crate::mpm::algebra::Vector;
 use crate::mpm::grid::Grid;
 use crate::mpm::simd::components;
-use crate::mpm::threads::{join, split};
+use crate::mpm::threads::{FEW, join, split};
 use std::ops::Range;
 
 /// Nodes of a piece of a 1-D grid, few enough to stay in the cache for all columns.

@@ -27,10 +27,7 @@ pub(in crate::mpm) use view::{FieldView, FieldViewMut, Layout, MARGIN};
 
 use super::algebra::Vector;
 use super::grid::Grid;
-use super::threads::RowChunks;
-
-/// Most nodes for one thread.
-const FEW: usize = 1 << 14;
+use super::threads::{FEW, RowChunks};
 
 /// Nodes of a piece of a 1-D grid.
 const PIECE: usize = 1 << 12;

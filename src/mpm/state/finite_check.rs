@@ -53,15 +53,15 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Searches for the particle only if there is one: the loop of every step has no early exit, so
-/// that it checks several numbers at a time.
+/// Whether every number of a column is finite.
+pub(in crate::mpm) fn all_finite<const D: usize>(column: &[Matrix<D>]) -> bool {
+    all(column, matrix)
+}
+
+/// Without early exit, so that several numbers are checked at a time.
 #[inline(always)]
-fn first<T>(
-    quantity: &'static str,
-    column: &[T],
-    sound: impl Fn(&T) -> bool,
-) -> Result<(), Failure> {
-    let all_sound = vectorized(
+fn all<T>(column: &[T], sound: impl Fn(&T) -> bool) -> bool {
+    vectorized(
         #[inline(always)]
         || {
             let mut all = true;
@@ -70,8 +70,17 @@ fn first<T>(
             }
             all
         },
-    );
-    if all_sound {
+    )
+}
+
+/// Searches for the particle only if there is one.
+#[inline(always)]
+fn first<T>(
+    quantity: &'static str,
+    column: &[T],
+    sound: impl Fn(&T) -> bool,
+) -> Result<(), Failure> {
+    if all(column, &sound) {
         return Ok(());
     }
     match column.iter().position(|entry| !sound(entry)) {

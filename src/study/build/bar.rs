@@ -106,7 +106,7 @@ pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
 mod tests {
     use super::*;
     use crate::exact::Equation;
-    use crate::mpm::{Block, Matrix, Particles, Vector};
+    use crate::mpm::{Block, Matrix, Particles, StressUpdate, Vector};
     use crate::suite::compile::truth::law;
     use approx::assert_relative_eq;
     use rstest::rstest;
@@ -117,7 +117,7 @@ mod tests {
         let mut one = Particles::<D>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         one.track_deformation();
         one.def_grad[0] = *f;
-        plan.build().update(0.0, &mut one);
+        plan.build().update(&mut StressUpdate::new(0.0, &mut one));
         let mut space = Matrix::<3>::identity();
         space.fixed_view_mut::<D, D>(0, 0).copy_from(f);
         let mut sigma = Matrix::<3>::zeros();
@@ -188,9 +188,9 @@ mod tests {
         one.def_grad[0] = Matrix::<1>::new(stretch);
         one.grad_v[0] = Matrix::<1>::new(stretch - 1.0);
         let mut material = plan.build();
-        material.update(1.0, &mut one);
+        material.update(&mut StressUpdate::new(1.0, &mut one));
         one.grad_v[0] = Matrix::zeros();
-        material.update(1.0, &mut one);
+        material.update(&mut StressUpdate::new(1.0, &mut one));
         one.sigma[0][(0, 0)]
     }
 }

@@ -1,0 +1,299 @@
+//! One update of the stresses of a body, which visits each particle once:
+//!
+//! ```text
+//! threads   halves of the body, down to some thousands of particles
+//! blocks    128 particles, whose columns stay in the first cache:  F  ->  law  ->  checks
+//! ```
+
+use crate::mpm::algebra::{Matrix, product};
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::vectorized;
+use crate::mpm::state::finite_check::all_finite;
+use crate::mpm::threads::{FEW, join};
+
+/// Particles of a block: 232 bytes each in 3-D.
+const BLOCK: usize = 128;
+
+/// Update of the stresses of a body over a time step.
+#[derive(Debug)]
+pub struct StressUpdate<'a, const D: usize> {
+    dt: f64,
+    particles: &'a mut Particles<D>,
+    /// Whether F is still that of the start of the step.
+    awaits_strain: bool,
+    /// The smallest J of the last visit, if it has found all J positive and all stresses finite.
+    least_j: Option<f64>,
+}
+
+/// Columns of some of the particles, as a law reads and writes them; those that the body does not
+/// have are empty.
+#[derive(Debug)]
+pub struct StressBlock<'a, const D: usize> {
+    /// F at the end of the step.
+    pub def_grad: &'a mut [Matrix<D>],
+    /// Velocity gradients (1/s).
+    pub grad_v: &'a [Matrix<D>],
+    /// Reference volumes (m^D).
+    pub vol0: &'a [f64],
+    /// Volumes (m^D), which the law sets.
+    pub vol: &'a mut [f64],
+    /// Cauchy stresses (Pa), which the law sets.
+    pub sigma: &'a mut [Matrix<D>],
+    /// Stretches across the plane.
+    pub across: &'a mut [f64],
+    /// Stresses across the plane (Pa).
+    pub stress_across: &'a mut [f64],
+}
+
+/// The part of a law in a visit: a block of particles, with what the law keeps of each.
+type BlockLaw<'a, const D: usize, S> = dyn Fn(&mut StressBlock<'_, D>, &mut [S]) + Sync + 'a;
+
+impl<'a, const D: usize> StressUpdate<'a, D> {
+    /// An update over `dt` (s) of particles whose F is that of the end of the step already.
+    pub fn new(dt: f64, particles: &'a mut Particles<D>) -> Self {
+        Self { dt, particles, awaits_strain: false, least_j: None }
+    }
+
+    /// The same, with F of the start of the step: it advances by the velocity gradients, in the
+    /// visit of the law.
+    pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
+        Self { awaits_strain: true, ..Self::new(dt, particles) }
+    }
+
+    /// Time step (s).
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// The whole body, with F of the end of the step.
+    pub fn particles(&mut self) -> &mut Particles<D> {
+        if std::mem::take(&mut self.awaits_strain) {
+            strain_by(self.dt, &self.particles.grad_v, &mut self.particles.def_grad);
+        }
+        self.least_j = None;
+        self.particles
+    }
+
+    /// Calls `law` with all particles, block by block, on all threads.
+    pub fn by_block(&mut self, law: impl Fn(&mut StressBlock<'_, D>) + Sync) {
+        self.by_block_with(&mut Vec::<()>::new(), &|block, _| law(block));
+    }
+
+    /// The same for a law that keeps a `state` of each particle, from the first call on.
+    pub fn by_block_with<S: Clone + Default + Send>(
+        &mut self,
+        state: &mut Vec<S>,
+        law: &BlockLaw<'_, D, S>,
+    ) {
+        state.resize(self.particles.len(), S::default());
+        let strain = std::mem::take(&mut self.awaits_strain).then_some(self.dt);
+        self.least_j = visit(StressBlock::of(self.particles), state, strain, law);
+    }
+
+    /// The smallest J, of none infinity; none unless every J is positive and finite and all
+    /// stresses are finite.
+    pub(in crate::mpm) fn least_j(mut self) -> Option<f64> {
+        if self.least_j.is_none() {
+            self.by_block(|_| {});
+        }
+        self.least_j
+    }
+}
+
+impl<'a, const D: usize> StressBlock<'a, D> {
+    fn of(particles: &'a mut Particles<D>) -> Self {
+        let Particles { def_grad, grad_v, vol0, vol, sigma, across, stress_across, .. } = particles;
+        Self { def_grad, grad_v, vol0, vol, sigma, across, stress_across }
+    }
+
+    /// Takes the first `count` particles off, or as many as there are.
+    fn take_first(&mut self, count: usize) -> Self {
+        Self {
+            def_grad: first_mut(&mut self.def_grad, count),
+            grad_v: self.grad_v.split_off(..count.min(self.grad_v.len())).unwrap_or_default(),
+            vol0: self.vol0.split_off(..count.min(self.vol0.len())).unwrap_or_default(),
+            vol: first_mut(&mut self.vol, count),
+            sigma: first_mut(&mut self.sigma, count),
+            across: first_mut(&mut self.across, count),
+            stress_across: first_mut(&mut self.stress_across, count),
+        }
+    }
+
+    /// The smallest J, if all are sound and so are the stresses.
+    fn least_j(&self) -> Option<f64> {
+        let least = least_ratio(self.vol, self.vol0)?;
+        let is_sound = all_finite(self.sigma) && self.stress_across.iter().all(|s| s.is_finite());
+        is_sound.then_some(least)
+    }
+}
+
+/// Takes the first `count` entries off `column`, or as many as there are.
+#[allow(clippy::mut_mut, reason = "what is taken is gone from the column")]
+fn first_mut<'a, T>(column: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    column.split_off_mut(..count.min(column.len())).unwrap_or_default()
+}
+
+/// Strains over the time `strain` (s), if any, and calls `law`, block by block; the smallest J, see
+/// [`StressUpdate::least_j`].
+fn visit<S: Send, const D: usize>(
+    mut body: StressBlock<'_, D>,
+    mut state: &mut [S],
+    strain: Option<f64>,
+    law: &BlockLaw<'_, D, S>,
+) -> Option<f64> {
+    let total = body.vol.len();
+    let both = |one: Option<f64>, other: Option<f64>| Some(one?.min(other?));
+    if total > FEW {
+        let middle = (total / 2).next_multiple_of(BLOCK);
+        let (low, state_of_low) = (body.take_first(middle), first_mut(&mut state, middle));
+        let (mut one, mut other) = (None, None);
+        join(
+            || one = visit(low, state_of_low, strain, law),
+            || other = visit(body, state, strain, law),
+        );
+        return both(one, other);
+    }
+    let mut least_j = Some(f64::INFINITY);
+    while !body.vol.is_empty() {
+        let mut block = body.take_first(BLOCK);
+        if let Some(dt) = strain {
+            strain_by(dt, block.grad_v, block.def_grad);
+        }
+        law(&mut block, first_mut(&mut state, BLOCK));
+        least_j = both(least_j, block.least_j());
+    }
+    least_j
+}
+
+/// `F <- (I + grad v dt) F`.
+fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matrix<D>]) {
+    vectorized(
+        #[inline(always)]
+        || {
+            for (f, grad_v) in def_grad.iter_mut().zip(grad_v) {
+                let mut step = Matrix::zeros();
+                for j in 0..D {
+                    for i in 0..D {
+                        let unit = if i == j { 1.0 } else { 0.0 };
+                        step[(i, j)] = unit + grad_v[(i, j)] * dt;
+                    }
+                }
+                *f = product(&step, f);
+            }
+        },
+    );
+}
+
+/// Ratios computed together.
+const TOGETHER: usize = 4;
+
+/// The smallest `a / b`, if all are positive and finite; infinity of none. As all are in most
+/// steps, the loop has no early exit, and divides several at a time.
+fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
+    let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
+    let (many_b, rest_b) = b.as_chunks::<TOGETHER>();
+    let (mut least, mut sound) = ([f64::INFINITY; TOGETHER], [1.0; TOGETHER]);
+    vectorized(
+        #[inline(always)]
+        || {
+            for (a, b) in many_a.iter().zip(many_b) {
+                for k in 0..TOGETHER {
+                    let ratio = a[k] / b[k];
+                    // Zero of a finite number; else not a number, for good.
+                    sound[k] += ratio * 0.0;
+                    least[k] = if ratio < least[k] { ratio } else { least[k] };
+                }
+            }
+        },
+    );
+    let rest = rest_a.iter().zip(rest_b).map(|(a, b)| a / b);
+    let sound = rest.clone().fold(sound.iter().sum(), |sound: f64, ratio| sound + ratio * 0.0);
+    let least = least.into_iter().chain(rest).fold(f64::INFINITY, f64::min);
+    (least > 0.0 && sound.is_finite()).then_some(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::specimen::{every, scattered};
+    use super::*;
+    use crate::mpm::algebra::{Vector, det};
+    use crate::mpm::particles::Block;
+    use rayon::ThreadPoolBuilder;
+    use rstest::rstest;
+
+    /// Squares at rest, each with a velocity gradient of its own (1/s).
+    fn squares(total: usize) -> Particles<2> {
+        let (from, to) = (Vector::zeros(), Vector::<2>::new(total as f64, 1.0));
+        let mut squares = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        squares.track_deformation();
+        for (p, grad_v) in squares.grad_v.iter_mut().enumerate() {
+            *grad_v = scattered(0.2, p as f64);
+        }
+        squares
+    }
+
+    /// Each particle is strained and stressed as if it were alone.
+    #[rstest]
+    fn blocks_on_threads_have_the_bits_of_single_particles(#[values(1, 3)] threads: usize) {
+        let (total, dt) = (2 * FEW + 37, 0.5);
+        for plan in every() {
+            let (mut body, mut law) = (squares(total), plan.build::<2>());
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let least_j = pool.install(|| {
+                let mut update = StressUpdate::straining(dt, &mut body);
+                law.update(&mut update);
+                update.least_j()
+            });
+            for p in [0, 1, BLOCK - 1, BLOCK, FEW, FEW + 19, total / 2, total - 1] {
+                let mut alone = squares(1);
+                alone.grad_v[0] = body.grad_v[p];
+                alone.def_grad[0] = Matrix::identity() + body.grad_v[p] * dt;
+                plan.build().update(&mut StressUpdate::new(dt, &mut alone));
+                let state = |body: &Particles<2>, p| (body.def_grad[p], body.sigma[p], body.vol[p]);
+                assert_eq!(state(&body, p), state(&alone, 0), "{plan:?}, particle {p}");
+            }
+            let j = body.vol.iter().zip(&body.vol0).map(|(vol, vol0)| vol / vol0);
+            assert_eq!(least_j, Some(j.fold(f64::INFINITY, f64::min)), "{plan:?}");
+        }
+    }
+
+    #[rstest]
+    #[case::nan(f64::NAN)]
+    #[case::inverted(-3.0)]
+    #[case::flat(-2.0)]
+    fn one_unsound_particle_of_many_is_noticed(#[case] rate: f64) {
+        for p in [0, FEW + 5, 2 * FEW + 36] {
+            let mut body = squares(2 * FEW + 37);
+            body.grad_v[p] = Matrix::from_diagonal(&Vector::<2>::new(rate, 0.0));
+            let mut update = StressUpdate::straining(0.5, &mut body);
+            every()[0].build().update(&mut update);
+            assert_eq!(update.least_j(), None);
+        }
+    }
+
+    /// A hook that has changed the volume of a particle.
+    #[test]
+    fn who_asks_for_the_particles_has_them_strained_and_checked_again() {
+        let mut body = squares(3);
+        let mut update = StressUpdate::straining(0.5, &mut body);
+        let f = update.particles().def_grad[2];
+        assert_eq!(f, Matrix::identity() + update.particles().grad_v[2] * 0.5);
+        update.by_block(|block| block.vol.copy_from_slice(&[2.0, det(&f), 3.0]));
+        update.particles().vol[1] = 0.25;
+        assert_eq!(update.particles().def_grad[2], f, "once only");
+        assert_eq!(update.least_j(), Some(0.25));
+    }
+
+    #[rstest]
+    #[case::of_several(&[2.0, 1.0, 3.0, 4.0, 1.5], Some(1.0))]
+    #[case::in_the_rest(&[2.0, 1.0, 3.0, 4.0, 0.5], Some(0.5))]
+    #[case::of_none(&[], Some(f64::INFINITY))]
+    #[case::inverted(&[2.0, -1.0, 3.0, 4.0, 0.5], None)]
+    #[case::flat(&[2.0, 1.0, 3.0, 4.0, 0.0], None)]
+    #[case::nan(&[2.0, 1.0, f64::NAN, 4.0, 1.0], None)]
+    #[case::nan_in_the_rest(&[2.0, 1.0, 1.0, 4.0, f64::NAN], None)]
+    #[case::infinite(&[f64::INFINITY, 1.0, 1.0, 4.0, 1.0, 1.0, 1.0, 1.0], None)]
+    fn the_least_ratio_is_one_of_sound_numbers(#[case] a: &[f64], #[case] least: Option<f64>) {
+        assert_eq!(least_ratio(a, &vec![1.0; a.len()]), least);
+    }
+}
