@@ -2,6 +2,7 @@
 
 use super::algebra::Vector;
 use super::simd::vectorized;
+use super::threads::PIECES;
 use crate::subject::Column;
 
 /// A Cartesian grid with cell size `h` on every axis. Nodes are numbered with the first axis
@@ -84,16 +85,19 @@ impl<const D: usize> Grid<D> {
 
     /// Divides each value by the mass of its node; zero where no particle gives the node any mass.
     pub fn divide_by_mass(&self, field: &mut [Vector<D>]) {
-        vectorized(
-            #[inline(always)]
-            || {
-                for (value, m) in field.iter_mut().zip(&self.mass) {
-                    for axis in 0..D {
-                        value[axis] = if *m > 0.0 { value[axis] / *m } else { 0.0 };
+        PIECES.each(field, &|k, piece| {
+            let mass = &self.mass[k * PIECES.length..];
+            vectorized(
+                #[inline(always)]
+                || {
+                    for (value, m) in piece.iter_mut().zip(mass) {
+                        for axis in 0..D {
+                            value[axis] = if *m > 0.0 { value[axis] / *m } else { 0.0 };
+                        }
                     }
-                }
-            },
-        );
+                },
+            );
+        });
     }
 
     /// The cell that holds `x`, or `None` outside the grid (or where `x` is not a number). A

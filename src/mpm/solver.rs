@@ -14,6 +14,7 @@ use super::simd::vectorized;
 use super::stage::Stage;
 use super::state::columns::profile;
 use super::state::initial;
+use super::threads::PIECES;
 use super::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile};
 
@@ -233,14 +234,17 @@ impl<const D: usize> Solver<D> {
 
 /// `v <- v + a dt`.
 fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
-    vectorized(
-        #[inline(always)]
-        || {
-            for (v, a) in v.iter_mut().zip(a) {
-                for axis in 0..D {
-                    v[axis] += a[axis] * dt;
+    PIECES.each(v, &|k, piece| {
+        let a = &a[k * PIECES.length..];
+        vectorized(
+            #[inline(always)]
+            || {
+                for (v, a) in piece.iter_mut().zip(a) {
+                    for axis in 0..D {
+                        v[axis] += a[axis] * dt;
+                    }
                 }
-            }
-        },
-    );
+            },
+        );
+    });
 }

@@ -35,6 +35,9 @@ pub(super) fn split<T>(
     column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
 }
 
+/// Pieces of a column that stay in the cache, split among threads.
+pub(super) const PIECES: RowChunks = RowChunks { length: FEW / 4, few: FEW };
+
 /// Rows of a field, split among threads.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RowChunks {

@@ -4,7 +4,7 @@ use super::batch::{Batch, ParticleBatches};
 use super::matrix_columns::{columns, divide};
 use super::moments::InertiaTensor;
 use super::request::{Affine, Divergence, P2gRequest};
-use crate::mpm::algebra::Vector;
+use crate::mpm::algebra::{Vector, array};
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
 use crate::mpm::grid::Grid;
 use crate::mpm::packed_grid::{FieldViewMut, PackedNode, force_lane};
@@ -43,7 +43,12 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
 /// Columns of `-V sigma` (J) of particle `p`, or of its like in the total-Lagrangian frame.
 #[inline(always)]
 fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) -> [S::F64x4; D] {
-    columns(simd, &-particles.flux(p), force_lane(D))
+    if !particles.current_position.is_empty() {
+        return columns(simd, &-particles.flux(p), force_lane(D));
+    }
+    // Not by a matrix in memory: its store would not be forwarded to the loads of its columns.
+    let stress = columns(simd, &particles.sigma[p], force_lane(D));
+    array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
 }
 
 /// The particles `first + lanes` with their patches, and the moments of all patches of a particle

@@ -7,6 +7,7 @@
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::Particles;
 use crate::mpm::simd::vectorized;
+use crate::mpm::threads::{FEW, join};
 use crate::subject::{Failure, Site};
 
 impl<const D: usize> Particles<D> {
@@ -55,12 +56,17 @@ impl<const D: usize> Particles<D> {
 
 /// Whether every number of a column is finite.
 pub(in crate::mpm) fn all_finite<const D: usize>(column: &[Matrix<D>]) -> bool {
-    all(column, matrix)
+    all(column, &matrix)
 }
 
-/// Without early exit, so that several numbers are checked at a time.
-#[inline(always)]
-fn all<T>(column: &[T], sound: impl Fn(&T) -> bool) -> bool {
+/// On all threads, and without early exit, so that several numbers are checked at a time.
+fn all<T: Sync>(column: &[T], sound: &(impl Fn(&T) -> bool + Sync)) -> bool {
+    if column.len() > FEW {
+        let ((low, high), mut both) = (column.split_at(column.len() / 2), [true; 2]);
+        let [one, other] = &mut both;
+        join(|| *one = all(low, sound), || *other = all(high, sound));
+        return both == [true; 2];
+    }
     vectorized(
         #[inline(always)]
         || {
@@ -74,11 +80,10 @@ fn all<T>(column: &[T], sound: impl Fn(&T) -> bool) -> bool {
 }
 
 /// Searches for the particle only if there is one.
-#[inline(always)]
-fn first<T>(
+fn first<T: Sync>(
     quantity: &'static str,
     column: &[T],
-    sound: impl Fn(&T) -> bool,
+    sound: impl Fn(&T) -> bool + Sync,
 ) -> Result<(), Failure> {
     if all(column, &sound) {
         return Ok(());
@@ -97,4 +102,27 @@ fn vector<const D: usize>(v: &Vector<D>) -> bool {
 #[inline(always)]
 fn matrix<const D: usize>(m: &Matrix<D>) -> bool {
     m.as_slice().iter().fold(true, |all, c| all & c.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::particles::Block;
+    use rayon::ThreadPoolBuilder;
+    use rstest::rstest;
+
+    #[rstest]
+    fn the_first_of_many_is_named(
+        #[values(f64::NAN, f64::INFINITY)] wrong: f64,
+        #[values(0, FEW + 18, 2 * FEW + 36)] first: usize,
+        #[values(1, 3)] threads: usize,
+    ) {
+        let (from, to) = (Vector::zeros(), Vector::<1>::new((2 * FEW + 37) as f64));
+        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| row.moving_finite()), Ok(()));
+        (row.v[first][0], row.v[2 * FEW + 36][0]) = (wrong, wrong);
+        let found = Failure::NonFinite { quantity: "velocity", site: Site::Particle(first) };
+        assert_eq!(pool.install(|| row.moving_finite()), Err(found));
+    }
 }
