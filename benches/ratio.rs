@@ -25,7 +25,9 @@ use one_thread::one_thread;
 use random::Random;
 use std::hint::black_box;
 use std::time::Instant;
-use yardstick::{cubic_3d, flip_1d, linear_1d, mls_2d, mls_3d, quadratic_2d, quadratic_3d};
+use yardstick::{
+    cubic_3d, flip_1d, gradient_3d, linear_1d, mls_2d, mls_3d, quadratic_2d, quadratic_3d,
+};
 
 const H: f64 = 0.5;
 /// Cells between the body and the walls: cubic B-splines are uniform there.
@@ -225,11 +227,11 @@ fn solver<const D: usize>(
 /// Steps compared before they are timed.
 const COMPARED: usize = 3;
 
-/// A whole step of MLS-MPM.
-macro_rules! mls_step {
-    ($plain:ident, $dimension:literal, $id:literal, $count:expr) => {{
+/// A whole step with quadratic B-splines and USL.
+macro_rules! quadratic_step {
+    ($transfer:ident, $plain:ident, $step:expr, $dimension:literal, $id:literal, $count:expr) => {{
         const D: usize = $dimension;
-        let method = (TransferName::Mls, SchemeName::Usl);
+        let method = (TransferName::$transfer, SchemeName::Usl);
         let (mut ours, [lambda, mu]) = solver::<D>(BasisName::QuadraticBSpline, method, $count);
         let (particles, grid) = (ours.particles(), ours.grid());
         let (n, total) = (grid.counts, particles.len());
@@ -244,14 +246,14 @@ macro_rules! mls_step {
             volume: particles.vol0[0],
             nodes: vec![[0.0; 2 * D + 1]; grid.nodes()],
         };
-        let mut plain = || $plain::step(&mut body, (H, n, DT), (lambda, mu));
+        let mut plain = || $step(&mut body, (H, n, DT), (lambda, mu));
         for _ in 0..COMPARED {
             plain();
             ours.step(DT).expect("no particle is inverted");
         }
         same($id, ours.particles().x.iter().flatten(), body.x.iter().flatten());
         same($id, ours.particles().v.iter().flatten(), body.v.iter().flatten());
-        let mut plain = || $plain::step(&mut body, (H, n, DT), (lambda, mu));
+        let mut plain = || $step(&mut body, (H, n, DT), (lambda, mu));
         let mut ours = || ours.step(black_box(DT)).expect("no particle is inverted");
         compare($id, total, &mut plain, &mut ours);
     }};
@@ -299,8 +301,11 @@ fn main() {
     apic!(quadratic_2d, 2, QuadraticBSpline, "2d/quadratic/apic", count);
     apic!(cubic_3d, 3, CubicBSpline, "3d/cubic/apic", count);
     flip(count);
-    mls_step!(mls_3d, 3, "3d/quadratic/mls/usl step", count);
-    mls_step!(mls_2d, 2, "2d/quadratic/mls/usl step", count);
+    quadratic_step!(Mls, mls_3d, mls_3d::step, 3, "3d/quadratic/mls/usl step", count);
+    let (apic, flip_3d) = (gradient_3d::step::<true>, gradient_3d::step::<false>);
+    quadratic_step!(Apic, mls_3d, apic, 3, "3d/quadratic/apic/usl step", count);
+    quadratic_step!(Flip, mls_3d, flip_3d, 3, "3d/quadratic/flip/usl step", count);
+    quadratic_step!(Mls, mls_2d, mls_2d::step, 2, "2d/quadratic/mls/usl step", count);
     flip_step("1d/linear/flip/usl step", SchemeName::Usl, flip_1d::step, count);
     flip_step("1d/linear/flip/musl step", SchemeName::Musl, flip_1d::musl_step, count);
 }

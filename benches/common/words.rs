@@ -10,7 +10,14 @@ pub(crate) fn count(usual: f64) -> f64 {
     words().find_map(|word| word.parse().ok()).unwrap_or(usual)
 }
 
-/// Whether `id` has all words that are no numbers.
+/// The file that ends in `suffix`, if one is named.
+#[allow(dead_code, reason = "only some benches write one")]
+pub(crate) fn file(suffix: &str) -> Option<String> {
+    words().find(|word| word.ends_with(suffix))
+}
+
+/// Whether `id` has all words that are neither numbers nor files.
 pub(crate) fn selects(id: &str) -> bool {
-    words().all(|word| word.parse::<f64>().is_ok() || id.contains(&word))
+    let is_part = |word: &String| word.parse::<f64>().is_err() && !word.contains('.');
+    words().filter(is_part).all(|word| id.contains(&word))
 }

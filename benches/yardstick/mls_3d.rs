@@ -18,7 +18,7 @@ pub(crate) struct Body {
 
 /// Weights of the three nodes on each axis, their distances from the particle (m), and the first.
 #[inline(always)]
-fn weights(x: &[f64; 3], h: f64) -> ([usize; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
+pub(super) fn weights(x: &[f64; 3], h: f64) -> ([usize; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
     let (mut base, mut w, mut d) = ([0; 3], [[0.0; 3]; 3], [[0.0; 3]; 3]);
     for a in 0..3 {
         let s = x[a] / h;
@@ -91,28 +91,42 @@ pub(crate) fn step(body: &mut Body, (h, n, dt): (f64, [usize; 3], f64), (lambda,
                 }
             }
         }
-        let (old, mut f) = (body.f[p], body.f[p]);
+        deform(body, p, (dt * inverse, &b), (lambda, mu));
         for r in 0..3 {
-            for s in 0..3 {
-                for q in 0..3 {
-                    f[r][s] += dt * inverse * b[r][q] * old[q][s];
-                }
-            }
-        }
-        let minor = |i: usize, j: usize| f[1][i] * f[2][j] - f[1][j] * f[2][i];
-        let j = f[0][0] * minor(1, 2) - f[0][1] * minor(0, 2) + f[0][2] * minor(0, 1);
-        let pressure = lambda * libm::log(j) - mu;
-        for r in 0..3 {
-            for s in 0..3 {
-                let mut left = 0.0;
-                for q in 0..3 {
-                    left += f[r][q] * f[s][q];
-                }
-                let own = if r == s { pressure } else { 0.0 };
-                body.flux[p][r][s] = body.volume * (mu * left + own);
-            }
             body.x[p][r] += dt * v[r];
         }
-        (body.v[p], body.b[p], body.f[p]) = (v, b, f);
+        (body.v[p], body.b[p]) = (v, b);
     }
+}
+
+/// New F and stress of particle `p`, strained by `factor` times `rate`.
+#[inline(always)]
+pub(super) fn deform(
+    body: &mut Body,
+    p: usize,
+    (factor, rate): (f64, &[[f64; 3]; 3]),
+    (lambda, mu): (f64, f64),
+) {
+    let (old, mut f) = (body.f[p], body.f[p]);
+    for r in 0..3 {
+        for s in 0..3 {
+            for q in 0..3 {
+                f[r][s] += factor * rate[r][q] * old[q][s];
+            }
+        }
+    }
+    let minor = |i: usize, j: usize| f[1][i] * f[2][j] - f[1][j] * f[2][i];
+    let j = f[0][0] * minor(1, 2) - f[0][1] * minor(0, 2) + f[0][2] * minor(0, 1);
+    let pressure = lambda * libm::log(j) - mu;
+    for r in 0..3 {
+        for s in 0..3 {
+            let mut left = 0.0;
+            for q in 0..3 {
+                left += f[r][q] * f[s][q];
+            }
+            let own = if r == s { pressure } else { 0.0 };
+            body.flux[p][r][s] = body.volume * (mu * left + own);
+        }
+    }
+    body.f[p] = f;
 }

@@ -20,6 +20,9 @@ pub(crate) mod mls_3d;
 /// A whole step of MLS-MPM in 2-D.
 pub(crate) mod mls_2d;
 
+/// Whole steps of APIC and FLIP in 3-D.
+pub(crate) mod gradient_3d;
+
 /// A whole step of FLIP in 1-D.
 pub(crate) mod flip_1d;
 

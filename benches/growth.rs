@@ -1,0 +1,120 @@
+//! Growth: time of a whole step for each particle, on one thread and on two, from 1e3 particles on,
+//! and the memory of a particle.
+//!
+//! `cargo bench --bench growth` goes to 1e6, `MPM_BENCH=full` to 1e7 (some 5 GB), and a number as
+//! far as it says (`-- 3e7`); words select methods (`-- 3d`), and `-- FILE.svg` writes a figure.
+//! One thread and two take turns, and the shortest time of each counts. Nothing is timed before a
+//! step has kept momentum.
+
+#[path = "transfer/check.rs"]
+#[allow(dead_code, reason = "those of passes are for the bench of transfers")]
+mod check;
+#[path = "common/random.rs"]
+mod random;
+#[path = "transfer/scene.rs"]
+#[allow(dead_code, reason = "the passes are for the bench of transfers")]
+mod scene;
+#[path = "common/words.rs"]
+mod words;
+
+use check::checked_solver;
+use mpm_verify::mpm::{BasisName, MaterialPlan, SchemeName, Solver, TransferName};
+use mpm_verify::report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries};
+use mpm_verify::subject::{Holder, Subject};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use scene::{Method, Order, total};
+use std::time::Instant;
+
+/// Length of a step (s): no particle leaves its cell, however many steps are made.
+const DT: f64 = 1e-12;
+
+/// The shortest time (s) of steps, of which at least three are made, for half a second.
+fn shortest<const D: usize>(solver: &mut Solver<D>, pool: &ThreadPool) -> f64 {
+    let (begin, mut steps, mut shortest) = (Instant::now(), 0, f64::INFINITY);
+    while steps < 3 || begin.elapsed().as_secs_f64() < 0.5 {
+        let start = Instant::now();
+        pool.install(|| solver.step(DT)).expect("a step succeeds");
+        shortest = shortest.min(start.elapsed().as_secs_f64());
+        steps += 1;
+    }
+    shortest
+}
+
+/// Lines of a method, for one thread and for two.
+fn lines<const D: usize>(
+    basis: BasisName,
+    name: TransferName,
+    counts: &[usize],
+) -> Vec<PlotSeries> {
+    let id = format!("{D}d {} {}", basis.name(), name.name());
+    if !words::selects(&id) {
+        return Vec::new();
+    }
+    let pools = [1, 2].map(|threads| {
+        ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start")
+    });
+    let (mut lines, mut bytes) = ([Vec::new(), Vec::new()], 0);
+    for &count in counts {
+        let (method, grid, particles) = Method::<D>::new((basis, name), Order::Sorted, count);
+        let law = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.3 };
+        let parts = (grid, particles);
+        let mut solver = checked_solver(&id, DT, (SchemeName::Usl, law), method, parts);
+        let columns = solver.profile().columns.into_iter();
+        let of_particles = columns.filter(|column| column.holder == Holder::Particle);
+        bytes = of_particles.map(|column| column.bytes).sum();
+        let mut times = [f64::INFINITY; 2];
+        for _ in 0..2 {
+            for (time, pool) in times.iter_mut().zip(&pools) {
+                *time = time.min(shortest(&mut solver, pool));
+            }
+        }
+        for (line, time) in lines.iter_mut().zip(times) {
+            let (h, error) = (total::<D>(count) as f64, 1e9 * time / total::<D>(count) as f64);
+            line.push(PlotPoint { h, error, mark: Mark::Measured });
+        }
+    }
+    println!("{id}, {bytes} bytes a particle");
+    for (threads, line) in (1..).zip(&lines) {
+        print!("{:<28}", format!("  threads: {threads}"));
+        for point in line {
+            print!(" {:>8.1}", point.error);
+        }
+        println!();
+    }
+    let series = |(look, points)| {
+        let name = format!("{id} ({bytes} bytes), threads: {}", look + 1);
+        PlotSeries { name, look, points }
+    };
+    lines.into_iter().enumerate().map(series).collect()
+}
+
+fn main() {
+    let is_full = std::env::var("MPM_BENCH").is_ok_and(|profile| profile == "full");
+    let most = words::count(if is_full { 1e7 } else { 1e6 });
+    let counts: Vec<usize> = (0..11)
+        .map(|k| [1, 3][k % 2] * 1000 * 10_usize.pow(k as u32 / 2))
+        .filter(|&count| count as f64 <= most)
+        .collect();
+    println!(
+        "ns per particle of a step, neo-Hookean, USL, sorted by cell, 2^D particles to a cell"
+    );
+    print!("{:<28}", "particles, about");
+    for count in &counts {
+        print!(" {count:>8.0e}");
+    }
+    println!();
+    let mut series = lines::<1>(BasisName::Linear, TransferName::Flip, &counts);
+    series.extend(lines::<2>(BasisName::QuadraticBSpline, TransferName::Mls, &counts));
+    series.extend(lines::<3>(BasisName::QuadraticBSpline, TransferName::Apic, &counts));
+    series.extend(lines::<3>(BasisName::QuadraticBSpline, TransferName::Mls, &counts));
+    let figure = ConvergencePlot {
+        title: "Cost of a particle in a whole step".into(),
+        x_label: "particles".into(),
+        y_label: "time per particle (ns)".into(),
+        series,
+        reference_orders: Vec::new(),
+    };
+    if let Some(file) = words::file(".svg") {
+        std::fs::write(&file, figure.to_svg()).expect("the figure can be written");
+    }
+}
