@@ -40,10 +40,10 @@ fn shortest<const D: usize>(solver: &mut Solver<D>, pool: &ThreadPool) -> f64 {
     shortest
 }
 
-/// Lines of a method, for one thread and for two.
+/// Lines of a method, the first of which has this look, for one thread and for two.
 fn lines<const D: usize>(
-    basis: BasisName,
-    name: TransferName,
+    first_look: usize,
+    (basis, name): (BasisName, TransferName),
     counts: &[usize],
 ) -> Vec<PlotSeries> {
     let id = format!("{D}d {} {}", basis.name(), name.name());
@@ -81,9 +81,9 @@ fn lines<const D: usize>(
         }
         println!();
     }
-    let series = |(look, points)| {
-        let name = format!("{id} ({bytes} bytes), threads: {}", look + 1);
-        PlotSeries { name, look, points }
+    let series = |(k, points)| {
+        let name = format!("{id} ({bytes} bytes), threads: {}", k + 1);
+        PlotSeries { name, look: first_look + k, points }
     };
     lines.into_iter().enumerate().map(series).collect()
 }
@@ -103,10 +103,11 @@ fn main() {
         print!(" {count:>8.0e}");
     }
     println!();
-    let mut series = lines::<1>(BasisName::Linear, TransferName::Flip, &counts);
-    series.extend(lines::<2>(BasisName::QuadraticBSpline, TransferName::Mls, &counts));
-    series.extend(lines::<3>(BasisName::QuadraticBSpline, TransferName::Apic, &counts));
-    series.extend(lines::<3>(BasisName::QuadraticBSpline, TransferName::Mls, &counts));
+    let quadratic = |transfer| (BasisName::QuadraticBSpline, transfer);
+    let mut series = lines::<1>(0, (BasisName::Linear, TransferName::Flip), &counts);
+    series.extend(lines::<2>(2, quadratic(TransferName::Mls), &counts));
+    series.extend(lines::<3>(4, quadratic(TransferName::Apic), &counts));
+    series.extend(lines::<3>(6, quadratic(TransferName::Mls), &counts));
     let figure = ConvergencePlot {
         title: "Cost of a particle in a whole step".into(),
         x_label: "particles".into(),
