@@ -79,10 +79,10 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
-    /// Hook before the constitutive update.
+    /// Hook before the constitutive update, of effects that [make stress](Self::makes_stress).
     fn before_stress(&mut self, _particles: &mut Particles<D>) {}
 
-    /// Hook after the constitutive update.
+    /// Hook after the constitutive update, of effects that [make stress](Self::makes_stress).
     fn after_stress(&mut self, _particles: &mut Particles<D>) {}
 
     /// Passes of [`Effect::integrate_state`] in their order, as reports list them.
