@@ -36,8 +36,13 @@ impl Gate {
         };
         // The check of a truth takes a tenth of a second; there may be many.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
-        let suites = found.iter().filter_map(|(_, suite)| suite.clone()).collect();
-        let mut trials: Vec<Trial> = found.into_iter().flat_map(|(trials, _)| trials).collect();
+        let (mut trials, mut suites) = (Vec::new(), Vec::new());
+        for (cases, suite) in found {
+            trials.extend(cases);
+            suites.extend(suite);
+        }
+        // A report waits for all cases of its suite, and its thread does nothing meanwhile.
+        trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
         }
@@ -51,7 +56,7 @@ impl Gate {
             let (suites, folder) = (Arc::clone(&suites), self.snapshots.clone());
             Trial::test(name, move || {
                 let outcomes: Vec<SuiteOutcome> =
-                    suites.iter().map(|suite| suite.outcome()).collect();
+                    suites.iter().map(|suite| suite.outcome().clone()).collect();
                 drift::compare(name, &text(&outcomes), &folder)
             })
         };
@@ -132,6 +137,7 @@ struct SharedSuite {
     runner: Runner<'static>,
     snapshots: PathBuf,
     outcomes: Vec<OnceLock<CaseOutcome>>,
+    whole: OnceLock<SuiteOutcome>,
 }
 
 impl SharedSuite {
@@ -156,9 +162,11 @@ impl SharedSuite {
         Err(format!("{}\n\n{}", outcome.unmet.join("\n"), report::case(outcome)).into())
     }
 
-    fn outcome(&self) -> SuiteOutcome {
-        let cases = (0..self.outcomes.len()).map(|index| self.case(index).clone()).collect();
-        self.runner.outcome(cases)
+    fn outcome(&self) -> &SuiteOutcome {
+        self.whole.get_or_init(|| {
+            let cases = (0..self.outcomes.len()).map(|index| self.case(index).clone()).collect();
+            self.runner.outcome(cases)
+        })
     }
 
     /// Drift; of a suite that was not run there is no report.
@@ -169,12 +177,18 @@ impl SharedSuite {
         {
             return Ok(Completion::ignored_with(&first.reason));
         }
-        drift::compare(&self.suite.name, &report::text(&outcome), &self.snapshots)?;
+        drift::compare(&self.suite.name, &report::text(outcome), &self.snapshots)?;
         Ok(Completion::Completed)
     }
 }
 
-/// The tests of a suite, under a solver or the methods that it lists.
+/// The test of the report of a suite.
+fn report(suite: &Arc<SharedSuite>) -> Trial {
+    let of_report = Arc::clone(suite);
+    Trial::ignorable_test(format!("{}::report", suite.suite.name), move || of_report.compare())
+}
+
+/// The tests of the cases of a suite, under a solver or the methods that it lists.
 fn trials(
     suite: Suite,
     snapshots: &Path,
@@ -192,6 +206,7 @@ fn trials(
         },
         snapshots: snapshots.to_owned(),
         outcomes: names.iter().map(|_| OnceLock::new()).collect(),
+        whole: OnceLock::new(),
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
@@ -204,7 +219,5 @@ fn trials(
         let name = format!("{}::conformance", suite.name);
         Trial::ignorable_test(name, || conforms(solver, suite))
     }));
-    let (name, of_report) = (format!("{}::report", suite.name), Arc::clone(&shared));
-    trials.push(Trial::ignorable_test(name, move || of_report.compare()));
     (trials, shared)
 }

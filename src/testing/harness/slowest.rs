@@ -15,18 +15,17 @@ pub(super) fn record(time: Duration, case: &str) {
     CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
 }
 
-/// The slowest cases and suites, and the time of all, if there are enough of them to ask.
+/// The slowest cases and suites, if there are enough of them to ask.
 pub(super) fn summary() -> String {
     let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
     if cases.len() <= SHOWN {
         return String::new();
     }
-    let all: Duration = cases.iter().map(|(time, _)| *time).sum();
     cases.sort_by(|a, b| b.cmp(a));
     let mut text = format!(
-        "{} cases took {:.1} s of threads' time; the slowest:\n",
-        cases.len(),
-        all.as_secs_f64()
+        "the slowest of {} cases, with the time that they waited for each other \
+         (`--test-threads 1`: without)\n",
+        cases.len()
     );
     let line = |time: &Duration, name: &str| format!("{:>8.2} s  {name}\n", time.as_secs_f64());
     text.extend(cases.iter().take(SHOWN).map(|(time, case)| line(time, case)));

@@ -8,6 +8,9 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Tests that wait for their cases at once, for each thread that runs cases.
+const WAITING: usize = 4;
+
 /// Suites of a folder as tests: `SUITE::CASE` holds a case to its expectation, `SUITE::report` the
 /// suite's report to its snapshot, `SUITE::conformance` a solver to the contract of a subject;
 /// `FILE::parse` stands for a file that cannot be used.
@@ -78,7 +81,11 @@ impl SuiteFolder {
         Words: IntoIterator,
         Words::Item: Into<OsString> + Clone,
     {
-        let arguments = Arguments::from_iter(words);
+        let mut arguments = Arguments::from_iter(words);
+        // Cases run on the threads of rayon, and the thread of a test only waits. A thread that has
+        // done its part of one case takes up another, which then holds up the first.
+        arguments.test_threads =
+            arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());
         eprint!("{}", slowest::summary());
         let is_whole = arguments.filter.is_none() && arguments.skip.is_empty() && !arguments.list;
