@@ -18,7 +18,8 @@ const LARGER: [f64; 7] = [1.1, 2.0, 0.5, 10.0, 0.1, 1e3, 1e-3];
 /// Changes tried where it is.
 const SMALLER: [f64; 2] = [1.001, 1.0001];
 
-/// Cheapest suites in which larger changes are tried; and keys of the judge, and those with a reason.
+/// Cheapest suites, and cheapest ones that expect an order, in which larger changes are tried; and
+/// keys of the judge, and those with a reason. What is exact to rounding has no order to lose.
 const FEW: usize = 6;
 
 /// First keys of the numbers that a solver gets; all others are the judge's, or the truth's.
@@ -103,10 +104,12 @@ pub(super) fn search(
     suites: &[Known],
 ) -> Found {
     let (numbers, used) = uses(grammars, suites);
+    let with_order: BTreeSet<usize> =
+        numbers["expect.order"].iter().map(|(suite, _)| *suite).collect();
     let control = Control { suites, known: Mutex::default() };
     let of_key = |key: &String| {
         let uses = numbers.get(key).map_or(&[][..], Vec::as_slice);
-        let seen = control.seen(key, uses);
+        let seen = control.seen(key, uses, &with_order);
         let row = Row { key: key.clone(), suites: uses.len(), seen };
         eprintln!("{}", row.shown());
         row
@@ -188,8 +191,16 @@ impl Control<'_> {
     }
 
     /// The first suite that notices the smallest of the changes that any notices.
-    fn seen(&self, key: &str, uses: &[(usize, Vec<Place>)]) -> Option<Seen> {
-        let cheap = &uses[..uses.len().min(FEW)];
+    fn seen(
+        &self,
+        key: &str,
+        uses: &[(usize, Vec<Place>)],
+        with_order: &BTreeSet<usize>,
+    ) -> Option<Seen> {
+        let (first, rest) = uses.split_at(uses.len().min(FEW));
+        let rest = rest.iter().filter(|(suite, _)| with_order.contains(suite));
+        let cheap: Vec<(usize, Vec<Place>)> = first.iter().chain(rest.take(FEW)).cloned().collect();
+        let cheap = &cheap[..];
         let uses = if is_of_solver(key) && reason(key).is_none() { uses } else { cheap };
         let mut refused = Vec::new();
         for at in each(uses) {
