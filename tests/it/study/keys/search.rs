@@ -18,8 +18,9 @@ const LARGER: [f64; 7] = [1.1, 2.0, 0.5, 10.0, 0.1, 1e3, 1e-3];
 /// Changes tried where it is.
 const SMALLER: [f64; 2] = [1.001, 1.0001];
 
-/// Cheapest suites, and cheapest ones that expect an order, in which larger changes are tried; and
-/// keys of the judge, and those with a reason. What is exact to rounding has no order to lose.
+/// Cheapest suites, and cheapest of the others that expect an order, in which larger changes are
+/// tried, and all changes of keys of the judge or with a reason. A suite that is exact to rounding
+/// has no order to lose.
 const FEW: usize = 6;
 
 /// First keys of the numbers that a solver gets; all others are the judge's, or the truth's.
@@ -66,8 +67,11 @@ pub(super) fn is_of_solver(key: &str) -> bool {
     OF_SOLVER.iter().any(|first| below(first)) && !key.contains(".expect.")
 }
 
-/// Places of each number in each suite, by its key; and the names that each suite uses.
-type Uses = BTreeMap<String, Vec<(usize, Vec<Place>)>>;
+/// A suite, and all places of a number in it.
+type Use = (usize, Vec<Place>);
+
+/// Uses of each number, by its key, those of cheap suites first.
+type Uses = BTreeMap<String, Vec<Use>>;
 
 fn uses(grammars: &[(&str, Node)], suites: &[Known]) -> (Uses, BTreeMap<(String, String), usize>) {
     let (mut numbers, mut names) = (Uses::new(), BTreeMap::new());
@@ -104,12 +108,10 @@ pub(super) fn search(
     suites: &[Known],
 ) -> Found {
     let (numbers, used) = uses(grammars, suites);
-    let with_order: BTreeSet<usize> =
-        numbers["expect.order"].iter().map(|(suite, _)| *suite).collect();
     let control = Control { suites, known: Mutex::default() };
     let of_key = |key: &String| {
         let uses = numbers.get(key).map_or(&[][..], Vec::as_slice);
-        let seen = control.seen(key, uses, &with_order);
+        let seen = control.seen(key, uses);
         let row = Row { key: key.clone(), suites: uses.len(), seen };
         eprintln!("{}", row.shown());
         row
@@ -149,7 +151,7 @@ struct Control<'a> {
 }
 
 /// Every place of a number in suites.
-fn each(uses: &[(usize, Vec<Place>)]) -> impl Iterator<Item = (usize, &Place)> + Clone {
+fn each<'a>(uses: &[&'a Use]) -> impl Iterator<Item = (usize, &'a Place)> + Clone {
     uses.iter().flat_map(|(suite, places)| places.iter().map(|place| (*suite, place)))
 }
 
@@ -191,19 +193,17 @@ impl Control<'_> {
     }
 
     /// The first suite that notices the smallest of the changes that any notices.
-    fn seen(
-        &self,
-        key: &str,
-        uses: &[(usize, Vec<Place>)],
-        with_order: &BTreeSet<usize>,
-    ) -> Option<Seen> {
+    fn seen(&self, key: &str, uses: &[Use]) -> Option<Seen> {
         let (first, rest) = uses.split_at(uses.len().min(FEW));
-        let rest = rest.iter().filter(|(suite, _)| with_order.contains(suite));
-        let cheap: Vec<(usize, Vec<Place>)> = first.iter().chain(rest.take(FEW)).cloned().collect();
-        let cheap = &cheap[..];
-        let uses = if is_of_solver(key) && reason(key).is_none() { uses } else { cheap };
+        let with_order = rest.iter().filter(|(suite, _)| self.suites[*suite].expects_an_order());
+        let cheap: Vec<&Use> = first.iter().chain(with_order.take(FEW)).collect();
+        let uses = if is_of_solver(key) && reason(key).is_none() {
+            uses.iter().collect()
+        } else {
+            cheap.clone()
+        };
         let mut refused = Vec::new();
-        for at in each(uses) {
+        for at in each(&uses) {
             match self.noticed(key, at, ONE_PERCENT) {
                 Ok(Some(found)) => return Some(self.smallest(key, at, found)),
                 Ok(None) => {}
@@ -214,7 +214,7 @@ impl Control<'_> {
         let one_more = refused.into_iter().map(|at| (at, Change::PlusOne));
         let larger = LARGER
             .into_iter()
-            .flat_map(|factor| each(cheap).map(move |at| (at, Change::Times(factor))));
+            .flat_map(|factor| each(&cheap).map(move |at| (at, Change::Times(factor))));
         one_more.chain(larger).find_map(|(at, change)| {
             let found = self.noticed(key, at, change).ok()??;
             Some(self.described(at.0, found, change))

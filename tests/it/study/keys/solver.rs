@@ -47,6 +47,14 @@ impl Known {
         (0..self.suite.case_names().len()).filter(is_own).filter(is_judged).collect()
     }
 
+    /// Whether an order is expected of any case.
+    pub(super) fn expects_an_order(&self) -> bool {
+        let plan = self.suite.plan::<ConvergencePlan>();
+        let mut expected =
+            plan.iter().flat_map(|plan| &plan.cases).flat_map(|case| &case.expectation);
+        expected.any(|expected| expected.order.is_some())
+    }
+
     /// The solver's part of the suite with one number changed; what nobody but the solver reads is
     /// changed in the suite itself.
     ///
