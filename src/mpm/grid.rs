@@ -152,18 +152,6 @@ impl<const D: usize> Grid<D> {
         self.within(self.local(x, axis), axis)
     }
 
-    /// The same without a branch and a call, for loops over several particles at a time; NaN where
-    /// `x` is so many periods away that they cannot be counted.
-    #[inline(always)]
-    pub(super) fn wrapped_near(&self, x: &Vector<D>, axis: usize) -> f64 {
-        let (s, n) = (self.local(x, axis), self.ends[axis]);
-        if !self.periodic[axis] {
-            return s;
-        }
-        let wrapped = if s.abs() < FAR { s - n * floor(s / n) } else { f64::NAN };
-        if s >= 0.0 && s < n { s } else { wrapped }
-    }
-
     #[inline(always)]
     fn within(&self, s: f64, axis: usize) -> f64 {
         let n = self.ends[axis];
@@ -218,9 +206,6 @@ impl<const D: usize> Grid<D> {
 
 /// 2^52: numbers from here to twice that are whole, and their last bits are those of the excess.
 pub(super) const WHOLE: f64 = 4_503_599_627_370_496.0;
-
-/// Distance in units of h up to which periods are counted by [`floor`].
-const FAR: f64 = 0.25 * WHOLE;
 
 /// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than
 /// all the rest, and a conversion to integers and back as much as the weights.

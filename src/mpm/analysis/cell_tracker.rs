@@ -1,16 +1,18 @@
 //! Cell of each particle, and counters of cell crossings and departures.
 
 use crate::mpm::algebra::Vector;
-use crate::mpm::grid::{Grid, floor};
+use crate::mpm::grid::Grid;
 use crate::mpm::particles::Particles;
 use crate::mpm::simd::{BATCH, vectorized};
 use crate::mpm::threads::{FEW, join};
 use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
+use std::array;
 
 /// The cells of all particles, with counters.
 #[derive(Debug)]
 pub(in crate::mpm) struct CellTracker<const D: usize> {
-    /// Index of the cell along each axis: whole numbers, as which they are compared fastest.
+    /// Index of the cell along each axis, counted on beyond a periodic face: whole numbers, with
+    /// which positions are compared.
     cells: Vec<[f64; D]>,
     /// Changes of cell so far.
     pub(in crate::mpm) crossings: u64,
@@ -89,21 +91,13 @@ fn enter_all<const D: usize>(
             lost: found.lost.or(of_high.lost),
         };
     }
-    let is_periodic = grid.periodic.contains(&true);
     vectorized(
         #[inline(always)]
         || {
             let batches = cells.chunks_mut(BATCH).zip(x.chunks(BATCH));
             for (batch, (cells, x)) in batches.enumerate() {
-                // Known in each branch, so that one has no division.
-                let now = if is_periodic {
-                    all_inside::<D, true>(grid, x)
-                } else {
-                    all_inside::<D, false>(grid, x)
-                };
-                match now {
-                    Some(now) => found.crossings += enter(cells, &now),
-                    None => enter_each(grid, (cells, x), first + batch * BATCH, &mut found),
+                if !stay(grid, cells, x) {
+                    enter_each(grid, (cells, x), first + batch * BATCH, &mut found);
                 }
             }
         },
@@ -120,42 +114,21 @@ impl<const D: usize> Memory for CellTracker<D> {
     }
 }
 
-/// The cells of a batch of particles, if all have one.
+/// Whether every particle of a batch is between the faces of its cell, as most are after a step.
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
-fn all_inside<const D: usize, const IS_PERIODIC: bool>(
-    grid: &Grid<D>,
-    x: &[Vector<D>],
-) -> Option<[[f64; D]; BATCH]> {
-    let (mut cells, mut are_inside) = ([[0.0; D]; BATCH], true);
-    for (cell, x) in cells.iter_mut().zip(x) {
+fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {
+    let mut stay = true;
+    for (cell, x) in cells.iter().zip(x) {
         for axis in 0..D {
-            let s = if IS_PERIODIC { grid.wrapped_near(x, axis) } else { grid.local(x, axis) };
-            let end = grid.cells[axis] as f64;
-            are_inside &= (s >= 0.0) & (s <= end);
-            let low = floor(s);
-            cell[axis] = if low > end - 1.0 { end - 1.0 } else { low };
+            let s = grid.local(x, axis);
+            stay &= (s >= cell[axis]) & (s < cell[axis] + 1.0);
         }
     }
-    are_inside.then_some(cells)
+    stay
 }
 
-/// Puts particles into the cells where they are `now`; how many have changed theirs.
-#[inline(always)]
-fn enter<const D: usize>(cells: &mut [[f64; D]], now: &[[f64; D]; BATCH]) -> u64 {
-    let mut crossings = 0;
-    for (cell, now) in cells.iter_mut().zip(now) {
-        let mut crosses = false;
-        for axis in 0..D {
-            crosses |= now[axis] != cell[axis];
-            cell[axis] = now[axis];
-        }
-        crossings += u64::from(crosses);
-    }
-    crossings
-}
-
-/// The same one by one, where some are in no cell.
+/// Puts each particle of a batch into its cell.
 #[inline(never)]
 fn enter_each<const D: usize>(
     grid: &Grid<D>,
@@ -165,7 +138,7 @@ fn enter_each<const D: usize>(
 ) {
     for (lane, (at, x)) in cells.iter_mut().zip(x).enumerate() {
         if let Some(now) = cell(grid, x) {
-            found.crossings += u64::from(now != *at);
+            found.crossings += u64::from(crosses(grid, at, &now));
             *at = now;
         } else {
             found.left_domain += u64::from(is_finite(x));
@@ -176,7 +149,19 @@ fn enter_each<const D: usize>(
 
 /// The cell that holds `x`, if one does.
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
-    grid.cell(x).map(|cell| cell.map(|index| index as f64))
+    let inside = grid.cell(x)?;
+    Some(array::from_fn(|axis| match grid.periodic[axis] {
+        true => libm::floor(grid.local(x, axis)),
+        false => inside[axis] as f64,
+    }))
+}
+
+/// Whether two cells differ, and not by whole periods.
+fn crosses<const D: usize>(grid: &Grid<D>, from: &[f64; D], to: &[f64; D]) -> bool {
+    (0..D).any(|axis| match grid.periodic[axis] {
+        true => (to[axis] - from[axis]) % grid.cells[axis] as f64 != 0.0,
+        false => to[axis] != from[axis],
+    })
 }
 
 fn is_finite<const D: usize>(x: &Vector<D>) -> bool {
@@ -222,5 +207,27 @@ mod tests {
         let lost = Failure::NonFinite { quantity: "position", site: Site::Particle(5) };
         assert_eq!(pool.install(|| tracker.track(&grid, &row)), Err(lost));
         assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
+    }
+
+    /// Moves of one particle in cells of size 1, one after the other: the crossings that each adds.
+    #[rstest]
+    #[case::within_its_cell(false, &[(0.25, 0), (1.0, 1), (1.75, 0)])]
+    #[case::back_and_forth(false, &[(1.0, 1), (0.5, 1)])]
+    #[case::onto_the_last_face(false, &[(3.5, 1), (4.0, 0), (3.9, 0)])]
+    #[case::beyond_a_periodic_face(true, &[(-0.1, 1), (-0.9, 0), (-1.1, 1), (-0.2, 1)])]
+    #[case::on_beyond_the_last(true, &[(3.9, 1), (4.0, 1), (4.5, 0), (5.1, 1), (9.0, 0)])]
+    #[case::by_whole_periods(true, &[(4.5, 0), (-7.5, 0), (4e15, 0)])]
+    fn a_crossing_is_a_change_of_cell(#[case] periodic: bool, #[case] moves: &[(f64, u64)]) {
+        let (from, to) = (Vector::zeros(), Vector::<1>::new(1.0));
+        let mut one = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let grid = Grid::new(Vector::zeros(), 1.0, [4], [periodic], [5]);
+        let mut tracker = CellTracker::new(&grid, &one).unwrap();
+        let mut crossings = 0;
+        for (x, crossed) in moves {
+            one.x[0][0] = *x;
+            assert_eq!(tracker.track(&grid, &one), Ok(()), "{x}");
+            crossings += crossed;
+            assert_eq!(tracker.crossings, crossings, "{x}");
+        }
     }
 }
