@@ -92,7 +92,9 @@ impl<const D: usize> Grid<D> {
                 || {
                     for (value, m) in piece.iter_mut().zip(mass) {
                         for axis in 0..D {
-                            value[axis] = if *m > 0.0 { value[axis] / *m } else { 0.0 };
+                            // In any case, for a branch costs more.
+                            let ratio = value[axis] / *m;
+                            value[axis] = if *m > 0.0 { ratio } else { 0.0 };
                         }
                     }
                 },

@@ -150,17 +150,18 @@ fn enter_each<const D: usize>(
 /// The cell that holds `x`, if one does.
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     let inside = grid.cell(x)?;
-    Some(array::from_fn(|axis| match grid.periodic[axis] {
-        true => libm::floor(grid.local(x, axis)),
-        false => inside[axis] as f64,
+    Some(array::from_fn(|axis| {
+        let beyond = grid.periodic[axis].then(|| libm::floor(grid.local(x, axis)));
+        beyond.unwrap_or(inside[axis] as f64)
     }))
 }
 
 /// Whether two cells differ, and not by whole periods.
 fn crosses<const D: usize>(grid: &Grid<D>, from: &[f64; D], to: &[f64; D]) -> bool {
-    (0..D).any(|axis| match grid.periodic[axis] {
-        true => (to[axis] - from[axis]) % grid.cells[axis] as f64 != 0.0,
-        false => to[axis] != from[axis],
+    (0..D).any(|axis| {
+        let moved = to[axis] - from[axis];
+        let apart = if grid.periodic[axis] { moved % grid.cells[axis] as f64 } else { moved };
+        apart != 0.0
     })
 }
 

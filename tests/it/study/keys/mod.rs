@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use solver::Known;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// A word of the grammar: its key, whether it is a number, and the names that may stand there.
 type Keys = BTreeMap<String, (bool, Vec<String>)>;
@@ -38,9 +39,9 @@ fn keys(grammars: &[(&str, Node)]) -> Keys {
     keys
 }
 
-fn grammars() -> Vec<(&'static str, Node)> {
-    STUDIES.map(|study| (study, Node::of_study(study))).into()
-}
+/// The words of each kind of study.
+static GRAMMARS: LazyLock<Vec<(&str, Node)>> =
+    LazyLock::new(|| STUDIES.map(|study| (study, Node::of_study(study))).into());
 
 /// The suites of the repository, cheap ones first.
 fn suites() -> Vec<Known> {
@@ -61,7 +62,7 @@ fn same<T: Ord + std::fmt::Debug>(grammar: &BTreeSet<T>, page: &BTreeSet<T>) {
 
 #[test]
 fn every_word_has_its_row() {
-    let keys = keys(&grammars());
+    let keys = keys(&GRAMMARS);
     let (rows, names) = (page::numbers(), page::names());
     let numbers = keys.iter().filter(|(_, (is_number, _))| *is_number).map(|(key, _)| key);
     same(&numbers.collect(), &rows.keys().collect());
@@ -73,24 +74,24 @@ fn every_word_has_its_row() {
 
 #[test]
 fn a_sample_is_still_noticed() {
-    let (grammars, suites, sample) = (grammars(), suites(), page::sample());
+    let (suites, sample) = (suites(), page::sample());
     assert!(sample.len() >= 5, "only {} rows", sample.len());
-    sample.par_iter().for_each(|row| search::still_noticed(row, &grammars, &suites));
+    sample.par_iter().for_each(|row| search::still_noticed(row, &GRAMMARS, &suites));
 }
 
 #[test]
 #[ignore = "ci/keys runs it"]
 fn every_key_is_noticed() {
-    let (grammars, suites) = (grammars(), suites());
+    let suites = suites();
     let part = std::env::var("KEYS").unwrap_or_default();
-    page::write(&search::search(&keys(&grammars), &part, &grammars, &suites));
+    page::write(&search::search(&keys(&GRAMMARS), &part, &GRAMMARS, &suites));
     let wrong = reasons::wrong(&page::numbers(), &page::names());
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
 #[test]
 fn every_key_has_a_row_in_the_manual() {
-    let (keys, pages) = (manual::keys(&grammars()), manual::pages());
+    let (keys, pages) = (manual::keys(&GRAMMARS), manual::pages());
     let rows = manual::rows(&pages);
     let missing: Vec<&String> =
         keys.keys().filter(|key| !rows.contains_key(key.as_str())).collect();
@@ -133,7 +134,7 @@ fn the_manual_says_which_keys_must_stand() {
 
 #[test]
 fn the_manual_quotes_suites() {
-    let found = manual::quotations(&grammars());
+    let found = manual::quotations(&GRAMMARS);
     for (path, page) in manual::pages() {
         let anew = manual::with_quotations(&page, &found);
         assert!(page == anew, "{} is stale: run ci/pages", path.display());
@@ -143,7 +144,7 @@ fn the_manual_quotes_suites() {
 #[test]
 #[ignore = "ci/pages runs it"]
 fn the_manual_is_written() {
-    let found = manual::quotations(&grammars());
+    let found = manual::quotations(&GRAMMARS);
     for (path, page) in manual::pages() {
         std::fs::write(path, manual::with_quotations(&page, &found)).expect("a page is written");
     }
