@@ -4,11 +4,11 @@
 //! fixed or has no mass: each quantity is checked where it is computed, so that the
 //! failure names the particle it began at.
 
-use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::Particles;
-use crate::mpm::simd::vectorized;
+use crate::mpm::simd::{LANES, vectorized};
 use crate::mpm::threads::{FEW, join};
 use crate::subject::{Failure, Site};
+use nalgebra::SMatrix;
 
 impl<const D: usize> Particles<D> {
     /// Names the first particle of which any number is not finite: before the first step.
@@ -16,13 +16,13 @@ impl<const D: usize> Particles<D> {
     /// # Errors
     /// [`Failure::NonFinite`].
     pub(in crate::mpm) fn all_finite(&self) -> Result<(), Failure> {
-        first("position", &self.x, vector)?;
-        first("reference position", &self.x0, vector)?;
-        first("velocity", &self.v, vector)?;
+        first_matrix("position", &self.x)?;
+        first_matrix("reference position", &self.x0)?;
+        first_matrix("velocity", &self.v)?;
         first("mass", &self.mass, |m| m.is_finite())?;
         first("reference volume", &self.vol0, |vol| vol.is_finite())?;
         first("volume", &self.vol, |vol| vol.is_finite())?;
-        first("velocity gradient", &self.grad_v, matrix)?;
+        first_matrix("velocity gradient", &self.grad_v)?;
         first("temperature", &self.temperature, |t| t.is_finite())?;
         self.deformed_finite()?;
         self.stressed_finite()
@@ -33,7 +33,7 @@ impl<const D: usize> Particles<D> {
     /// # Errors
     /// [`Failure::NonFinite`].
     pub(in crate::mpm) fn deformed_finite(&self) -> Result<(), Failure> {
-        first("deformation gradient", &self.def_grad, matrix)
+        first_matrix("deformation gradient", &self.def_grad)
     }
 
     /// The same for stresses.
@@ -42,7 +42,7 @@ impl<const D: usize> Particles<D> {
     /// [`Failure::NonFinite`].
     pub(in crate::mpm) fn stressed_finite(&self) -> Result<(), Failure> {
         first("hoop stress", &self.stress_across, |s| s.is_finite())?;
-        first("stress", &self.sigma, matrix)
+        first_matrix("stress", &self.sigma)
     }
 
     /// The same for velocities, at the end of a step.
@@ -50,63 +50,67 @@ impl<const D: usize> Particles<D> {
     /// # Errors
     /// [`Failure::NonFinite`].
     pub(in crate::mpm) fn moving_finite(&self) -> Result<(), Failure> {
-        first("velocity", &self.v, vector)
+        first_matrix("velocity", &self.v)
     }
 }
 
-/// Whether every number of a column is finite.
-pub(in crate::mpm) fn all_finite<const D: usize>(column: &[Matrix<D>]) -> bool {
-    all(column, &matrix)
-}
-
-/// On all threads, and without early exit, so that several numbers are checked at a time.
-fn all<T: Sync>(column: &[T], sound: &(impl Fn(&T) -> bool + Sync)) -> bool {
+/// Whether every number of a column is finite. On all threads and without early exit, so that
+/// several numbers, whichever matrix they are of, are checked at a time.
+pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
+    column: &[SMatrix<f64, R, C>],
+) -> bool {
     if column.len() > FEW {
         let ((low, high), mut both) = (column.split_at(column.len() / 2), [true; 2]);
         let [one, other] = &mut both;
-        join(|| *one = all(low, sound), || *other = all(high, sound));
+        join(|| *one = all_finite(low), || *other = all_finite(high));
         return both == [true; 2];
     }
+    let (many, rest) = column.as_chunks::<LANES>();
     vectorized(
         #[inline(always)]
         || {
-            let mut all = true;
-            for entry in column {
-                all &= sound(entry);
+            let mut sound = [u64::MAX; LANES];
+            for four in many {
+                for register in 0..R * C {
+                    for lane in 0..LANES {
+                        let number = register * LANES + lane;
+                        let x = four[number / (R * C)].as_slice()[number % (R * C)];
+                        sound[lane] &= if x.is_finite() { u64::MAX } else { 0 };
+                    }
+                }
             }
-            all
+            sound == [u64::MAX; LANES]
         },
-    )
+    ) && rest.iter().all(is_finite)
 }
 
 /// Searches for the particle only if there is one.
-fn first<T: Sync>(
+fn first_matrix<const R: usize, const C: usize>(
+    quantity: &'static str,
+    column: &[SMatrix<f64, R, C>],
+) -> Result<(), Failure> {
+    if all_finite(column) { Ok(()) } else { first(quantity, column, is_finite) }
+}
+
+fn first<T>(
     quantity: &'static str,
     column: &[T],
-    sound: impl Fn(&T) -> bool + Sync,
+    sound: impl Fn(&T) -> bool,
 ) -> Result<(), Failure> {
-    if all(column, &sound) {
-        return Ok(());
-    }
     match column.iter().position(|entry| !sound(entry)) {
         Some(p) => Err(Failure::NonFinite { quantity, site: Site::Particle(p) }),
         None => Ok(()),
     }
 }
 
-#[inline(always)]
-fn vector<const D: usize>(v: &Vector<D>) -> bool {
-    v.as_slice().iter().fold(true, |all, c| all & c.is_finite())
-}
-
-#[inline(always)]
-fn matrix<const D: usize>(m: &Matrix<D>) -> bool {
-    m.as_slice().iter().fold(true, |all, c| all & c.is_finite())
+fn is_finite<const R: usize, const C: usize>(matrix: &SMatrix<f64, R, C>) -> bool {
+    matrix.iter().all(|number| number.is_finite())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mpm::algebra::{Matrix, Vector};
     use crate::mpm::particles::Block;
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
@@ -124,5 +128,16 @@ mod tests {
         (row.v[first][0], row.v[2 * FEW + 36][0]) = (wrong, wrong);
         let found = Failure::NonFinite { quantity: "velocity", site: Site::Particle(first) };
         assert_eq!(pool.install(|| row.moving_finite()), Err(found));
+    }
+
+    #[test]
+    fn every_number_of_every_matrix_is_looked_at() {
+        let sound = [Matrix::<3>::from_element(1e308); 2 * LANES + 3];
+        assert!(all_finite(&sound));
+        for (p, number) in (0..sound.len()).flat_map(|p| (0..9).map(move |number| (p, number))) {
+            let mut column = sound;
+            column[p][number] = f64::NEG_INFINITY;
+            assert!(!all_finite(&column), "number {number} of matrix {p}");
+        }
     }
 }
