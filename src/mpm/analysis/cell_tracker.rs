@@ -4,6 +4,7 @@ use crate::mpm::algebra::Vector;
 use crate::mpm::grid::Grid;
 use crate::mpm::particles::Particles;
 use crate::mpm::simd::{BATCH, vectorized};
+use crate::mpm::state::finite_check::is_finite;
 use crate::mpm::threads::{FEW, join};
 use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
 use std::array;
@@ -147,7 +148,7 @@ fn enter_each<const D: usize>(
     }
 }
 
-/// The cell that holds `x`, if one does.
+/// The cell that holds `x`, counted on beyond a periodic face, if one does.
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     let inside = grid.cell(x)?;
     Some(array::from_fn(|axis| {
@@ -163,10 +164,6 @@ fn crosses<const D: usize>(grid: &Grid<D>, from: &[f64; D], to: &[f64; D]) -> bo
         let apart = if grid.periodic[axis] { moved % grid.cells[axis] as f64 } else { moved };
         apart != 0.0
     })
-}
-
-fn is_finite<const D: usize>(x: &Vector<D>) -> bool {
-    x.iter().all(|c| c.is_finite())
 }
 
 fn nowhere<const D: usize>(p: usize, x: &Vector<D>) -> Failure {

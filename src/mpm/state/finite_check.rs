@@ -103,7 +103,10 @@ fn first<T>(
     }
 }
 
-fn is_finite<const R: usize, const C: usize>(matrix: &SMatrix<f64, R, C>) -> bool {
+/// Whether every number of a matrix is finite.
+pub(in crate::mpm) fn is_finite<const R: usize, const C: usize>(
+    matrix: &SMatrix<f64, R, C>,
+) -> bool {
     matrix.iter().all(|number| number.is_finite())
 }
 
