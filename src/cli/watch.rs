@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, SystemTime};
 
 /// Time between two looks at the files.
-const INTERVAL: Duration = Duration::from_millis(300);
+const INTERVAL: Duration = Duration::from_millis(100);
 
 /// Every file with its time of change and its length (bytes); none for one that is not there.
 type FileStates = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use std::sync::mpsc;
 
-    const BRIEF: Duration = Duration::from_millis(20);
+    const BRIEF: Duration = Duration::from_millis(10);
 
     /// A new folder; its test removes it.
     fn folder(name: &str) -> PathBuf {
@@ -99,7 +99,7 @@ mod tests {
         let before = look(&places);
         let (sender, receiver) = mpsc::channel();
         thread::spawn(move || sender.send(wait_for_change(&places, &before, BRIEF)));
-        assert!(receiver.recv_timeout(10 * BRIEF).is_err(), "nothing has changed");
+        assert!(receiver.recv_timeout(4 * BRIEF).is_err(), "nothing has changed");
         change();
         let (_, changed) = receiver.recv_timeout(Duration::from_secs(60)).unwrap();
         let name = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().into_owned();

@@ -36,10 +36,13 @@ impl Forcing {
             let label = self.labels.get(place).map_or(&[][..], Vec::as_slice);
             self.problem.complete(label, &mut now);
             let whole = self.problem.balance(label, t, &now);
-            *force = make(std::array::from_fn(|i| {
+            let mut left = [0.0; 3];
+            for (i, left) in left.iter_mut().enumerate().take(self.problem.dimension()) {
                 let stated = uniform[i] + self.problem.placed(i, label, t, &now.u);
-                whole[i] - stated - self.problem.resistance(i, (label, t), &now, stated)
-            }));
+                let resistance = self.problem.resistance(i, (label, t), &now, stated);
+                *left = whole[i] - stated - resistance;
+            }
+            *force = make(left);
         }
     }
 }

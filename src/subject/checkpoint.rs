@@ -76,6 +76,7 @@ impl<'a> Checkpoint<'a> {
         matches!(self.0, Way::Misfit)
     }
 
+    #[inline]
     fn word(&mut self, word: u64) -> u64 {
         match &mut self.0 {
             Way::Out(bytes) => bytes.extend_from_slice(&word.to_le_bytes()),
@@ -93,12 +94,14 @@ impl<'a> Checkpoint<'a> {
 }
 
 impl Memory for u64 {
+    #[inline]
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         *self = checkpoint.word(*self);
     }
 }
 
 impl Memory for f64 {
+    #[inline]
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }

@@ -69,6 +69,24 @@ fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
     }
 }
 
+/// Puts one word for each explanation, which is a third of a text and says nothing to a schema.
+fn shorten(value: &mut Value) {
+    match value {
+        Value::Object(map) => {
+            for (key, value) in map {
+                match value {
+                    Value::String(text) if ["about", "because", "source"].contains(&&**key) => {
+                        "short".clone_into(text);
+                    }
+                    _ => shorten(value),
+                }
+            }
+        }
+        Value::Array(list) => list.iter_mut().for_each(shorten),
+        _ => {}
+    }
+}
+
 /// Every key of every suite once: left out, misspelt, and with values of other types. Neither the
 /// schema nor the program is stricter than the other about keys and types.
 #[test]
@@ -76,11 +94,17 @@ fn schema_and_program_agree_about_each_key() {
     let (mut tried, mut counts) = (HashSet::new(), [0, 0]);
     let read = |name| {
         let source = embedded::source(name).expect("a suite").expect("a text");
-        (name, values(source.text()).expect("YAML"))
+        let mut suite = values(source.text()).expect("YAML");
+        shorten(&mut suite);
+        (name, suite)
     };
     let mut suites: Vec<(&str, Value)> = embedded::names().map(read).collect();
-    // The check of a truth takes longest in space: a key is tried where it costs least.
-    suites.sort_by_key(|(_, suite)| suite.pointer("/scene/dimension").and_then(Value::as_u64));
+    // The check of a truth takes longest in space, and the rest grows with the text: a key is tried
+    // where it costs least.
+    suites.sort_by_cached_key(|(_, suite)| {
+        let dimension = suite.pointer("/scene/dimension").and_then(Value::as_u64);
+        (dimension, suite.to_string().len())
+    });
     for (name, suite) in suites {
         let study = suite.get("study").map(Value::to_string);
         let mut all = Vec::new();

@@ -25,7 +25,7 @@ const LAST_BYTES: usize = 2000;
 /// Lines of it that are told.
 const LAST_LINES: usize = 3;
 
-/// Time that a process has to end by itself.
+/// Longest time that a process has to end by itself; it has no more than it may be silent.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// Time between two looks at a process that says nothing.
@@ -148,7 +148,7 @@ impl Connection {
 
     fn with_last_words(&self, reason: String) -> String {
         // The process is dead, but what it said may still be on its way.
-        patiently(GRACE, || self.listener.is_finished().then_some(()));
+        patiently(GRACE.min(self.silence), || self.listener.is_finished().then_some(()));
         let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
         // Of a trace of Python, these are the place, the line there and the error.
@@ -171,7 +171,7 @@ impl Connection {
 
     /// The status with which the process ends, if it does so soon.
     fn status(&mut self) -> Option<ExitStatus> {
-        patiently(GRACE, || self.child.try_wait().ok().flatten())
+        patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }
 
     /// Says `bye`, and lets the process end.

@@ -1,7 +1,7 @@
 //! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
 //! is what does not.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, on_one_grid};
 use serde_json::Value;
 
 fn document(folder: &Folder, arguments: &[&str]) -> Value {
@@ -65,16 +65,11 @@ fn every_level_has_its_seconds_and_its_work() {
     assert_eq!(works, ["seconds", "transfers"]);
 }
 
-/// [`BAR`] on one grid: each level is timed for a while, and the names of cases need one only.
-fn on_one_grid() -> String {
-    BAR.replace("[4, 6, 8, 12]", "[4]")
-}
-
 /// Three settings of particles times three of steps; the FEM has no particles.
 #[test]
 fn what_is_varied_has_cases_of_its_own() {
     let folder = Folder::new();
-    folder.write("one.yaml", on_one_grid());
+    folder.write("one.yaml", on_one_grid(BAR));
     let document = document(&folder, &["one.yaml", "--over", "ppc,dt"]);
     let cases = list(&document["suites"][0]["cases"]);
     let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();
@@ -107,7 +102,7 @@ fn what_breaks_is_a_row() {
 #[test]
 fn other_bases_are_those_that_go_with_the_method() {
     let folder = Folder::new();
-    folder.write("bar.yaml", on_one_grid().replace("transfer: flip", "transfer: tls"));
+    folder.write("bar.yaml", on_one_grid(BAR).replace("transfer: flip", "transfer: tls"));
     let document = document(&folder, &["bar.yaml", "--over", "basis"]);
     let cases = list(&document["suites"][0]["cases"]);
     let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();

@@ -1,7 +1,7 @@
 //! A sound solver in a shell script.
 
 use super::bar;
-use crate::cli::{FAILED, Folder, SOUND};
+use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
 use mpm_verify::external::protocol_schema;
 
 /// What a solver of one-dimensional elasticity says first.
@@ -143,7 +143,9 @@ fn a_level_that_broke_runs_again() {
 
 #[test]
 fn what_its_accuracy_costs_is_timed() {
-    let found = folder().call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]);
+    let folder = folder();
+    folder.write("bar.yaml", on_one_grid(&bar()));
+    let found = folder.call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     let text = found.to_string();
