@@ -36,7 +36,7 @@ pub use check::interface::{Interface, meets};
 pub use condition::{Condition, FacePoint};
 pub use expansion::Expansion;
 pub use face::Face;
-pub use forcing::Forcing;
+pub use forcing::{Forcing, SharedForces};
 pub use initial_stress::InitialStress;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
 pub use linearised::Linearised;

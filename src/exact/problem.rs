@@ -2,6 +2,7 @@
 
 use super::expansion::{Swelling, swollen_cauchy};
 use super::face::Face;
+use super::forcing::SharedForces;
 use super::formula::Formula;
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
@@ -62,6 +63,8 @@ pub struct Problem {
     pub tolerance: f64,
     /// The share that may be left of the law, if the motion solves the linearised problem only.
     pub linearised: Option<Linearised>,
+    /// Where runs of this problem keep the manufactured forces that they have computed, if they do.
+    pub shared_forces: Option<Arc<SharedForces>>,
 }
 
 impl Problem {

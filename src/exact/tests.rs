@@ -133,6 +133,7 @@ pub(super) fn held(dimension: usize) -> Problem {
         motion: Motion::new((0..dimension).map(component).collect()),
         tolerance: 1e-8,
         linearised: None,
+        shared_forces: None,
     }
 }
 
@@ -209,6 +210,31 @@ fn the_force_of_a_run_is_the_force(
         forcing.at(t, &mut found, |force| force);
         for (label, found) in labels.iter().zip(found) {
             assert_eq!(found, problem.manufactured_force(label, t), "{label:?}, {t}");
+        }
+    }
+}
+
+/// Of two runs the second finds what the first has computed, and only that: places and times of its
+/// own are its own.
+#[rstest]
+fn forces_that_are_shared_have_the_same_bits(#[values(1, 2, 3)] dimension: usize) {
+    let alone = held(dimension);
+    let problem = Problem { shared_forces: Some(Arc::default()), ..alone.clone() };
+    let mut random = Random::new(2);
+    let mut some = || (0..5).map(|_| random.point(&alone.from, &alone.to)).collect::<Vec<_>>();
+    let (first, second) = (some(), some());
+    for (labels, times) in [(&first, [0.0, 0.3]), (&first, [0.3, 0.7]), (&second, [0.3, 0.7])] {
+        let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
+        let mut found = [[0.0; 3]; 5];
+        for t in times {
+            forcing.at(t, &mut found, |force| force);
+            for (label, found) in labels.iter().zip(found) {
+                let expected = alone.manufactured_force(label, t);
+                assert_eq!(found[..dimension], expected[..dimension], "{label:?}, {t}");
+            }
+            if t == 0.7 {
+                problem.shared_forces.as_ref().unwrap().clear();
+            }
         }
     }
 }

@@ -3,34 +3,36 @@
 use super::described::{not_applicable, refused};
 use super::error_scale::error_scale;
 use super::fine_grid_reference::FineGrid;
-use super::outcome::{error_of, judge_levels, judged};
+use super::level_run::{level_of, run_of};
+use super::outcome::{judge_levels, judged};
 use super::reference::Reference;
 use super::small_step_reference::FineSteps;
 use super::stable_step::StableSteps;
 use super::{probe, statement};
-use crate::exact::{Problem, Truth};
+use crate::exact::Truth;
 use crate::external::ProblemNeeds;
 use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
 use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, ShownRun, StepWarning, Study};
-use crate::subject::{Profile, Subject};
+use crate::subject::Profile;
 use crate::suite::compile::truth::conservation_only::Unknown;
-use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
-use crate::verify;
 use crate::verify::{
-    Axis, CaseOutcome, CheckpointStore, Clock, Comparison, Convergence, Expectation, LevelOutcome,
-    RunResult,
+    CaseOutcome, CheckpointStore, Convergence, Expectation, LevelOutcome, RunResult,
 };
 use rayon::prelude::*;
-use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
-/// Runs cases of a convergence study. A reference that several cases share is computed once.
+/// Runs cases of a convergence study. What several cases share is computed once: a reference, and
+/// manufactured forces at the same places and times.
 pub(crate) struct ConvergenceRunner<'a> {
-    plan: &'a ConvergencePlan,
+    plan: ConvergencePlan,
+    /// Cases that have not run yet.
+    left: AtomicUsize,
     context: RunContext<'a>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
     steps: StableSteps,
@@ -64,39 +66,23 @@ impl CaseRunner for ConvergenceRunner<'_> {
     }
 
     fn warnings(&self) -> Vec<StepWarning> {
-        self.steps.warnings(self.plan, self.context.extent)
+        self.steps.warnings(&self.plan, self.context.extent)
     }
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
-        let (plan, case) = (self.plan, &self.plan.cases[index]);
-        let expectation = match (self.context.extent, &case.expectation_in_full) {
-            (Extent::Full, Some(full)) => Some(full),
-            _ => case.expectation.as_ref(),
-        };
-        let Some(solver) = self.context.solver else {
-            if case.solver.is_some() {
-                let lacks = vec!["`--solver COMMAND`".to_owned()];
-                return not_applicable(plan, case, lacks, "is not there without");
-            }
-            return self
-                .run(case, expectation, progress)
-                .unwrap_or_else(|reason| refused(plan, case, expectation, reason));
-        };
-        let lacks = solver.lacks(&needs(plan));
-        let mut outcome = if lacks.is_empty() {
-            // What a solver says it cannot do is no fault of it.
-            self.run(case, expectation, progress).unwrap_or_else(|reason| {
-                not_applicable(plan, case, vec![reason], "cannot be put to it:")
-            })
-        } else {
-            not_applicable(plan, case, lacks, "lacks")
-        };
-        outcome.settings.splice(0..0, solver.settings());
+        let outcome = self.outcome(index, progress);
+        // A gate keeps the runners of all suites until its end.
+        let exact = self.plan.exact.as_ref();
+        if self.left.fetch_sub(1, Ordering::Relaxed) == 1
+            && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
+        {
+            forces.clear();
+        }
         outcome
     }
 
     fn shown(&self, case: usize, outcome: &CaseOutcome, show: ShowRun<'_>) -> Result<(), String> {
-        let (plan, case) = (self.plan, &self.plan.cases[case]);
+        let (plan, case) = (&self.plan, &self.plan.cases[case]);
         let study: &Convergence = outcome.results().ok_or("it could not be run")?;
         let broke = study.levels.iter().position(|level| level.run.failure.is_some());
         let index = broke.unwrap_or(study.levels.len().saturating_sub(1));
@@ -130,7 +116,43 @@ impl<'a> ConvergenceRunner<'a> {
         ends.sort_by(f64::total_cmp);
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
-        Self { plan, context, references, steps: StableSteps::default() }
+        let mut plan = plan.clone();
+        // Where each case has steps of its own, times are never the same.
+        let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
+        if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
+            exact.shared_forces = Some(Arc::default());
+        }
+        let left = AtomicUsize::new(plan.cases.len());
+        Self { plan, left, context, references, steps: StableSteps::default() }
+    }
+
+    /// The outcome of a case, whether it can be run or not.
+    fn outcome(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let (plan, case) = (&self.plan, &self.plan.cases[index]);
+        let expectation = match (self.context.extent, &case.expectation_in_full) {
+            (Extent::Full, Some(full)) => Some(full),
+            _ => case.expectation.as_ref(),
+        };
+        let Some(solver) = self.context.solver else {
+            if case.solver.is_some() {
+                let lacks = vec!["`--solver COMMAND`".to_owned()];
+                return not_applicable(plan, case, lacks, "is not there without");
+            }
+            return self
+                .run(case, expectation, progress)
+                .unwrap_or_else(|reason| refused(plan, case, expectation, reason));
+        };
+        let lacks = solver.lacks(&needs(plan));
+        let mut outcome = if lacks.is_empty() {
+            // What a solver says it cannot do is no fault of it.
+            self.run(case, expectation, progress).unwrap_or_else(|reason| {
+                not_applicable(plan, case, vec![reason], "cannot be put to it:")
+            })
+        } else {
+            not_applicable(plan, case, lacks, "lacks")
+        };
+        outcome.settings.splice(0..0, solver.settings());
+        outcome
     }
 
     /// Every level of a case, judged.
@@ -143,7 +165,7 @@ impl<'a> ConvergenceRunner<'a> {
         expectation: Option<&Expectation>,
         progress: Progress<'_>,
     ) -> Result<CaseOutcome, String> {
-        let plan = self.plan;
+        let plan = &self.plan;
         let same_method;
         let truth = if let Against::SameMethod(same) = case.against {
             same_method = self.same_method(case, same)?;
@@ -182,7 +204,7 @@ impl<'a> ConvergenceRunner<'a> {
         level: LevelPlan,
         keeps_field: bool,
     ) -> Result<LevelOutcome, String> {
-        let plan = self.plan;
+        let plan = &self.plan;
         let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
         let RunContext { suite, fingerprint, .. } = self.context;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
@@ -198,7 +220,7 @@ impl<'a> ConvergenceRunner<'a> {
 
     /// The same method with a shorter spacing, run for this case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, String> {
-        let plan = self.plan;
+        let plan = &self.plan;
         Ok(match same {
             SameMethod::ShorterSteps(dt) => Box::new(FineSteps::compute(plan, case, dt)?),
             SameMethod::FineGrid(level) => {
@@ -221,37 +243,9 @@ impl<'a> ConvergenceRunner<'a> {
         }
         let found = self.references.iter().find(|(until, _)| *until == case.until);
         let (until, reference) = found.ok_or("no reference for this case")?;
-        match reference.get_or_init(|| Reference::compute(self.plan, *until)) {
+        match reference.get_or_init(|| Reference::compute(&self.plan, *until)) {
             Ok(reference) => Ok(reference),
             Err(reason) => Err(reason.clone()),
         }
     }
-}
-
-fn run_of(
-    plan: &ConvergencePlan,
-    truth: &dyn Truth,
-    (clock, keeper): (&Clock, &mut dyn CheckpointStore),
-    keeps_field: bool,
-    make: impl FnMut() -> Result<Box<dyn Subject>, String>,
-) -> Result<RunResult, String> {
-    let rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
-    let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
-    let comparison = Comparison { of: plan.of, sum, observe, at_rest: rest, keeps_field };
-    verify::resume(make, truth, clock, &comparison, keeper)
-}
-
-fn level_of(plan: &ConvergencePlan, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
-    let crossed = run.counters.crossings.is_some_and(|n| n > 0);
-    let excluded = crossed && plan.crossing_levels == CrossingLevels::Excluded;
-    let LevelPlan { cells, h, .. } = level;
-    let ppc = level.ppc.filter(|_| run.counters.particles.is_some());
-    let spacing = match plan.refine.axis {
-        Axis::Space => h,
-        Axis::Time => dt,
-        Axis::Particles => level.particle_spacing(plan.scene.dimension()),
-    };
-    let error = error_of(plan, &run);
-    let (usable, order, stable_time_step) = (!excluded, None, None);
-    LevelOutcome { cells, h, spacing, dt, ppc, run, error, usable, order, stable_time_step }
 }
