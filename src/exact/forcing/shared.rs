@@ -26,11 +26,10 @@ impl SharedForces {
     /// The number by which forces at `places` are known: the same for the same bits.
     pub(super) fn number_of(&self, places: Vec<f64>) -> usize {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let bits = |places: &[f64]| places.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
-        let found = tables
-            .places
-            .iter()
-            .position(|known| known.len() == places.len() && bits(known) == bits(&places));
+        let bits = f64::to_bits;
+        let is_known =
+            |known: &Vec<f64>| known.iter().copied().map(bits).eq(places.iter().copied().map(bits));
+        let found = tables.places.iter().position(is_known);
         found.unwrap_or_else(|| {
             tables.size += places.len();
             tables.places.push(places);
@@ -48,8 +47,11 @@ impl SharedForces {
     pub(super) fn put(&self, places: usize, t: f64, forces: Vec<f64>) {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if tables.size + forces.len() <= MOST {
-            tables.size += forces.len();
-            tables.forces.insert((places, t.to_bits()), forces.into());
+            let size = forces.len();
+            // Another run may have computed the same meanwhile.
+            if tables.forces.insert((places, t.to_bits()), forces.into()).is_none() {
+                tables.size += size;
+            }
         }
     }
 

@@ -148,7 +148,7 @@ impl Connection {
 
     fn with_last_words(&self, reason: String) -> String {
         // The process is dead, but what it said may still be on its way.
-        patiently(GRACE.min(self.silence), || self.listener.is_finished().then_some(()));
+        patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
         // Of a trace of Python, these are the place, the line there and the error.
