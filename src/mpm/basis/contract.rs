@@ -4,7 +4,8 @@ use super::cell_locator::CellLocator;
 use super::patch::{NodeWeight, Patch};
 use crate::mpm::grid::Grid;
 use crate::mpm::particles::Particles;
-use crate::mpm::simd::{LANES, Simd};
+use crate::mpm::simd::{self, LANES, Simd, SimdPass};
+use fearless_simd::Level;
 
 /// Particle domain over which a basis averages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,6 +88,13 @@ pub trait Basis: Sized + Sync + Send + 'static {
         mut visit: impl FnMut(NodeWeight<'_, D>),
     ) {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
+    }
+
+    /// Runs a loop over this basis. A method of the basis, so that the compiler has a unit of code
+    /// for the loops of each file of bases: they take most of its time, and a change of one file
+    /// leaves the loops of the others as they are.
+    fn run<P: SimdPass>(level: Level, pass: P) {
+        simd::run(level, pass);
     }
 
     /// Largest number of nodes of a particle, counted once for each patch: the unit of the work

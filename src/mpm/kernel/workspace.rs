@@ -12,7 +12,6 @@ use crate::mpm::basis::Basis;
 use crate::mpm::grid::Grid;
 use crate::mpm::packed_grid::{Columns, FieldViewMut, Node4, Node8, PackedField, PackedNode};
 use crate::mpm::particles::Particles;
-use crate::mpm::simd;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 
@@ -56,7 +55,7 @@ impl<const D: usize> P2g<'_, D> {
             let range = block.particles.clone();
             let basis = PhantomData;
             let pass = Scatter::<D, B, N> { grid, particles, range, request, field, basis };
-            simd::run(level, pass);
+            B::run(level, pass);
         };
         // Sums beyond a periodic end must be folded back before anything is unpacked.
         let (at_once, after) = if grid.periodic.contains(&true) {
@@ -115,7 +114,7 @@ impl Workspace {
         par_split(0..particles.len(), request, &|range, request| {
             let basis = PhantomData;
             let pass = Gather::<D, B> { grid, particles, range, request, fields, basis };
-            simd::run(*level, pass);
+            B::run(*level, pass);
         });
     }
 }

@@ -46,7 +46,8 @@ pub(in crate::mpm) trait SimdPass: Sized {
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs `pass` at `level`.
+/// Runs `pass` at `level`; [`Basis::run`](super::basis::Basis::run) says where it is compiled.
+#[inline(always)]
 pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
