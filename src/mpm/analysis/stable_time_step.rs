@@ -23,7 +23,7 @@ use crate::mpm::scheme::SchemeName;
 use crate::mpm::setup::Setup;
 use crate::mpm::solver::Solver;
 use crate::mpm::stage::Stage;
-use crate::mpm::transfer::{TransferKind, kick};
+use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 
 /// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside
@@ -140,10 +140,8 @@ impl<const D: usize> Solver<D> {
         Ok(self.setup.grid.velocity.clone())
     }
 
-    /// Whether velocities pass through particles before they strain them. For affine fields and
-    /// series the loss in that passage is neglected.
     fn strains_by_mapped_velocity(&self) -> bool {
-        self.setup.scheme != SchemeName::Usl && self.setup.transfer.kind() == TransferKind::Velocity
+        strains_by_mapped_velocity(self.setup.scheme, self.setup.transfer.kind())
     }
 
     /// Twice the kinetic energy of nodes with these velocities.
@@ -165,6 +163,30 @@ impl<const D: usize> Solver<D> {
     fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.setup);
         checkpoint.visit(&mut self.velocity_time);
+    }
+}
+
+/// Whether velocities pass through particles before they strain them. For affine fields and series
+/// the loss in that passage is neglected.
+fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
+    scheme != SchemeName::Usl && kind == TransferKind::Velocity
+}
+
+/// The simplest scheme and transfer with the stable time step of these, to the last bit, so that
+/// it is computed once for all methods that share it. A response has neither P2G of momentum nor
+/// G2P of velocities unless velocities pass through particles, and then only the passage itself;
+/// forces and velocity gradients are those of the basis for all transfers but fits, and so are
+/// accelerations for all but series and cells.
+pub fn simplest_with_same_response(
+    scheme: SchemeName,
+    transfer: TransferChoice,
+) -> (SchemeName, TransferChoice) {
+    let kind = transfer.kind();
+    let scheme =
+        if strains_by_mapped_velocity(scheme, kind) { SchemeName::Musl } else { SchemeName::Usl };
+    match kind {
+        TransferKind::Velocity | TransferKind::Field => (scheme, TransferName::Flip.into()),
+        TransferKind::Fit | TransferKind::Series | TransferKind::Cells => (scheme, transfer),
     }
 }
 

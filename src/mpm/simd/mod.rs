@@ -37,7 +37,7 @@ use std::sync::LazyLock;
 
 /// Loop over registers. All functions it calls must be `#[inline(always)]`: others are compiled
 /// for the baseline processor.
-pub(in crate::mpm) trait SimdPass: Sized {
+pub trait SimdPass: Sized {
     /// Whether the loop runs faster with the registers of AVX-512, 32 in place of 16 and twice as
     /// wide.
     const NEEDS_AVX512: bool;

@@ -6,8 +6,10 @@
 //! and orders mean something. Where linear particles move, later steps may have shorter limits
 //! (`tiny-nodal-mass`): the share is for these.
 
+use crate::mpm::simplest_with_same_response;
 use crate::study::build::dispatch;
 use crate::study::kind::StepWarning;
+use crate::subject::Start;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan};
@@ -30,9 +32,10 @@ const NEAR: f64 = 0.6;
 /// A level with the step that is taken on it, and the stable time step (s) where that is known.
 type Stepped = (LevelPlan, Option<f64>);
 
-/// The steps of the levels of each case, each looked for once.
+/// Stable time steps (s) of a study, by what they depend on: those of methods that share one, and
+/// of levels that differ in their step only, are predicted once.
 #[derive(Debug, Default)]
-pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<Stepped, String>>>);
+pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, String>>>);
 
 impl StableSteps {
     /// The step on one level.
@@ -42,12 +45,34 @@ impl StableSteps {
         case: &Case,
         level: LevelPlan,
     ) -> Result<Stepped, String> {
-        let key = format!("{} {level:?}", case.name);
+        let Method::Mpm { .. } = case.method else { return Ok((level, None)) };
+        let limit = |rounds| self.limit(plan, case.method, level, rounds);
+        if let Some(share) = plan.refine.rule {
+            let limit = limit(ROUNDS)?;
+            return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
+        }
+        // Iterations that have not settled give more than there is. A level that cannot be set up
+        // says so when it is run.
+        let taken = taken(plan, case, level);
+        let is_suspect = limit(FEW).is_ok_and(|limit| taken > NEAR * limit);
+        let limit = if is_suspect { limit(ROUNDS).ok() } else { None };
+        Ok((level, limit.filter(|limit| taken > *limit)))
+    }
+
+    fn limit(
+        &self,
+        plan: &ConvergencePlan,
+        method: Method,
+        level: LevelPlan,
+        rounds: u32,
+    ) -> Result<f64, String> {
+        let method = simplest(method);
+        let key = format!("{method:?} {:?} {rounds}", LevelPlan { dt: 0.0, ..level });
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = known().get(&key) {
             return found.clone();
         }
-        let found = stepped(plan, case, level);
+        let found = dispatch::stable_time_step(plan, method, level, rounds);
         known().insert(key, found.clone());
         found
     }
@@ -68,19 +93,11 @@ impl StableSteps {
     }
 }
 
-fn stepped(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> Result<Stepped, String> {
-    let Method::Mpm { .. } = case.method else { return Ok((level, None)) };
-    if let Some(share) = plan.refine.rule {
-        let limit = dispatch::stable_time_step(plan, case.method, level, ROUNDS)?;
-        return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
-    }
-    // A level that cannot be set up says so when it is run.
-    let limit = |rounds| dispatch::stable_time_step(plan, case.method, level, rounds).ok();
-    // Iterations that have not settled give more than there is.
-    let taken = taken(plan, case, level);
-    let suspect = limit(FEW).is_some_and(|limit| taken > NEAR * limit);
-    let limit = if suspect { limit(ROUNDS) } else { None };
-    Ok((level, limit.filter(|limit| taken > *limit)))
+/// The simplest method with the stable time step of `method`.
+fn simplest(method: Method) -> Method {
+    let Method::Mpm { basis, transfer, scheme, mass, frame, .. } = method else { return method };
+    let (scheme, transfer) = simplest_with_same_response(scheme, transfer);
+    Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame }
 }
 
 /// The step (s) that is taken.
