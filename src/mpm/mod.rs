@@ -42,8 +42,8 @@ mod stress;
 mod threads;
 mod transfer;
 
-pub use analysis::stable_time_step::simplest_with_same_response;
 pub use algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad};
+pub use analysis::stable_time_step::simplest_with_same_response;
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use combination::{combine, combine_across, combine_bodies};

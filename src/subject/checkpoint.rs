@@ -12,6 +12,14 @@ use super::{Samples, Totals};
 pub trait Memory {
     /// Shows each number to `checkpoint`, which writes it down or replaces it.
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>);
+
+    /// The same for several, one after another.
+    fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>)
+    where
+        Self: Sized,
+    {
+        entries.iter_mut().for_each(|entry| entry.visit(checkpoint));
+    }
 }
 
 /// A state that is being written down, or taken back.
@@ -105,6 +113,22 @@ impl Memory for f64 {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
+
+    /// All at once: analyses take a state back before each of their many steps.
+    fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
+        match &mut checkpoint.0 {
+            Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
+            Way::In(bytes) => {
+                let (words, _) = bytes.as_chunks();
+                let Some(words) = words.get(..entries.len()) else { return checkpoint.refuse() };
+                for (entry, word) in entries.iter_mut().zip(words) {
+                    *entry = Self::from_le_bytes(*word);
+                }
+                *bytes = &bytes[size_of_val(entries)..];
+            }
+            Way::Misfit => {}
+        }
+    }
 }
 
 impl Memory for bool {
@@ -122,18 +146,14 @@ impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
         if !checkpoint.is_misfit() {
-            for entry in self {
-                entry.visit(checkpoint);
-            }
+            T::visit_each(self, checkpoint);
         }
     }
 }
 
 impl<T: Memory, const N: usize> Memory for [T; N] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        for entry in self {
-            entry.visit(checkpoint);
-        }
+        T::visit_each(self, checkpoint);
     }
 }
 
@@ -153,9 +173,7 @@ impl<T: Memory + Default> Memory for Vec<T> {
                 self.push(entry);
             }
         } else {
-            for entry in self {
-                entry.visit(checkpoint);
-            }
+            T::visit_each(self, checkpoint);
         }
     }
 }

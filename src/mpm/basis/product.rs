@@ -58,28 +58,33 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
 
     #[inline(always)]
     fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(NodeWeight<'_, D>)) {
+        // Wrapped once for an axis, not once for a node.
+        let nodes: [[usize; K]; D] =
+            array([0; K], |axis| array(0, |k| grid.wrap(self.0[axis].first + k, axis)));
         for n in 0..K.pow(D as u32) {
-            let mut rest = n;
-            let at: [usize; D] = std::array::from_fn(|_| {
-                let k = rest % K;
-                rest /= K;
-                k
-            });
-            let index: [usize; D] =
-                std::array::from_fn(|axis| grid.wrap(self.0[axis].first + at[axis], axis));
+            let at: [usize; D] = array(0, |axis| n / K.pow(axis as u32) % K);
+            let index: [usize; D] = array(0, |axis| nodes[axis][at[axis]]);
             if (0..D).any(|axis| index[axis] >= grid.counts[axis]) {
                 continue;
             }
-            let weight = (0..D).map(|axis| self.0[axis].weight[at[axis]]).product();
-            let gradient = Vector::from_fn(|along, _| {
-                let factor = |axis: usize| {
+            let factor = |axis: usize, of: &[f64; K]| of[at[axis]];
+            let mut weight = factor(0, &self.0[0].weight);
+            for axis in 1..D {
+                weight *= factor(axis, &self.0[axis].weight);
+            }
+            let (mut gradient, mut offset) = (Vector::zeros(), Vector::zeros());
+            for along in 0..D {
+                let functions = |axis: usize| {
                     let functions = &self.0[axis];
-                    let of = if axis == along { &functions.slope } else { &functions.weight };
-                    of[at[axis]]
+                    if axis == along { &functions.slope } else { &functions.weight }
                 };
-                (0..D).map(factor).product()
-            });
-            let offset = Vector::from_fn(|axis, _| self.0[axis].offset[at[axis]]);
+                let mut product = factor(0, functions(0));
+                for axis in 1..D {
+                    product *= factor(axis, functions(axis));
+                }
+                gradient[along] = product;
+                offset[along] = self.0[along].offset[at[along]];
+            }
             visit(NodeWeight { node: grid.node(&index), weight, gradient: &gradient, offset });
         }
     }

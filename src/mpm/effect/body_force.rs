@@ -68,9 +68,7 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
     ) -> u64 {
         self.b.resize(particles.len(), Vector::zeros());
         (self.field)(t, particles, &mut self.b);
-        for (p, (b, mass)) in self.b.iter().zip(&particles.mass).enumerate() {
-            kernel.p2g_point_force(particles, p, &(b * *mass), grid);
-        }
+        kernel.p2g_body_force(particles, &self.b, grid);
         particles.len() as u64 * kernel.support()
     }
 }

@@ -123,6 +123,16 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         self.workspace().scatter::<B, D>(particles, &request, grid, columns);
     }
 
+    fn p2g_body_force(&self, particles: &Particles<D>, b: &[Vector<D>], grid: &mut Grid<D>) {
+        self.tally.add("p2g point force", particles.len());
+        let mut column = std::mem::take(&mut grid.force);
+        for (p, (b, mass)) in b.iter().zip(&particles.mass).enumerate() {
+            let force = b * *mass;
+            B::visit(grid, particles, p, |i| column[i.node] += force * i.weight);
+        }
+        grid.force = column;
+    }
+
     fn p2g_point_force(
         &self,
         particles: &Particles<D>,

@@ -15,7 +15,7 @@ use nalgebra::SMatrix;
 /// Vectors and matrices, column after column.
 impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.iter_mut().for_each(|entry| checkpoint.visit(entry));
+        f64::visit_each(self.as_mut_slice(), checkpoint);
     }
 }
 

@@ -50,7 +50,12 @@ fn a_foundation_counts_by_its_stiffness() {
 /// bits. Some have not, so that the test would see a claim too many.
 #[rstest]
 fn methods_of_the_same_response_share_their_step(
-    #[values(BasisName::Linear, BasisName::ContiguousGimp, BasisName::Cpdi, BasisName::CubicBSpline)]
+    #[values(
+        BasisName::Linear,
+        BasisName::ContiguousGimp,
+        BasisName::Cpdi,
+        BasisName::CubicBSpline
+    )]
     basis: BasisName,
 ) {
     let step = |(scheme, transfer): (SchemeName, TransferChoice)| {
