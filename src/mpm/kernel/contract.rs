@@ -39,7 +39,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         self.p2g(particles, &P2gRequest { force, ..P2gRequest::default() }, grid);
     }
 
-    /// Adds a force per unit mass (m/s2) of each particle, `sum_p m_p b_p N_i`, to `grid.force` (N).
+    /// Adds a force per unit mass (m/s2) of each particle, `sum_p m_p b_p N_i`, to `grid.force`.
     fn p2g_body_force(&self, particles: &Particles<D>, b: &[Vector<D>], grid: &mut Grid<D>);
 
     /// Adds `force` (N), which acts on particle `p`, to the forces of its nodes.

@@ -73,6 +73,20 @@ fn p2g_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, 
     }
 }
 
+fn a_body_force_is_a_force_on_each_particle<const D: usize>(
+    kernel: &dyn Kernel<D>,
+    periodic: bool,
+) {
+    let (mut together, particles) = scene(kernel, periodic);
+    let mut apart = together.clone();
+    kernel.p2g_body_force(&particles, &particles.v, &mut together);
+    for (p, (b, m)) in particles.v.iter().zip(&particles.mass).enumerate() {
+        kernel.p2g_point_force(&particles, p, &(b * *m), &mut apart);
+    }
+    assert_eq!(nodes(&together), nodes(&apart));
+    assert!(together.force.iter().any(|force| force.norm() > 0.0));
+}
+
 fn g2p_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) {
     let (grid, particles) = scene(kernel, periodic);
     let (mut v, mut advected) = (particles.v.clone(), particles.v.clone());
@@ -253,6 +267,7 @@ fn fast_loops_are_the_textbook_loops<const D: usize>(kernel: &dyn Kernel<D>, per
 fn obey<const D: usize>(periodic: bool) {
     for &basis in BasisName::ALL {
         let kernel = kernel::<D>(basis);
+        a_body_force_is_a_force_on_each_particle(kernel.as_ref(), periodic);
         p2g_of_several_parts_is_that_of_each(kernel.as_ref(), periodic);
         g2p_of_several_parts_is_that_of_each(kernel.as_ref(), periodic);
         particles_are_independent(kernel.as_ref(), periodic);
