@@ -88,7 +88,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
     }
 
     /// Filters the velocities of particles before G2P.
-    fn filter(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &mut Particles<D>) -> u64 {
+    fn filter_velocities(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &mut Particles<D>) -> u64 {
         0
     }
 

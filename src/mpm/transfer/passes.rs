@@ -22,7 +22,7 @@ pub fn g2p<const D: usize>(
     let is_fit = transfer.p2g_request(particles).force == Some(Divergence::Fit);
     let (mut request, mut passes) = (G2pRequest::default(), 0);
     if stages.contains(&Stage::ParticleVelocity) {
-        passes += transfer.filter(kernel, grid, particles);
+        passes += transfer.filter_velocities(kernel, grid, particles);
         request = transfer.g2p_request(dt);
     }
     let (mut v, mut grad_v) =

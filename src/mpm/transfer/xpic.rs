@@ -49,7 +49,7 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
         ]
     }
 
-    fn filter(
+    fn filter_velocities(
         &mut self,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
