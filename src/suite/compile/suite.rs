@@ -84,7 +84,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     name(&evaluator, &spec.suite)?;
     let scene = whole::scene(&evaluator, &words)?;
-    fem_support::check(&evaluator, &spec, &scene)?;
+    fem_support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
@@ -101,11 +101,11 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let reference = reference.transpose()?.flatten();
     let same_method =
         same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
-    law::check(&evaluator, &spec, &scene)?;
+    law::refuse_unknown_to_fem(&evaluator, &spec, &scene)?;
     loads(&evaluator, &spec, &words.loads, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
-        conservation_only::check(&evaluator, &spec)?;
+        conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
     }
     let observe = spec.observe.as_ref().map(|spec| observed(&evaluator, spec, &scene));
     let scale = spec.judge.scale.as_ref().map(|text| {
@@ -129,12 +129,12 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         crossing_levels: spec.judge.crossing_levels,
         cases: Vec::new(),
     };
-    subject_support::check(&evaluator, &spec, &plan)?;
+    subject_support::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
-    size::check(&evaluator, &spec, &plan, &places)?;
+    size::refuse_unfit_levels(&evaluator, &spec, &plan, &places)?;
     plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
-    steps::check(&evaluator, &plan, &places)?;
+    steps::refuse_unusable(&evaluator, &plan, &places)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
     Ok(assemble(head, parameters, &spec.functions, plan))

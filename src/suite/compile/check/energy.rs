@@ -6,7 +6,7 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::yaml::Diagnostic;
 
 /// Refuses to bound the energy of a body whose law has none; `path` is that of the bound.
-pub(crate) fn check(
+pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,
     plan: &ConvergencePlan,

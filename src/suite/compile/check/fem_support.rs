@@ -7,7 +7,7 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 
 /// Refuses conditions that the bar does not know, if the suite asks for one.
-pub(crate) fn check(
+pub(crate) fn refuse_conditions_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,

@@ -18,7 +18,7 @@ const MOST: f64 = 5e7;
 const ROUNDING: f64 = 1e-6;
 
 /// Refuses a level that is too large, or on which a held face has no nodes.
-pub(crate) fn check(
+pub(crate) fn refuse_unfit_levels(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,

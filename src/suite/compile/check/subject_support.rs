@@ -9,7 +9,7 @@ use crate::suite::yaml::Diagnostic;
 use crate::verify::Limits;
 
 /// Refuses to judge a quantity that the reference FEM does not give.
-pub(crate) fn check(
+pub(crate) fn refuse_quantity_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,

@@ -79,7 +79,7 @@ fn stored_energy(
     problem: &Problem,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    energy::check(evaluator, path, plan)?;
+    energy::refuse_law_without_energy(evaluator, path, plan)?;
     if problem.heat.is_some() {
         let message = "the energy of a body in which heat flows is more than that of its strain";
         return Err(evaluator.diagnostic(path, message));

@@ -32,7 +32,7 @@ pub(crate) fn limits(
         energy_rate: match &spec.energy_rate {
             Some(spec) => {
                 let path = path.then("energy_rate");
-                energy::check(evaluator, &path, plan)?;
+                energy::refuse_law_without_energy(evaluator, &path, plan)?;
                 Some(interval(evaluator, &path, spec)?)
             }
             None => None,
@@ -86,7 +86,7 @@ fn drifts(
             return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
         }
         if sum == Conserved::Energy {
-            energy::check(evaluator, &path, plan)?;
+            energy::refuse_law_without_energy(evaluator, &path, plan)?;
         }
         drifts.push((sum, evaluator.positive(&path, text, "a bound")?));
     }

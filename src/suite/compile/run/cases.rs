@@ -214,7 +214,7 @@ fn stretched(plan: &ConvergencePlan) -> bool {
 }
 
 /// The law of an FEM case that names none: that of the scene's material. Where there is none, such
-/// a case has been refused (`law::check`).
+/// a case has been refused (`law::refuse_unknown_to_fem`).
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law::own(&plan.scene.material).unwrap_or_default()
 }

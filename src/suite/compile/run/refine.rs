@@ -40,7 +40,7 @@ pub(crate) fn plan(
     let at_run = Path::top("run").then("dt");
     let rule = spec.run.dt.as_ref().map(|spec| step_rule::share(evaluator, &at_run, spec));
     let rule = rule.transpose()?.flatten();
-    step_rule::check(evaluator, &spec.methods, rule)?;
+    step_rule::refuse_methods_without_rule(evaluator, &spec.methods, rule)?;
     let stated = spec.run.dt.as_ref();
     let stated = stated.map(|spec| step_rule::formula_text(evaluator, &at_run, spec, scene));
     let dt = steps(evaluator, spec, axis, stated.transpose()?.as_ref())?;

@@ -46,7 +46,7 @@ pub(crate) fn formula_text(
 }
 
 /// Refuses methods whose steps no rule can choose.
-pub(crate) fn check(
+pub(crate) fn refuse_methods_without_rule(
     evaluator: &Evaluator<'_>,
     methods: &[MethodSpec],
     rule: Option<f64>,

@@ -11,7 +11,7 @@ use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is
 /// refined. Instants that are shared with a computed truth must not change it.
-pub(crate) fn check(
+pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
     places: &[LevelPaths],

@@ -89,7 +89,7 @@ pub(crate) fn conduction(
         let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");
         return Err(diagnostic.with_help("add `heat` to `loads`, or choose a material"));
     };
-    conduction::check(evaluator, &path, found)?;
+    conduction::refuse_wrong_temperature(evaluator, &path, found)?;
     Ok(problem)
 }
 

@@ -114,7 +114,7 @@ pub(crate) struct ConductionInputs {
 }
 
 /// Holds the temperature that is stated at `path` against its problem.
-pub(crate) fn check(
+pub(crate) fn refuse_wrong_temperature(
     evaluator: &Evaluator<'_>,
     path: &Path,
     problem: &Conduction,

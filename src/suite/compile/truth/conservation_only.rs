@@ -33,7 +33,10 @@ pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
 }
 
 /// Refuses a suite without a truth that asks for something which takes one.
-pub(crate) fn check(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+pub(crate) fn refuse_need_of_truth(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+) -> Result<(), Diagnostic> {
     let asked = |spec: &ExpectSpec| {
         let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
         let ExpectSpec { error_below, error_above, observed_within, rest_below, .. } = spec;

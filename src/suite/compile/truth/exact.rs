@@ -41,7 +41,7 @@ pub(crate) fn exact(
             follows_motion: false,
             ..solution(evaluator, &path, state, (scene, true), until)?
         };
-        check(evaluator, &path, &problem)?;
+        refuse_wrong_solution(evaluator, &path, &problem)?;
         return Ok(Some(problem));
     }
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
@@ -52,17 +52,17 @@ pub(crate) fn exact(
     }
     let problem = solution(evaluator, &path, exact, (scene, false), until)?;
     if scene.bodies.is_empty() {
-        check(evaluator, &path, &problem)?;
+        refuse_wrong_solution(evaluator, &path, &problem)?;
         return Ok(Some(problem));
     }
     let each =
         scene.bodies.iter().map(|body| solution(evaluator, &path, exact, (body, false), until));
     let bodies = each.collect::<Result<Vec<Problem>, _>>()?;
-    interface::check(
+    interface::refuse_violated_conditions(
         evaluator,
         scene,
         bodies.clone(),
-        |problem| check(evaluator, &path, problem),
+        |problem| refuse_wrong_solution(evaluator, &path, problem),
         |violation| no_solution(evaluator, &path, &violation),
     )?;
     Ok(Some(Problem { bodies, ..problem }))
@@ -159,7 +159,7 @@ fn manufactured(
     };
     let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
     let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
-    check(evaluator, &path, &problem)?;
+    refuse_wrong_solution(evaluator, &path, &problem)?;
     Ok(Some(problem))
 }
 
@@ -190,9 +190,13 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
     }
 }
 
-fn check(evaluator: &Evaluator<'_>, path: &Path, problem: &Problem) -> Result<(), Diagnostic> {
+fn refuse_wrong_solution(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    problem: &Problem,
+) -> Result<(), Diagnostic> {
     if let Some(problem) = &problem.heat {
-        conduction::check(evaluator, path, problem)?;
+        conduction::refuse_wrong_temperature(evaluator, path, problem)?;
     }
     problem.check().map_err(|violation| violated(evaluator, path, problem, &violation))
 }

@@ -33,7 +33,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
 /// # Errors
 /// A diagnostic of `check`, or of a violation by `diagnostic`; and one about bodies for which no
 /// condition is known.
-pub(crate) fn check(
+pub(crate) fn refuse_violated_conditions(
     evaluator: &Evaluator<'_>,
     scene: &Scene,
     mut problems: Vec<Problem>,

@@ -28,7 +28,7 @@ pub(crate) fn manufactured(material: &MaterialPlan) -> Result<Equation, &'static
 }
 
 /// Refuses an FEM bar, a method or the reference, of a material that it has no law for.
-pub(crate) fn check(
+pub(crate) fn refuse_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
