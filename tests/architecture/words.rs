@@ -79,6 +79,8 @@ pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("complaints", "diagnostics"),
     ("meetings", "interface"),
     ("pricing", "cost"),
+    ("dear", "expensive, costly"),
+    ("dearer", "more expensive"),
     ("FOUR", "LANES"),
     ("Four", "F64x4"),
 ];

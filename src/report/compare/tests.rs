@@ -266,12 +266,12 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
 /// The most important first, whatever the order of the suites; within a rank, the largest change.
 #[test]
 fn what_moved_is_sorted_by_importance() {
-    let names = ["gone", "cheap", "dear", "dearer", "worse", "worst", "verdict", "unmet"];
+    let names = ["gone", "cheap", "costly", "costlier", "worse", "worst", "verdict", "unmet"];
     let before: Vec<Value> = names.iter().map(|name| case(name, 1.0, 1.0)).collect();
     let mut after = before[1..].to_vec();
     after[0] = case("cheap", 1.0, 0.5);
-    after[1] = case("dear", 1.0, 1.5);
-    after[2] = case("dearer", 1.0, 3.0);
+    after[1] = case("costly", 1.0, 1.5);
+    after[2] = case("costlier", 1.0, 3.0);
     after[3] = case("worse", 1.5, 1.0);
     after[4] = case("worst", 9.0, 1.0);
     set("/verdict", json!("at floor"))(&mut after[5]);
@@ -283,7 +283,8 @@ fn what_moved_is_sorted_by_importance() {
     let heads = "worse: 1 no longer as expected, 1 worse verdict, 2 less accurate, 2 more expensive, \
                  1 better, 1 new, 1 gone";
     assert_eq!(page.lines().next(), Some(heads));
-    let order = ["unmet", "verdict", "worst", "worse", "dearer", "dear", "cheap", "added", "gone"];
+    let order =
+        ["unmet", "verdict", "worst", "worse", "costlier", "costly", "cheap", "added", "gone"];
     let row = |name: &str| page.find(&format!("\n  bar::{name} ")).expect(name);
     assert!(order.windows(2).all(|pair| row(pair[0]) < row(pair[1])), "{page}");
     assert!(page.contains("    bar::unmet: an order of 2 was expected"), "{page}");
@@ -305,7 +306,7 @@ fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> ReportDocument {
 #[rstest]
 #[case::same([Some(1e3), Some(1e5)], [Some(2e3), Some(1e4)], None)]
 #[case::the_dearer_method_is_none_of_it([Some(1e3), Some(9e5)], [Some(2e3), Some(1e4)], None)]
-#[case::dearer([Some(1.8e3), Some(1e5)], [Some(2e3), Some(1e4)],
+#[case::more_expensive([Some(1.8e3), Some(1e5)], [Some(2e3), Some(1e4)],
     Some((true, "bar, exact   1e-2  1.80 x    1.000e3 -> 1.800e3  linear")))]
 #[case::another_method([Some(5e3), Some(1e5)], [Some(2e3), Some(1e4)],
     Some((true, "bar, exact   1e-2  2.00 x  1.000e3 -> 2.000e3  linear -> cubic")))]

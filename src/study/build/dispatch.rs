@@ -76,7 +76,7 @@ pub(crate) fn stable_time_step(
     rounds: u32,
 ) -> Result<f64, String> {
     plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
-        // A given force makes no difference, and is dear to prepare.
+        // A given force makes no difference, and is expensive to prepare.
         let body = Body { manufactured: None, ..Body::of(plan, own) };
         Ok(least.min(stable_time_step_of(&body, method, level, rounds)?))
     })

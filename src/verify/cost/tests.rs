@@ -213,23 +213,23 @@ fn names(ranking: &Ranking) -> Vec<&str> {
 #[test]
 fn the_finest_target_decides_and_who_reaches_less_comes_last() {
     let scaled = |factor: f64, levels: i32| {
-        let dearer = |one: Sample| Sample { work: factor * one.work, ..one };
-        power(2.0, 2.0, levels).into_iter().map(dearer).collect::<Vec<_>>()
+        let scaled_work = |one: Sample| Sample { work: factor * one.work, ..one };
+        power(2.0, 2.0, levels).into_iter().map(scaled_work).collect::<Vec<_>>()
     };
     let methods = vec![
         method("short", scaled(0.1, 4)),
-        method("dear", scaled(3.0, 8)),
+        method("costly", scaled(3.0, 8)),
         method("cheap", scaled(1.0, 8)),
         method("broken", errors(&[f64::NAN, 1.0, f64::NAN])),
     ];
     let ranking = Ranking::new(String::new(), 1.0, &TARGETS, methods);
-    assert_eq!(names(&ranking), ["cheap", "dear", "short", "broken"]);
-    let [cheap, dear, short, broken] = &ranking.rows[..] else { panic!("four rows") };
-    assert_relative_eq!(dear.times[2].unwrap(), 3.0, max_relative = 1e-12);
+    assert_eq!(names(&ranking), ["cheap", "costly", "short", "broken"]);
+    let [cheap, costly, short, broken] = &ranking.rows[..] else { panic!("four rows") };
+    assert_relative_eq!(costly.times[2].unwrap(), 3.0, max_relative = 1e-12);
     assert_relative_eq!(cheap.times[1].unwrap(), 1.0, max_relative = 1e-12);
     assert_eq!((short.times[2], short.obstacle()), (None, Some(End::Levels)));
     assert_eq!((cheap.obstacle(), broken.obstacle()), (None, Some(End::NoTrend)));
-    assert_eq!((short.front.len(), dear.front.len(), broken.front.len()), (4, 0, 0));
+    assert_eq!((short.front.len(), costly.front.len(), broken.front.len()), (4, 0, 0));
 }
 
 fn series() -> impl Strategy<Value = Vec<Sample>> {
