@@ -18,7 +18,9 @@ pub trait Memory {
     where
         Self: Sized,
     {
-        entries.iter_mut().for_each(|entry| entry.visit(checkpoint));
+        for entry in entries {
+            entry.visit(checkpoint);
+        }
     }
 }
 
