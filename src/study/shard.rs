@@ -33,9 +33,10 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// The cases of `suites` that are of this part; suites without one are left out. The most expensive
-    /// case goes to the part with the least to do, and so on (Graham 1969, SIAM J. Appl. Math. 17,
-    /// 416: no part takes more than 4/3 of what is possible), the same for every part that asks.
+    /// The cases of `suites` that are of this part; suites without one are left out. The most
+    /// expensive case goes to the part with the least to do, and so on (Graham 1969, SIAM J. Appl.
+    /// Math. 17, 416: no part takes more than 4/3 of what is possible), the same for every part
+    /// that asks.
     pub fn of(self, suites: &[Suite], extent: Extent) -> Vec<Suite> {
         let costs: Vec<Vec<f64>> = suites.iter().map(|suite| seconds(suite, extent)).collect();
         let mut all: Vec<(usize, usize)> = Vec::new();
