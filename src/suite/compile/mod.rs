@@ -1,5 +1,6 @@
 //! From the grammar to the model: every number computed, every name resolved, the truth checked.
 
+mod assemble;
 pub(crate) mod boundary;
 pub(crate) mod check;
 pub(crate) mod coordinates;
@@ -8,6 +9,7 @@ pub(crate) mod expect;
 pub(crate) mod internal_force;
 pub(crate) mod interval;
 pub(crate) mod load;
+mod observe;
 pub(crate) mod path;
 pub(crate) mod run;
 pub(crate) mod scene;

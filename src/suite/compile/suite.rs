@@ -2,24 +2,20 @@
 //! checked.
 
 use super::check::{fem_support, size, subject_support, sums};
-use super::evaluator::{DeclaredParameter, Evaluator};
-use super::load::{LoadEntry, LoadSpec, StudyFacts};
+use super::evaluator::Evaluator;
+use super::load::listed;
 use super::path::Path;
 use super::run::{cases, refine, same_method, scatter, steps};
 use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
-use super::truth::{conservation_only, exact, law};
-use super::wording::shown;
-use super::{internal_force, stability};
+use super::truth::{conservation_only, exact, reference};
+use super::{assemble, internal_force, observe, stability};
 use crate::suite::grammar::{
-    ConvergenceSpec, Head, InternalForceSpec, ObserveSpec, ReferenceSpec, StabilitySpec, StudyName,
-    read,
+    ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName, read,
 };
 use crate::suite::model::fingerprint::fingerprint;
-use crate::suite::model::study_plan::StudyPlan;
-use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene, Suite};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
-use std::sync::Arc;
+use crate::suite::model::{ConvergencePlan, Scene, Suite};
+use crate::suite::yaml::{Diagnostic, NumberText, Source};
 
 /// Instants at which the error is taken unless a suite says otherwise.
 const INSTANTS: u64 = 50;
@@ -82,7 +78,7 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
     let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    name(&evaluator, &spec.suite)?;
+    assemble::refuse_unusable_name(&evaluator, &spec.suite)?;
     let scene = whole::scene(&evaluator, &words)?;
     fem_support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
@@ -97,17 +93,18 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         None => exact::exact(&evaluator, &spec, &scene, latest)?,
     };
     let dimension = scene.dimension();
-    let reference = spec.reference.as_ref().map(|spec| reference(&evaluator, spec, dimension));
+    let reference =
+        spec.reference.as_ref().map(|spec| reference::reference(&evaluator, spec, dimension));
     let reference = reference.transpose()?.flatten();
     let same_method =
         same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
-    law::refuse_unknown_to_fem(&evaluator, &spec, &scene)?;
-    loads(&evaluator, &spec, &words.loads, &scene, latest)?;
+    fem_support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
+    listed::refuse_foreign(&evaluator, &spec, &words.loads, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
     }
-    let observe = spec.observe.as_ref().map(|spec| observed(&evaluator, spec, &scene));
+    let observe = spec.observe.as_ref().map(|spec| observe::observed(&evaluator, spec, &scene));
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
@@ -137,119 +134,25 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     steps::refuse_unusable(&evaluator, &plan, &places)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-/// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.
-fn loads(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    loads: &[LoadSpec],
-    scene: &Scene,
-    until: f64,
-) -> Result<(), Diagnostic> {
-    let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
-    for (i, load) in loads.iter().enumerate() {
-        let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
-        load.words().check(&entry, &study)?;
-        if let Some(lacked) = load.words().lacked_by_fem() {
-            subject_support::fem_lacks(evaluator, spec, lacked)?;
-        }
-    }
-    Ok(())
+    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
     let spec: InternalForceSpec = read(source, "internal_force")?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    name(&evaluator, &spec.suite)?;
+    assemble::refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = internal_force::plan(&evaluator, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
 }
 
 fn stability(source: &Source) -> Result<Suite, Diagnostic> {
     let spec: StabilitySpec = read(source, "stability")?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    name(&evaluator, &spec.suite)?;
+    assemble::refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = stability::plan(&evaluator, source, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-fn assemble(
-    [name, title, source, about]: [String; 4],
-    parameters: Vec<DeclaredParameter>,
-    functions: &Ordered<String>,
-    plan: impl StudyPlan,
-) -> Suite {
-    let (functions, study) = (functions.as_slice().to_vec(), Arc::new(plan));
-    let group = String::new();
-    Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
-}
-
-/// A name becomes part of test and file names.
-fn name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
-    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
-        return Ok(());
-    }
-    let diagnostic = evaluator.diagnostic(&Path::top("suite"), "this is not a name for a suite");
-    Err(diagnostic.with_label("expected lower-case letters, digits and hyphens, at most 64"))
-}
-
-/// The place that is watched: one in the body.
-fn observed(
-    evaluator: &Evaluator<'_>,
-    spec: &ObserveSpec,
-    scene: &Scene,
-) -> Result<Vec<f64>, Diagnostic> {
-    let path = Path::top("observe").then("at");
-    let place = evaluator.point(&path, &spec.at, scene.dimension())?;
-    for (axis, x) in place.iter().enumerate() {
-        let (from, to) = (scene.from[axis], scene.to[axis]);
-        if !(from..=to).contains(x) {
-            let message = format!("{} is outside the body", shown(*x));
-            let label = format!("expected a number from {} to {}", shown(from), shown(to));
-            return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
-        }
-    }
-    let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
-    if let Some(kind) = outside.map(|outline| outline.kind()) {
-        let diagnostic = evaluator.diagnostic(&path, "this place is outside the body");
-        return Err(diagnostic.with_label(&format!("expected a place in the {kind}")));
-    }
-    Ok(place)
-}
-
-fn reference(
-    evaluator: &Evaluator<'_>,
-    spec: &ReferenceSpec,
-    dimension: usize,
-) -> Result<Option<ReferencePlan>, Diagnostic> {
-    let path = Path::top("reference");
-    let (equation, fem) = match (spec.equation, &spec.fem) {
-        (Some(equation), Some(fem)) => (equation, fem),
-        (None, None) if spec.same_method.is_some() => return Ok(None),
-        _ => {
-            let message =
-                "a reference is a `fem` computation of an `equation`, or the `same_method`";
-            return Err(evaluator.diagnostic_at_key(&path, message));
-        }
-    };
-    if dimension != 1 {
-        let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
-        let diagnostic = evaluator.diagnostic_at_key(&path, &message);
-        return Err(diagnostic.with_help("give this scene an `exact` solution"));
-    }
-    let path = path.then("fem");
-    Ok(Some(ReferencePlan {
-        equation,
-        element: fem.element,
-        mass: fem.mass,
-        cells: evaluator.count(&path.then("cells"), &fem.cells, "the number of elements")?,
-        dt: evaluator.formula(&path.then("dt"), &fem.dt, &["h"])?,
-    }))
+    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
 }

@@ -33,22 +33,6 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     }
 }
 
-/// Refuses the reference FEM, as method or as reference, for a scene with an effect that it lacks.
-pub(crate) fn fem_lacks(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    effect: &str,
-) -> Result<(), Diagnostic> {
-    let message = format!("the reference FEM has no {effect}, and the scene has");
-    if spec.has_fem_reference() {
-        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message));
-    }
-    match spec.fem_method() {
-        Some(i) => Err(evaluator.diagnostic(&Path::top("methods").then(i), &message)),
-        None => Ok(()),
-    }
-}
-
 /// Refuses to bound the drift of sums that the reference FEM does not give; `path` is that of the
 /// expectation.
 pub(crate) fn check_drift(

@@ -3,6 +3,7 @@
 
 mod contract;
 pub(crate) mod fields;
+pub(crate) mod listed;
 mod registry;
 mod thermal_face;
 

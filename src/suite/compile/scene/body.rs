@@ -1,42 +1,97 @@
-//! Boxes, from words, and grids around bodies.
+//! One body, and what acts on it, from words, and the grid around it.
 
-use super::lengths::{LONGEST, SHORTEST};
+use super::bodies::Listed;
+use super::material::material;
+use super::outline::BodyShape;
+use super::outline::quadrilateral::faces_are_sides;
+use super::scene_words::SceneWords;
+use super::{boundary, boxes, initial, outline, plane, rest, sets};
 use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::compile::load::listed;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
-use crate::suite::grammar::BoxSpec;
 use crate::suite::model::{Scene, SceneFace};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, NumberText};
 
-/// Lowest and highest corner of a box.
-///
-/// # Errors
-/// A complaint about a box that is empty, too small or too large.
-pub(crate) fn corners(
+/// One body, and what acts on it.
+pub(crate) fn body(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    words: &SceneWords<'_>,
+) -> Result<Scene, Diagnostic> {
+    let path = Path::top("scene");
+    let dimension = dimension(evaluator, &path, &words.dimension)?;
+    let at = own.at.then("body");
+    let (mut outline, mut mapped) = (None, None);
+    let (from, to) = match outline::shape(evaluator, &at, own.body, dimension)? {
+        BodyShape::Box(words) => boxes::corners(evaluator, &at.then("box"), words, dimension)?,
+        BodyShape::Free(found) => {
+            if words.bodies.is_none() {
+                outline::rims_are_free(evaluator, &path, words, found.as_ref())?;
+            }
+            outline.insert(found).ends()
+        }
+        BodyShape::Mapped(found, panel) => {
+            faces_are_sides(evaluator, &path, words, &panel)?;
+            mapped = Some(panel);
+            outline.insert(found).ends()
+        }
+    };
+    let is_free = outline.is_some() && mapped.is_none();
+    let grid = words
+        .grid
+        .as_ref()
+        .map(|grid| boxes::corners(evaluator, &path.then("grid"), grid, dimension))
+        .transpose()?;
+    let sets = sets::declared(evaluator, &path, words, (&from, &to), outline.as_deref())?;
+    let at = own.at.then("material");
+    let (material, density) = material(evaluator, &at, own.material)?;
+    let plane = plane::plane(evaluator, &path, words, dimension)?;
+    plane::knows(evaluator, &at, &material, plane)?;
+    let mut scene = Scene {
+        from,
+        to,
+        grid,
+        plane,
+        initial_stress: initial::stress(evaluator, own, dimension, &material)?,
+        initial_displacement: initial::displacement(evaluator, own, dimension, &material)?,
+        material,
+        density,
+        faces: if is_free && words.bodies.is_none() {
+            Vec::new()
+        } else {
+            boundary::faces(evaluator, &path, words, dimension)?
+        },
+        outline,
+        mapped,
+        sets,
+        loads: Vec::new(),
+        initial_velocity: initial::velocity(evaluator, own, dimension)?,
+        bodies: Vec::new(),
+        contact: None,
+    };
+    listed::refuse_incomplete(evaluator, &words.loads)?;
+    plane::revolves(evaluator, &path, &scene)?;
+    if scene.is_at_rest() {
+        rest::settle(evaluator, &own.at, words, &mut scene.faces)?;
+    }
+    listed::add(evaluator, &words.loads, &mut scene)?;
+    Ok(scene)
+}
+
+fn dimension(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &BoxSpec,
-    dimension: usize,
-) -> Result<(Vec<f64>, Vec<f64>), Diagnostic> {
-    let from = evaluator.point(&path.then("from"), &words.from, dimension)?;
-    let to = evaluator.point(&path.then("to"), &words.to, dimension)?;
-    for axis in 0..dimension {
-        if !(from[axis] < to[axis]) {
-            let (from, to) = (shown(from[axis]), shown(to[axis]));
-            let message = format!("the box ends at {to} and starts at {from}");
-            let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
-            return Err(diagnostic.with_label("expected a number above that of `from`"));
-        }
-        // Squares of lengths appear in second derivatives, cubes in volumes.
-        let length = to[axis] - from[axis];
-        if !(SHORTEST..=LONGEST).contains(&length) {
-            let message = format!("the box is {} m long", shown(length));
-            let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
-            let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
-            return Err(diagnostic.with_label(&label));
-        }
+    text: &NumberText,
+) -> Result<usize, Diagnostic> {
+    let path = path.then("dimension");
+    let dimension = evaluator.number(&path, text)?;
+    match [1.0, 2.0, 3.0].iter().position(|d| *d == dimension) {
+        Some(index) => Ok(index + 1),
+        None => Err(evaluator
+            .diagnostic(&path, &format!("a scene of dimension {}", shown(dimension)))
+            .with_label("expected 1, 2 or 3")),
     }
-    Ok((from, to))
 }
 
 /// The grid must reach over the body, and a face that is held must lie on the grid's own face: its

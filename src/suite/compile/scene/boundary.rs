@@ -5,13 +5,26 @@ use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
 use crate::suite::compile::scene::scene_words::SceneWords;
+use crate::suite::model::SceneFace;
 use crate::suite::model::boundary::BoundaryCondition;
 use crate::suite::model::scene::FACES;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
+/// The faces of a body that has a box or four sides, in their order.
+pub(crate) fn faces(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    words: &SceneWords<'_>,
+    dimension: usize,
+) -> Result<Vec<SceneFace>, Diagnostic> {
+    let holds = holds(evaluator, path, words, dimension)?;
+    let build = |(i, hold)| SceneFace { name: FACES[i], axis: i / 2, high: i % 2 == 1, hold };
+    Ok(holds.into_iter().enumerate().map(build).collect())
+}
+
 /// Boundary conditions of the faces, in their order.
-pub(crate) fn holds(
+fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
     words: &SceneWords<'_>,

@@ -3,6 +3,7 @@
 pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod boundary;
+pub(crate) mod boxes;
 pub(crate) mod face;
 pub(crate) mod initial;
 pub(crate) mod lengths;

@@ -1,9 +1,11 @@
 //! Sets of particles, and what acts on them.
 
+use super::boxes;
 use crate::exact::{Outline, Region};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::{shown, suggestion};
+use crate::suite::grammar::{SceneSpec, SetSpec};
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::scene::{FACES, Scene};
 use crate::suite::yaml::Diagnostic;
@@ -11,12 +13,31 @@ use crate::suite::yaml::Diagnostic;
 /// Share of a box that is no more than rounding.
 const SLIVER: f64 = 1e-12;
 
-/// A set that is called like a face could be taken for it.
-pub(crate) fn refuse_face_name(
+/// The sets of particles, on which nothing acts yet.
+pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    name: &str,
-) -> Result<(), Diagnostic> {
+    words: &SceneSpec,
+    corners: (&[f64], &[f64]),
+    outline: Option<&dyn Outline>,
+) -> Result<Vec<Region>, Diagnostic> {
+    let declare = |(name, SetSpec::Box(words)): &(String, SetSpec)| {
+        let at = path.then("sets").then(name.as_str());
+        refuse_face_name(evaluator, &at, name)?;
+        let at = at.then("box");
+        let (from, to) = boxes::corners(evaluator, &at, words, corners.0.len())?;
+        let set = Region { name: name.clone(), from, to };
+        refuse_outside(evaluator, &at, &set, corners)?;
+        if let Some(outline) = outline {
+            refuse_beside(evaluator, &at, &set, outline)?;
+        }
+        Ok(set)
+    };
+    words.sets.as_slice().iter().map(declare).collect()
+}
+
+/// A set that is called like a face could be taken for it.
+fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<(), Diagnostic> {
     if !FACES.contains(&name) {
         return Ok(());
     }
@@ -25,7 +46,7 @@ pub(crate) fn refuse_face_name(
 }
 
 /// A set must have a part of the body of some extent.
-pub(crate) fn refuse_outside(
+fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,
     set: &Region,
@@ -46,7 +67,7 @@ pub(crate) fn refuse_outside(
 }
 
 /// The same in the box around a body that is none.
-pub(crate) fn refuse_beside(
+fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
     set: &Region,

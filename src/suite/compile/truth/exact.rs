@@ -7,7 +7,6 @@ use crate::exact::{Equation, Face, Motion, Problem};
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::outline::quadrilateral::refuse_truth;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
 use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
@@ -28,7 +27,7 @@ pub(crate) fn exact(
     until: f64,
 ) -> Result<Option<Problem>, Diagnostic> {
     if scene.each().iter().any(|body| body.mapped.is_some()) {
-        refuse_truth(evaluator, spec)?;
+        refuse_truth_of_mapped(evaluator, spec)?;
     }
     if !scene.bodies.is_empty() {
         interface::refuse(evaluator, spec)?;
@@ -228,4 +227,27 @@ fn face(scene: &Scene, number: usize) -> Face {
         scene.loads_on(LoadTarget::Face(number)).find_map(|load| load.load.clone().condition());
     let condition = loaded.unwrap_or_else(|| hold.clone());
     Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
+}
+
+/// Solutions are checked in boxes and bodies with a free rim.
+///
+/// # Errors
+/// A complaint about a truth that is stated.
+fn refuse_truth_of_mapped(
+    evaluator: &Evaluator<'_>,
+    words: &ConvergenceSpec,
+) -> Result<(), Diagnostic> {
+    let stated = [
+        ("exact", words.exact.is_some()),
+        ("equilibrium", words.equilibrium.is_some()),
+        ("manufactured", words.manufactured.is_some()),
+    ];
+    match stated.iter().find(|(_, stated)| *stated) {
+        Some((key, _)) => {
+            let message = "a solution is checked in a box or a body with a free rim, not in a \
+                           quadrilateral";
+            Err(evaluator.diagnostic_at_key(&Path::top(key), message))
+        }
+        None => Ok(()),
+    }
 }

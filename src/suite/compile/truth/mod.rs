@@ -6,4 +6,5 @@ pub(crate) mod equilibrium;
 pub(crate) mod exact;
 pub(crate) mod interface;
 pub(crate) mod law;
+pub(crate) mod reference;
 pub(crate) mod tolerance;

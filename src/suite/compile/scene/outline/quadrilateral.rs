@@ -6,7 +6,7 @@ use crate::mpm::{Quadrilateral, Vector};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::grammar::{ConvergenceSpec, QuadrilateralSpec};
+use crate::suite::grammar::QuadrilateralSpec;
 use crate::suite::model::scene::FACES;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
@@ -80,27 +80,4 @@ pub(crate) fn faces_are_sides(
         }
     }
     Ok(())
-}
-
-/// Solutions are checked in boxes and bodies with a free rim.
-///
-/// # Errors
-/// A complaint about a truth that is stated.
-pub(crate) fn refuse_truth(
-    evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
-) -> Result<(), Diagnostic> {
-    let stated = [
-        ("exact", words.exact.is_some()),
-        ("equilibrium", words.equilibrium.is_some()),
-        ("manufactured", words.manufactured.is_some()),
-    ];
-    match stated.iter().find(|(_, stated)| *stated) {
-        Some((key, _)) => {
-            let message = "a solution is checked in a box or a body with a free rim, not in a \
-                           quadrilateral";
-            Err(evaluator.diagnostic_at_key(&Path::top(key), message))
-        }
-        None => Ok(()),
-    }
 }
