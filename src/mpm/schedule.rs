@@ -1,4 +1,4 @@
-//! StepSchedule of a run: scheme, transfer, conditions and coupling, compiled once to a list of
+//! Schedule of a step: scheme, transfer, conditions and coupling, compiled once to a list of
 //! passes.
 //!
 //! A pass of P2G or G2P computes the weights of all particles anew, so that neighbouring stages

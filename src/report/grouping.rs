@@ -1,4 +1,4 @@
-//! Things that are alike put together, in the order in which the first of them comes.
+//! Groups of values with equal keys, in the order in which each key first occurs.
 
 /// Values by their keys.
 pub(crate) fn grouped<K: PartialEq, V>(

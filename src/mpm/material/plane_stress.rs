@@ -54,7 +54,7 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
     }
 }
 
-/// `nu/(1 - nu)`: logarithmic strain across over that of the area, less the sign.
+/// `nu/(1 - nu)`: minus the logarithmic strain across the plate over that of its area.
 pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
     lambda / (lambda + 2.0 * mu)
 }

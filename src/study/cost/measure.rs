@@ -31,7 +31,7 @@ struct TimingJob<'a> {
     case: &'a Case,
     level: LevelPlan,
     solver: Option<&'a dyn SolverFactory>,
-    /// Where the result belongs.
+    /// Indices of the case and of its level.
     at: (usize, usize),
     seconds: Vec<f64>,
 }
