@@ -130,8 +130,9 @@ pub(crate) fn counted(changes: &[Change]) -> (usize, usize) {
 
 /// Names of the suites that the page adds.
 pub(crate) fn suites(changes: &[Change]) -> Vec<&str> {
-    let names = changes.iter().filter_map(|change| change.file.strip_prefix("verification/"));
-    names.filter_map(|name| name.strip_suffix(".yaml")).collect()
+    let files = changes.iter().filter(|change| change.file.starts_with("verification/"));
+    let names = files.filter_map(|change| change.file.strip_suffix(".yaml")?.rsplit('/').next());
+    names.collect()
 }
 
 /// Makes the changes in the copy of the repository at `root`, in their order.

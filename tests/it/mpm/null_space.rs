@@ -53,10 +53,11 @@ fn of_any_velocity<const D: usize>() {
     for &basis in BasisName::ALL {
         let any =
             |p: usize| Vector::<D>::from_fn(|i, _| libm::sin(((p * D + i) * (p * D + i)) as f64));
-        let mut solver = body(basis, 2, any);
+        // More particles than a cell of any basis has nodes.
+        let mut solver = body(basis, 3, any);
         let (particles, found) = (solver.particles(), solver.null_space_velocity());
         let lost = share(&found, particles);
-        assert!((0.1..0.95).contains(&lost), "{basis:?}: {lost}");
+        assert!((0.1..0.99).contains(&lost), "{basis:?}: {lost}");
         // It gives no node any momentum,
         let (kernel, mut grid) = (kernel::<D>(basis), solver.grid().clone());
         kernel.p2g_mass(particles, &mut grid);
