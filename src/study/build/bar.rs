@@ -107,6 +107,7 @@ mod tests {
     use super::*;
     use crate::exact::Equation;
     use crate::mpm::{Block, Matrix, Particles, StressUpdate, Vector};
+    use crate::suite::compile::run::bar_law;
     use crate::suite::compile::truth::law;
     use approx::assert_relative_eq;
     use rstest::rstest;
@@ -146,7 +147,7 @@ mod tests {
     }
 
     fn agree(plan: &MaterialPlan, truth: &Equation) {
-        let bar = law::own(plan).map(|law| piola(law, plan).unwrap());
+        let bar = bar_law::own(plan).map(|law| piola(law, plan).unwrap());
         for stretch in [0.7, 1.0 + 1e-6, 1.4] {
             let stress = piola_of_mpm(plan, &Matrix::<1>::new(stretch))[(0, 0)];
             if let Some(bar) = &bar {

@@ -1,24 +1,10 @@
 //! A suite from its parts.
 
-use super::evaluator::{DeclaredParameter, Evaluator};
-use super::path::Path;
+use super::evaluator::DeclaredParameter;
 use crate::suite::model::Suite;
 use crate::suite::model::study_plan::StudyPlan;
-use crate::suite::yaml::{Diagnostic, Ordered};
+use crate::suite::yaml::Ordered;
 use std::sync::Arc;
-
-/// A name becomes part of test and file names.
-pub(super) fn refuse_unusable_name(
-    evaluator: &Evaluator<'_>,
-    name: &str,
-) -> Result<(), Diagnostic> {
-    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
-        return Ok(());
-    }
-    let diagnostic = evaluator.diagnostic(&Path::top("suite"), "this is not a name for a suite");
-    Err(diagnostic.with_label("expected lower-case letters, digits and hyphens, at most 64"))
-}
 
 /// A suite with this name, title, source and text about it.
 pub(super) fn assemble(

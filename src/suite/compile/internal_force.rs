@@ -5,7 +5,7 @@
 //! taken from P2G of the solver itself.
 
 use super::evaluator::Evaluator;
-use super::expect::cases;
+use super::expect::{because, cases};
 use super::path::Path;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
 use crate::suite::grammar::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
@@ -76,7 +76,7 @@ fn cases(
         if let Some(owner) = owner {
             let (path, spec) = (Path::top("expect").then(owner), &spec.expect[owner]);
             expected = Some(expectation(evaluator, &path, spec)?);
-            because = cases::because(evaluator, &path, "an expectation", &spec.because)?;
+            because = because::because(evaluator, &path, "an expectation", &spec.because)?;
         }
         Ok(ForceCase { name, basis, expected, because })
     };

@@ -17,6 +17,7 @@ pub(crate) mod scene;
 pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod suite;
+mod suite_name;
 pub(crate) mod truth;
 pub(crate) mod wording;
 

@@ -1,15 +1,14 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
-use super::check::{fem_support, size, subject_support, sums};
+use super::check::{fem_support, load_support, size, subject_support, sums};
 use super::evaluator::Evaluator;
-use super::load::listed;
 use super::path::Path;
 use super::run::{cases, refine, same_method, scatter, steps};
 use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, reference};
-use super::{assemble, internal_force, observe, stability};
+use super::{assemble, internal_force, observe, stability, suite_name};
 use crate::suite::grammar::{
     ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName, read,
 };
@@ -78,7 +77,7 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
     let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    assemble::refuse_unusable_name(&evaluator, &spec.suite)?;
+    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
     let scene = whole::scene(&evaluator, &words)?;
     fem_support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
@@ -99,7 +98,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let same_method =
         same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
     fem_support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
-    listed::refuse_foreign(&evaluator, &spec, &words.loads, &scene, latest)?;
+    load_support::refuse_foreign(&evaluator, &spec, &words.loads, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
@@ -140,7 +139,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
     let spec: InternalForceSpec = read(source, "internal_force")?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    assemble::refuse_unusable_name(&evaluator, &spec.suite)?;
+    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = internal_force::plan(&evaluator, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
@@ -150,7 +149,7 @@ fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
 fn stability(source: &Source) -> Result<Suite, Diagnostic> {
     let spec: StabilitySpec = read(source, "stability")?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    assemble::refuse_unusable_name(&evaluator, &spec.suite)?;
+    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = stability::plan(&evaluator, source, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];

@@ -3,7 +3,7 @@
 use crate::fem::BarLaw;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
-use crate::suite::compile::truth::law;
+use crate::suite::compile::run::bar_law;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
@@ -73,7 +73,7 @@ pub(crate) fn refuse_law_unknown_to_fem(
         if let Some(message) = laws.iter().copied().find_map(foreign) {
             return Err(evaluator.diagnostic(&path, &message));
         }
-        if law.is_none() && law::own(&scene.material).is_none() {
+        if law.is_none() && bar_law::own(&scene.material).is_none() {
             let diagnostic =
                 evaluator.diagnostic(&path, &format!("the reference FEM has no `{name}`"));
             return Err(diagnostic.with_help("name the `law` of an elastic bar to compare with"));

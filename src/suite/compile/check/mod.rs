@@ -2,6 +2,7 @@
 
 pub(crate) mod energy;
 pub(crate) mod fem_support;
+pub(crate) mod load_support;
 pub(crate) mod size;
 pub(crate) mod subject_support;
 pub(crate) mod sums;

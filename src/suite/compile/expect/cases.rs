@@ -1,5 +1,6 @@
 //! Which expectation holds for which case: exactly one for each, or none for any.
 
+use super::because::because;
 use super::limits::limits;
 use crate::suite::compile::check::subject_support;
 use crate::suite::compile::evaluator::Evaluator;
@@ -143,22 +144,6 @@ fn expectation(
         limits,
         because,
     })
-}
-
-/// The reason that stands at `path` for what is `stated` there, which must say something.
-pub(crate) fn because(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    stated: &str,
-    text: &str,
-) -> Result<String, Diagnostic> {
-    let text = text.trim();
-    if !text.is_empty() {
-        return Ok(text.to_owned());
-    }
-    let message = format!("{stated} needs its reason");
-    let diagnostic = evaluator.diagnostic(&path.then("because"), &message);
-    Err(diagnostic.with_label("expected words"))
 }
 
 fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict, Diagnostic> {

@@ -1,4 +1,5 @@
 //! Expectations: exactly one for each case.
 
+pub(crate) mod because;
 pub(crate) mod cases;
 pub(crate) mod limits;

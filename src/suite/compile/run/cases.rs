@@ -1,11 +1,12 @@
 //! Lists become cases: the product of everything that a suite gives as a list.
 
+use super::bar_law;
 use super::methods::{NamedMethod, count, methods, named};
 use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases;
 use crate::suite::compile::path::Path;
-use crate::suite::compile::truth::{conservation_only, law};
+use crate::suite::compile::truth::conservation_only;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::method::Method;
@@ -216,5 +217,5 @@ fn stretched(plan: &ConvergencePlan) -> bool {
 /// The law of an FEM case that names none: that of the scene's material. Where there is none, such
 /// a case has been refused (`law::refuse_unknown_to_fem`).
 fn own_law(plan: &ConvergencePlan) -> EquationName {
-    law::own(&plan.scene.material).unwrap_or_default()
+    bar_law::own(&plan.scene.material).unwrap_or_default()
 }

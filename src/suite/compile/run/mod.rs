@@ -1,5 +1,6 @@
 //! The run: refinement plan, time steps, methods, and the cases that they make.
 
+pub(crate) mod bar_law;
 pub(crate) mod cases;
 pub(crate) mod external;
 pub(crate) mod methods;

@@ -3,17 +3,13 @@
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
 //! loads are those of the scene: they act on every body.
 
-use crate::exact::Polygon;
 use crate::mpm::MaterialSpec;
-use crate::suite::compile::boundary::FreeFace;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::wording::shown;
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
-use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText};
-use std::sync::Arc;
 
 /// Most bodies of a scene.
 const MOST: usize = 100;
@@ -115,111 +111,4 @@ pub(crate) fn contact(
     }
     let message = format!("the coefficient of friction is {}", shown(coefficient));
     Err(evaluator.diagnostic(&path, &message).with_label("expected zero or a positive number"))
-}
-
-/// The scene of all `bodies`: the first one's, if they are not a list.
-pub(crate) fn together(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    mut bodies: Vec<Scene>,
-    several: bool,
-    contact: Option<f64>,
-) -> Result<Scene, Diagnostic> {
-    let Some(first) = bodies.first() else {
-        return Err(evaluator.diagnostic(path, "a scene without a body"));
-    };
-    let mut scene = Scene { contact, ..first.clone() };
-    if !several {
-        return Ok(scene);
-    }
-    (scene.outline, scene.mapped) = (None, None);
-    for body in &bodies {
-        for axis in 0..scene.from.len() {
-            scene.from[axis] = scene.from[axis].min(body.from[axis]);
-            scene.to[axis] = scene.to[axis].max(body.to[axis]);
-        }
-    }
-    apart(evaluator, path, &bodies)?;
-    let mut faces = scene.faces.iter();
-    let against = faces.find_map(|face| Some((face.name, face.hold.against_several_bodies()?)));
-    if let Some((name, why)) = against {
-        return Err(evaluator.diagnostic_at_key(&path.then("boundary").then(name), why));
-    }
-    for body in &mut bodies {
-        inner_faces_are_free(body, &scene);
-    }
-    scene.bodies = bodies;
-    Ok(scene)
-}
-
-/// Walls hold the faces of a body that lie on those of the box around all bodies.
-fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
-    for face in &mut body.faces {
-        let axis = face.axis;
-        let at_wall = if face.high {
-            body.to[axis] == scene.to[axis]
-        } else {
-            body.from[axis] == scene.from[axis]
-        };
-        if !at_wall {
-            face.hold = Arc::new(FreeFace);
-        }
-    }
-    if body.outline.is_some() && body.mapped.is_none() {
-        body.faces.clear();
-    }
-}
-
-/// No two bodies have a place in common.
-fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
-    for (i, body) in bodies.iter().enumerate() {
-        if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
-            let message = format!("body {} and body {} have places in common", k + 1, i + 1);
-            let at = path.then("bodies").then(i).then("body");
-            return Err(evaluator.diagnostic_at_key(&at, &message));
-        }
-    }
-    Ok(())
-}
-
-/// Whether two bodies overlap; a ring counts as a disk.
-fn overlap(one: &Scene, other: &Scene) -> bool {
-    let boxes = (0..one.from.len())
-        .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);
-    let ball = |body: &'_ Scene| -> Option<(Vec<f64>, f64)> {
-        let (centre, radius) = body.outline.as_ref()?.ball()?;
-        Some((centre.to_vec(), radius))
-    };
-    boxes
-        && match (ball(one), ball(other)) {
-            (Some((centre, radius)), Some((other, other_radius))) => {
-                let ends = centre.iter().zip(&other);
-                ends.fold(0.0, |all, (a, b)| libm::hypot(all, b - a)) < radius + other_radius
-            }
-            (Some((centre, radius)), None) => distance(other, &centre) < radius,
-            (None, Some((centre, radius))) => distance(one, &centre) < radius,
-            (None, None) => match (polygon(one), polygon(other)) {
-                (Some(one), Some(other)) => one.overlaps(&other),
-                _ => true,
-            },
-        }
-}
-
-/// Distance (m) of a place from a body.
-fn distance(body: &Scene, place: &[f64]) -> f64 {
-    if let Some(outline) = &body.outline {
-        return outline.distance(place);
-    }
-    let ends = body.from.iter().zip(&body.to).zip(place);
-    ends.fold(0.0, |all, ((from, to), x)| libm::hypot(all, x.clamp(*from, *to) - x))
-}
-
-/// A body in the plane with straight sides.
-fn polygon(body: &Scene) -> Option<Polygon> {
-    let ([left, bottom], [right, top]) = (&body.from[..], &body.to[..]) else { return None };
-    let corners = match &body.outline {
-        Some(outline) => outline.trace().into_iter().map(<[f64; 2]>::from).collect(),
-        None => vec![[*left, *bottom], [*right, *bottom], [*right, *top], [*left, *top]],
-    };
-    Polygon::new("polygon", &corners).ok()
 }

@@ -5,12 +5,12 @@ use super::material::material;
 use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
 use super::scene_words::SceneWords;
-use super::{boundary, boxes, initial, outline, plane, rest, sets};
+use super::{boundary, boxes, initial, outline, plane, rest, revolution, sets};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::listed;
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
-use crate::suite::model::{Scene, SceneFace};
+use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// One body, and what acts on it.
@@ -70,8 +70,7 @@ pub(crate) fn body(
         bodies: Vec::new(),
         contact: None,
     };
-    listed::refuse_incomplete(evaluator, &words.loads)?;
-    plane::revolves(evaluator, &path, &scene)?;
+    revolution::revolves(evaluator, &path, &scene)?;
     if scene.is_at_rest() {
         rest::settle(evaluator, &own.at, words, &mut scene.faces)?;
     }
@@ -92,43 +91,4 @@ fn dimension(
             .diagnostic(&path, &format!("a scene of dimension {}", shown(dimension)))
             .with_label("expected 1, 2 or 3")),
     }
-}
-
-/// The grid must reach over the body, and a face that is held must lie on the grid's own face: its
-/// nodes are what is held, and a periodic axis ends there. Where the body may start deformed, the
-/// period is that of its motion, which is checked against the grid's.
-pub(crate) fn on_grid(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
-    let Some((from, to)) = &scene.grid else { return Ok(()) };
-    let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
-    let given = |face: &&SceneFace| !(deforms && face.hold.is_periodic());
-    for face in scene.faces.iter().filter(given) {
-        let (body, grid, key) = if face.high {
-            (scene.to[face.axis], to[face.axis], "to")
-        } else {
-            (scene.from[face.axis], from[face.axis], "from")
-        };
-        let outside = if face.high { grid < body } else { grid > body };
-        let apart = !face.hold.is_free() && grid != body;
-        if outside || apart {
-            let name = face.name;
-            let message = if outside {
-                format!(
-                    "the body's {name} face at {body} is outside the grid, which ends at {grid}"
-                )
-            } else {
-                let verb = face.hold.verb();
-                format!("the {name} face at {body} {verb}, but the grid ends at {grid}")
-            };
-            let at = path.then("grid").then(key).then(face.axis);
-            let beyond = if face.high { "at least" } else { "at most" };
-            let label = if apart { "exactly" } else { beyond };
-            let label = format!("expected {label} {}", shown(body));
-            return Err(evaluator.diagnostic(&at, &message).with_label(&label));
-        }
-    }
-    Ok(())
 }

@@ -11,6 +11,8 @@ pub(crate) mod material;
 pub(crate) mod outline;
 mod plane;
 pub(crate) mod rest;
+mod revolution;
 pub(crate) mod scene_words;
 pub(crate) mod sets;
+mod together;
 pub(crate) mod whole;

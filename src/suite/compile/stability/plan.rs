@@ -5,10 +5,11 @@ use super::setup::setup;
 use crate::mpm::{MaterialPlan, combine, combine_across};
 use crate::subject::PlaneState;
 use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::expect::cases::{assign, because};
+use crate::suite::compile::expect::because::because;
+use crate::suite::compile::expect::cases::assign;
 use crate::suite::compile::path::Path;
+use crate::suite::compile::run::bar_law::own;
 use crate::suite::compile::run::methods::{count, methods, named};
-use crate::suite::compile::truth::law;
 use crate::suite::compile::wording::{shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
 use crate::suite::model::method::Method;
@@ -141,7 +142,7 @@ fn drafts(
     material: &MaterialPlan,
     plane: PlaneState,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
-    let own = law::own(material).unwrap_or_default();
+    let own = own(material).unwrap_or_default();
     let mut drafts = Vec::new();
     for (i, spec) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);

@@ -1,15 +1,7 @@
-//! Laws of the truth and of the reference FEM for a material.
+//! Laws of the truth for a material.
 
 use crate::exact::Equation;
-use crate::fem::BarLaw;
 use crate::mpm::MaterialPlan;
-use crate::suite::grammar::EquationName;
-
-/// Name of the law of an FEM bar of this material, if the FEM has it.
-pub(crate) fn own(material: &MaterialPlan) -> Option<EquationName> {
-    let name = equation(material)?.name();
-    BarLaw::find(name).and(EquationName::find(name))
-}
 
 /// The equation of motion of a body of this material, for which motions the truth has it: J2 where
 /// loading never reverses, a fluid at rest. Material and law are one by the material's name.

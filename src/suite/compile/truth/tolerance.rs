@@ -2,7 +2,7 @@
 
 use crate::exact::{Linearised, Problem, Violation};
 use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::expect::cases::because;
+use crate::suite::compile::expect::because::because;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText};
