@@ -7,11 +7,11 @@
 //! linear in the displacement gradient. Fewer than three dimensions mean plane or uniaxial strain.
 
 use super::contract::{Material, MaterialProperties};
-use super::hyperelastic::{set_stress, stored_energy};
+use super::hyperelastic::{set_stress_along_axes, stored_energy};
 use super::linear_elastic::LinearElastic;
-use super::spectral::{assembled, spectral};
+use super::spectral::spectral;
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::algebra::{Matrix, Vector, det};
 use crate::mpm::particles::Particles;
 
 /// Fixed corotated elasticity.
@@ -28,12 +28,11 @@ impl Corotated {
         Self { lambda, mu }
     }
 
-    /// By the stretches: `(F - R) F^T = V^2 - V`.
-    fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
-        let (squares, axes) = spectral(&(f * f.transpose()));
+    /// Principal stresses (Pa), from the squared stretches: `(F - R) F^T = V^2 - V`.
+    #[inline(always)]
+    fn principal<const D: usize>(&self, squares: &Vector<D>, j: f64) -> Vector<D> {
         let pressure = self.lambda * (j - 1.0);
-        let along = |square: f64| pressure + 2.0 * self.mu * (square - square.sqrt()) / j;
-        assembled(&squares.map(along), &axes)
+        squares.map(|square| pressure + 2.0 * self.mu * (square - square.sqrt()) / j)
     }
 
     /// W (J/m^D).
@@ -68,7 +67,12 @@ impl<const D: usize> Material<D> for Corotated {
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
-        set_stress(body, |f, j| self.cauchy(f, j));
+        set_stress_along_axes(
+            body,
+            |squares| *squares,
+            #[inline(always)]
+            |squares, j| self.principal(squares, j),
+        );
     }
 }
 

@@ -6,12 +6,12 @@
 //! strain.
 
 use super::contract::{Material, MaterialProperties};
-use super::hyperelastic::{set_stress, stored_energy};
+use super::hyperelastic::{set_stress_along_axes, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
-use super::spectral::{assembled, half_log, spectral};
+use super::spectral::{assembled, half_log, half_log_batch, spectral};
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::Matrix;
+use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::Particles;
 
 /// Hencky elasticity.
@@ -30,9 +30,14 @@ impl Hencky {
 
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
         let (squares, axes) = spectral(&(f * f.transpose()));
-        let strain = half_log(&squares);
+        assembled(&self.principal(&half_log(&squares), j), &axes)
+    }
+
+    /// Principal stresses (Pa), from the logarithmic strains.
+    #[inline(always)]
+    fn principal<const D: usize>(&self, strain: &Vector<D>, j: f64) -> Vector<D> {
         let pressure = self.lambda * strain.sum();
-        assembled(&strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j), &axes)
+        strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j)
     }
 
     /// W (J/m^D).
@@ -92,7 +97,12 @@ impl<const D: usize> Material<D> for Hencky {
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
-        set_stress(body, |f, j| self.cauchy(f, j));
+        set_stress_along_axes(
+            body,
+            half_log_batch,
+            #[inline(always)]
+            |strain, j| self.principal(strain, j),
+        );
     }
 }
 

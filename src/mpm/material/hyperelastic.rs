@@ -1,7 +1,8 @@
 //! Stress and energy of laws of the deformation gradient alone, over all particles.
 
+use super::spectral::{MatrixBatch, assembled_batch, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::algebra::{Matrix, Vector, det, product};
 use crate::mpm::particles::Particles;
 use crate::mpm::simd::{BATCH, F64Batch, vectorized};
 
@@ -14,19 +15,62 @@ pub(super) fn stored_energy<const D: usize>(
     all.map(|(f, vol0)| vol0 * density(f)).sum()
 }
 
-/// Sets volumes, and Cauchy stresses from F and J.
-pub(super) fn set_stress<const D: usize>(
-    body: &mut StressUpdate<'_, D>,
-    cauchy: impl Fn(&Matrix<D>, f64) -> Matrix<D> + Sync,
-) {
-    set_stress_by_batch(body, |j| [*j], |f, [j]| cauchy(f, j));
-}
-
-/// The same for a law of which `of_j` computes what it needs of J, for several particles at a time.
+/// Sets volumes, and Cauchy stresses from F, with what `of_j` computes of J, for several particles
+/// at a time.
 pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     body: &mut StressUpdate<'_, D>,
     of_j: impl Fn(&F64Batch) -> [F64Batch; N] + Sync,
     cauchy: impl Fn(&Matrix<D>, [f64; N]) -> Matrix<D> + Sync,
+) {
+    by_batch(
+        body,
+        #[inline(always)]
+        |def_grad, j, sigma| {
+            let of_j = of_j(j);
+            for (lane, (sigma, f)) in sigma.iter_mut().zip(def_grad).enumerate() {
+                let mut own = [0.0; N];
+                for k in 0..N {
+                    own[k] = of_j[k].get(lane);
+                }
+                *sigma = cauchy(f, own);
+            }
+        },
+    );
+}
+
+/// Sets volumes, and Cauchy stresses along the axes of `F F^T`: `of_squares` computes what the law
+/// needs of the squared stretches, for several particles at a time, and `principal` the stresses
+/// (Pa) from that and J.
+pub(super) fn set_stress_along_axes<const D: usize>(
+    body: &mut StressUpdate<'_, D>,
+    of_squares: impl Fn(&F64Batch) -> F64Batch + Sync,
+    principal: impl Fn(&Vector<D>, f64) -> Vector<D> + Sync,
+) {
+    by_batch(
+        body,
+        #[inline(always)]
+        |def_grad, j, sigma| {
+            let mut squared = MatrixBatch::identity();
+            for (lane, f) in def_grad.iter().enumerate() {
+                squared.set(lane, &product(f, &f.transpose()));
+            }
+            let (squares, axes) = spectral_batch(squared);
+            let mut stresses = squares.map(&of_squares);
+            for lane in 0..BATCH {
+                stresses.set(lane, &principal(&stresses.get(lane), j.get(lane)));
+            }
+            let assembled = assembled_batch(&stresses, &axes);
+            for (lane, sigma) in sigma.iter_mut().enumerate() {
+                *sigma = assembled.get(lane);
+            }
+        },
+    );
+}
+
+/// Sets volumes, and calls `set_stress` with F, J and the stresses of each batch.
+fn by_batch<const D: usize>(
+    body: &mut StressUpdate<'_, D>,
+    set_stress: impl Fn(&[Matrix<D>], &F64Batch, &mut [Matrix<D>]) + Sync,
 ) {
     body.by_block(|StressBlock { def_grad, vol0, vol, sigma, .. }| {
         vectorized(
@@ -42,14 +86,7 @@ pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
                     for ((vol, vol0), j) in vol.iter_mut().zip(vol0).zip(&j.0) {
                         *vol = j * vol0;
                     }
-                    let of_j = of_j(&j);
-                    for (lane, (sigma, f)) in sigma.iter_mut().zip(def_grad).enumerate() {
-                        let mut own = [0.0; N];
-                        for k in 0..N {
-                            own[k] = of_j[k].get(lane);
-                        }
-                        *sigma = cauchy(f, own);
-                    }
+                    set_stress(def_grad, &j, sigma);
                 }
             },
         );

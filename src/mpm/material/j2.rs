@@ -10,10 +10,13 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
-use super::spectral::{assembled, half_log, spectral};
+use super::spectral::{
+    MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
+};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, Vector, det};
+use crate::mpm::algebra::{Matrix, Vector, det, product};
 use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Isotropic elasto-plasticity with linear hardening.
@@ -74,11 +77,14 @@ impl J2 {
         Self { lambda, bulk, mu, yield_stress, hardening, flowed: Vec::new() }
     }
 
-    /// The Kirchhoff stress at F after return to the yield surface, and the plastic flow then.
-    fn kirchhoff(&self, f: &Matrix<3>, before: Flowed) -> (Matrix<3>, Flowed) {
-        let trial = f * before.inverse_metric * f.transpose();
-        let (squares, axes) = spectral(&trial);
-        let strain = half_log(&squares);
+    /// The Kirchhoff stress at F after return to the yield surface, and the plastic flow then, from
+    /// the trial strain along its axes.
+    fn kirchhoff(
+        &self,
+        f: &Matrix<3>,
+        before: Flowed,
+        (strain, axes): (Vector<3>, Matrix<3>),
+    ) -> (Matrix<3>, Flowed) {
         let mean = strain.sum() / 3.0;
         let deviator = strain.add_scalar(-mean);
         let mises = 2.0 * self.mu * 1.5_f64.sqrt() * deviator.norm();
@@ -145,16 +151,46 @@ impl<const D: usize> Material<D> for J2 {
         let mut flowed = std::mem::take(&mut self.flowed);
         body.by_block_with(&mut flowed, &|StressBlock { def_grad, vol, vol0, sigma, .. },
                                           flowed| {
-            let results = vol.iter_mut().zip(vol0.iter()).zip(sigma.iter_mut());
-            for ((f, flowed), ((vol, vol0), sigma)) in def_grad.iter().zip(flowed).zip(results) {
-                let (j, (stress, after)) = (det(f), self.kirchhoff(&in_space(f), *flowed));
-                *flowed = after;
-                *vol = j * vol0;
-                *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j);
+            let columns = def_grad.chunks(BATCH).zip(flowed.chunks_mut(BATCH));
+            let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
+            let results = volumes.zip(sigma.chunks_mut(BATCH));
+            for ((def_grad, flowed), ((vol, vol0), sigma)) in columns.zip(results) {
+                let (strains, axes) = trial(def_grad, flowed);
+                let results = vol.iter_mut().zip(vol0).zip(sigma);
+                let particles = def_grad.iter().zip(flowed).zip(results).enumerate();
+                for (lane, ((f, flowed), ((vol, vol0), sigma))) in particles {
+                    let trial = (strains.get(lane), axes.get(lane));
+                    let (j, (stress, after)) =
+                        (det(f), self.kirchhoff(&in_space(f), *flowed, trial));
+                    *flowed = after;
+                    *vol = j * vol0;
+                    *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j);
+                }
             }
         });
         self.flowed = flowed;
     }
+}
+
+/// Trial strains of a batch of particles, `ln(be)/2` with `be = F Cp^-1 F^T`, along their axes.
+fn trial<const D: usize>(
+    def_grad: &[Matrix<D>],
+    flowed: &[Flowed],
+) -> (VectorBatch<3>, MatrixBatch<3>) {
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut trial = MatrixBatch::identity();
+            for (lane, (f, Flowed { inverse_metric, .. })) in
+                def_grad.iter().zip(flowed).enumerate()
+            {
+                let f = in_space(f);
+                trial.set(lane, &product(&product(&f, inverse_metric), &f.transpose()));
+            }
+            let (squares, axes) = spectral_batch(trial);
+            (squares.map(half_log_batch), axes)
+        },
+    )
 }
 
 /// F in three dimensions: nothing stretches along the axes that are left out.

@@ -5,6 +5,10 @@
 //! coincide are no special case, and those of a positive definite matrix are accurate relative to
 //! their own size (Demmel & Veselic 1992), which the logarithm of a small one needs.
 
+mod batch;
+
+pub(super) use batch::{MatrixBatch, VectorBatch, assembled_batch, half_log_batch, spectral_batch};
+
 use crate::mpm::algebra::{Matrix, Vector};
 
 /// A few suffice, as each sweep squares what is left; NaN ends here.
