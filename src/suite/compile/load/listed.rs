@@ -7,10 +7,7 @@ use crate::suite::model::load::{EffectName, ListedLoad};
 use crate::suite::yaml::Diagnostic;
 
 /// Refuses effects without those that they need.
-fn refuse_incomplete(
-    evaluator: &Evaluator<'_>,
-    loads: &[LoadSpec],
-) -> Result<(), Diagnostic> {
+fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {
         let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
