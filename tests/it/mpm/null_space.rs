@@ -57,7 +57,7 @@ fn of_any_velocity<const D: usize>() {
         let mut solver = body(basis, 3, any);
         let (particles, found) = (solver.particles(), solver.null_space_velocity());
         let lost = share(&found, particles);
-        assert!((0.1..0.99).contains(&lost), "{basis:?}: {lost}");
+        assert!((0.1..0.97).contains(&lost), "{basis:?}: {lost}");
         // It gives no node any momentum,
         let (kernel, mut grid) = (kernel::<D>(basis), solver.grid().clone());
         kernel.p2g_mass(particles, &mut grid);

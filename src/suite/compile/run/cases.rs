@@ -215,7 +215,7 @@ fn stretched(plan: &ConvergencePlan) -> bool {
 }
 
 /// The law of an FEM case that names none: that of the scene's material. Where there is none, such
-/// a case has been refused (`law::refuse_unknown_to_fem`).
+/// a case has been refused (`fem_support`).
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     bar_law::own(&plan.scene.material).unwrap_or_default()
 }
