@@ -1,5 +1,6 @@
 //! Runs as they were seen, and figures of them.
 
+use super::scene::AffineField;
 use crate::external::LevelProblem;
 use crate::subject::{Samples, Subject};
 
@@ -37,6 +38,23 @@ impl Course {
         subject.sample(&mut samples);
         self.times.push(time);
         self.states.push(samples);
+    }
+
+    /// Sets displacements and velocities of the first state to the initial fields, which a solver
+    /// with points of its own does not report.
+    pub(super) fn start(&mut self, displacement: &AffineField, velocity: &AffineField) {
+        let d = self.problem.dimension;
+        let Some(samples) = self.states.first_mut() else { return };
+        let labels: Vec<[f64; 3]> = samples
+            .label
+            .chunks_exact(d)
+            .map(|label| std::array::from_fn(|i| label.get(i).copied().unwrap_or_default()))
+            .collect();
+        let at_labels = |field: &AffineField| {
+            labels.iter().flat_map(|label| field.at(*label).into_iter().take(d)).collect()
+        };
+        samples.displacement = at_labels(displacement);
+        samples.velocity = at_labels(velocity);
     }
 
     /// Index of the last state.

@@ -1,12 +1,14 @@
-//! A solver under examination: what it can be given, and how it takes its steps.
+//! A solver under examination: the problems that it can take, and its runs.
 
 use super::course::Course;
 use super::finding::SolverFinding;
-use super::scene::{BoxScene, LAWS};
+use super::scene::{BoxScene, Kind};
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use crate::subject::Precision;
+use rayon::prelude::*;
 
 /// Result of an examination that was made.
+#[derive(Default)]
 pub(super) struct Examined {
     /// Figures that were measured.
     pub(super) measured: String,
@@ -17,7 +19,7 @@ pub(super) struct Examined {
 pub(super) enum Hindrance {
     /// Capabilities that are missing, or the solver's own reason.
     Lacks(String),
-    /// Message of a solver that did not get through.
+    /// Message of a solver that did not complete a run.
     Broke(String),
 }
 
@@ -33,34 +35,35 @@ impl Examined {
 }
 
 impl Patient<'_> {
-    /// Largest share by which a motion may be off that is exact but for rounding.
+    /// Largest relative error of a motion that is exact except for rounding.
     pub(super) fn rounding(&self) -> f64 {
         match self.solver.precision() {
             Precision::Double => 1e-9,
-            // 24 bits are 6e-8, some hundred steps add to that, and a code's units take some.
+            // 24 bits are 6e-8; some hundred steps and a change of units add to that.
             Precision::Single => 1e-3,
         }
     }
 
-    /// The first scene that the solver can be put to, in two dimensions if it can, and under the
-    /// plainest law that it knows.
+    /// The first scene that the solver can take, over these dimensions and laws, in this order.
     pub(super) fn able(
         &self,
         dimensions: &[usize],
-        scene: &dyn Fn((usize, &'static str)) -> BoxScene,
+        laws: &[&'static str],
+        scene: &dyn Fn(Kind) -> BoxScene,
     ) -> Result<BoxScene, Hindrance> {
-        self.able_with(dimensions, scene, &|_| {})
+        self.able_with(dimensions, laws, scene, &|_| {})
     }
 
-    /// The same with `more` needs than the scene itself has.
+    /// [`Patient::able`] for a scene with `more` needs than its suite has.
     pub(super) fn able_with(
         &self,
         dimensions: &[usize],
-        scene: &dyn Fn((usize, &'static str)) -> BoxScene,
+        laws: &[&'static str],
+        scene: &dyn Fn(Kind) -> BoxScene,
         more: &dyn Fn(&mut ProblemNeeds),
     ) -> Result<BoxScene, Hindrance> {
         let mut fewest: Option<Vec<String>> = None;
-        for kind in dimensions.iter().flat_map(|d| LAWS.map(|law| (*d, law))) {
+        for kind in dimensions.iter().flat_map(|d| laws.iter().map(|law| (*d, *law))) {
             let scene = scene(kind);
             let (_, mut needs) = scene.problem().map_err(Hindrance::Lacks)?;
             more(&mut needs);
@@ -75,19 +78,38 @@ impl Patient<'_> {
         Err(Hindrance::Lacks(fewest.unwrap_or_default().join(", ")))
     }
 
-    /// A run of `scene`, as far as it gets.
+    /// The run of `scene`, which may end early with a failure.
     pub(super) fn run(&self, scene: &BoxScene) -> Result<Course, Hindrance> {
         let (problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
-        self.run_problem(problem)
+        self.run_problem(scene, problem)
     }
 
-    /// A run of `problem`, as far as it gets.
-    pub(super) fn run_problem(&self, problem: LevelProblem) -> Result<Course, Hindrance> {
+    /// The complete runs of `scenes`.
+    pub(super) fn run_all(&self, scenes: &[BoxScene]) -> Result<Vec<Course>, Hindrance> {
+        let complete = |scene| {
+            let course = self.run(scene)?;
+            match course.failure {
+                Some(failure) => Err(Hindrance::Broke(failure)),
+                None => Ok(course),
+            }
+        };
+        // Collected first: which error is returned must not depend on which run ends first.
+        let courses: Vec<Result<Course, Hindrance>> = scenes.par_iter().map(complete).collect();
+        courses.into_iter().collect()
+    }
+
+    /// The run of `problem`, which belongs to `scene`, until its end or a failure.
+    pub(super) fn run_problem(
+        &self,
+        scene: &BoxScene,
+        problem: LevelProblem,
+    ) -> Result<Course, Hindrance> {
         let mut course = Course::new(&problem);
         let (steps, dt) = (problem.steps, problem.dt);
         let instants = problem.instants.clone();
         let mut subject = self.solver.subject(problem).map_err(Hindrance::Lacks)?;
         course.look(0.0, subject.as_ref());
+        course.start(&scene.displacement, &scene.velocity);
         for step in 1..=steps {
             if let Err(failure) = subject.step(dt) {
                 course.failure = Some(format!("step {step} of {steps}: {failure}"));

@@ -1,39 +1,48 @@
-//! The conversation: the same request has the same answer, however the steps are asked for.
+//! The conversation: the same request has the same answer, whichever way the steps are grouped.
 
-use crate::testing::doctor::course::{Course, displacement, minus, shown, size};
+use super::force::ramp;
+use crate::external::ProblemNeeds;
+use crate::testing::doctor::course::{Course, Field, displacement, minus, shown, size, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::BoxScene;
+use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, Kind};
 
 /// Steps of each run.
 const STEPS: u64 = 6;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "conversation",
-    expected: "a problem is taken, steps are as many and as long as was asked, and a second run of it \
-               has the same bits",
+    expected: "a problem is accepted, steps have the requested number and length, and a second run gives \
+               the same bits",
     after: &[],
     examine,
 };
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         let mut scene = BoxScene::of_cells(kind, [0.25; 3], 3.0, 3.0);
-        scene.velocity = vec!["0.25".to_owned(); kind.0];
+        let mut velocity = [0.25; 3];
+        velocity[kind.0..].fill(0.0);
+        scene.velocity = AffineField::uniform(velocity);
         BoxScene { steps: STEPS, dt: 0.05, ..scene }
     })?;
     let (problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
-    let stepwise = patient.run_problem(problem.clone())?;
+    let stepwise = patient.run_problem(&scene, problem.clone())?;
     if let Some(failure) = stepwise.failure {
         return Err(Hindrance::Broke(failure));
     }
     let mut findings = Vec::new();
-    findings.extend(repeated(&stepwise, &patient.run_problem(problem.clone())?, patient));
+    let second = patient.run_problem(&scene, problem.clone())?;
+    findings.extend(repeated(&stepwise, &second, patient));
     if findings.is_empty() {
         let mut at_once = problem;
         at_once.instants = vec![STEPS];
-        findings.extend(grouped(&stepwise, &patient.run_problem(at_once)?, patient));
+        let at_once = patient.run_problem(&scene, at_once)?;
+        findings.extend(grouped(&stepwise, &at_once, patient, "at constant speed"));
+    }
+    if findings.is_empty() {
+        findings.extend(grouped_under_acceleration(patient, (scene.dimension, scene.law))?);
     }
     if findings.is_empty() {
         let halved = BoxScene { dt: 0.5 * scene.dt, ..scene.clone() };
@@ -43,77 +52,122 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(format!("{n} points in {d} dimensions, law {law}, {STEPS} steps"), findings))
 }
 
-/// Largest difference of displacements at the end, over that of the motion.
-fn apart(a: &Course, b: &Course) -> f64 {
+/// Largest difference of a column at the end, relative to its largest value.
+fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
-    let pairs = a.states[last].displacement.iter().zip(&b.states[other].displacement);
-    let most = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    most / a.farthest(displacement, last, [0.0; 3]).max(f64::MIN_POSITIVE)
+    let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));
+    let largest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    largest / a.farthest(field, last, [0.0; 3]).max(f64::MIN_POSITIVE)
 }
 
 fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<SolverFinding> {
-    let same = first.states == second.states;
-    let off = apart(first, second);
-    let seen = format!("displacements of two runs of one problem differ by {} of it", shown(off));
-    if same {
+    if first.states == second.states {
         return None;
     }
-    Some(if off <= patient.rounding() {
+    let difference = difference(displacement, first, second);
+    let seen = format!(
+        "displacements of two runs of one problem differ by a relative {}",
+        shown(difference)
+    );
+    Some(if difference <= patient.rounding() {
         SolverFinding::remark(
             "rounding-differs-each-time",
             seen,
-            "sums are made in another order each time, as threads come",
-            "atomic additions and reductions over threads; reports of two runs will differ in their \
-             last digits",
+            "sums are computed in another order each time, for instance by several threads",
+            "atomic additions and parallel reductions; the last digits of reports will differ between runs",
         )
     } else {
         SolverFinding::defect(
             "another-way-each-time",
             seen,
-            "something is left over from an earlier run, is not initialised, or is random",
+            "data is left over from an earlier run, not initialised, or random",
             "arrays that are not set to zero, random numbers in the seeding, races between threads",
         )
     })
 }
 
-fn grouped(stepwise: &Course, at_once: &Course, patient: &Patient<'_>) -> Option<SolverFinding> {
-    let off = apart(stepwise, at_once);
-    if off <= patient.rounding() {
+/// Six steps in one message against six messages, under everything that the solver can take at once:
+/// stresses, and a body force that depends on time or gravity. What happens once for each message shows
+/// under acceleration only.
+fn grouped_under_acceleration(
+    patient: &Patient<'_>,
+    kind: Kind,
+) -> Result<Option<SolverFinding>, Hindrance> {
+    let accelerated = |gravity: bool| {
+        let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 3.0, 3.0);
+        let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
+        for i in 0..kind.0 {
+            stretch.gradient[i][i] = 0.1;
+            stretch.value[i] = 0.05;
+        }
+        scene.velocity = stretch;
+        scene.gravity = gravity.then(|| vec![0.37; kind.0]);
+        BoxScene { young: 3.0, steps: STEPS, dt: 0.02, ..scene }
+    };
+    let is_able = |gravity: bool, more: &dyn Fn(&mut ProblemNeeds)| {
+        patient.able_with(&[kind.0], &[kind.1], &|_| accelerated(gravity), more).is_ok()
+    };
+    let is_manufactured = is_able(false, &|needs| needs.manufactured = true);
+    let scene = accelerated(!is_manufactured && is_able(true, &|_| ()));
+    let (mut problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
+    if is_manufactured {
+        ramp(&mut problem);
+    }
+    let mut at_once = problem.clone();
+    at_once.instants = vec![STEPS];
+    let stepwise = patient.run_problem(&scene, problem)?;
+    let at_once = patient.run_problem(&scene, at_once)?;
+    if let Some(failure) = stepwise.failure.as_ref().or(at_once.failure.as_ref()) {
+        return Err(Hindrance::Broke(failure.clone()));
+    }
+    Ok(grouped(&stepwise, &at_once, patient, "under acceleration"))
+}
+
+fn grouped(
+    stepwise: &Course,
+    at_once: &Course,
+    patient: &Patient<'_>,
+    motion: &str,
+) -> Option<SolverFinding> {
+    let off = difference(displacement, stepwise, at_once);
+    let speed = difference(velocity, stepwise, at_once);
+    if off.max(speed) <= patient.rounding() {
         return None;
     }
-    let way = |course: &Course| size(course.mean(displacement, course.last()));
-    let steps = STEPS as f64 * way(at_once) / way(stepwise);
+    let distance = |course: &Course| size(course.mean(displacement, course.last()));
+    let steps = STEPS as f64 * distance(at_once) / distance(stepwise);
     let seen = format!(
-        "{STEPS} steps in one `advance` end {} of the way off those of {STEPS} messages: at \
-         {} steps' way",
+        "{motion}, {STEPS} steps in one `advance` differ from {STEPS} messages of one step by {} of the \
+         displacement and {} of the velocity; the distance is that of {} steps",
         shown(off),
+        shown(speed),
         shown(steps)
     );
-    let look_at = "the loop over `steps` of `advance`, and what is done before and after it: the \
-                   start of a run is done once, when the problem comes";
     Some(SolverFinding::defect(
         "steps-depend-on-messages",
         seen,
-        "`advance` does not take as many steps as it says, or each message begins anew",
-        look_at,
+        "something happens once for each message: a restart of the scheme (half a step back, affine \
+         matrices or F reset, time counted from zero), or `advance` takes another number of steps",
+        "the loop over `steps` of `advance`, and everything before and after it: the start of a run is \
+         done once, when the problem arrives; times count from `from`",
     ))
 }
 
 fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
-    let way = |course: &Course| {
+    let distance = |course: &Course| {
         let mean = |k| course.mean(displacement, k);
         size(minus(mean(course.last()), mean(1)))
     };
-    let ratio = way(half) / way(whole);
-    // A constant speed gives a half, a constant acceleration a quarter; nothing at all is a matter
-    // for `translation`.
-    if way(whole) == 0.0 || ratio <= 0.75 {
+    let ratio = distance(half) / distance(whole);
+    // A constant speed gives a half, a constant acceleration a quarter; no motion at all is left to
+    // `translation`.
+    if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }
     Some(SolverFinding::defect(
         "own-step",
-        format!("half the `dt` leads to {} of the way, where 0.5 was expected", shown(ratio)),
-        "steps have a length of the solver's own",
-        "the `dt` of `advance`, and that of `problem`, which is the same",
+        format!("half the `dt` gives {} of the distance, where 0.5 was expected", shown(ratio)),
+        "the solver uses a step length of its own",
+        "the `dt` of `advance`, which equals that of `problem`",
     ))
 }

@@ -5,7 +5,7 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{BoxScene, H, SOFT};
+use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",
@@ -16,16 +16,15 @@ pub(super) const EXAMINATION: Examination = Examination {
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     // Every eighth step all particles lie on faces again: no number here has more than a few bits.
-    let scene = patient.able(&[2, 3, 1], &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         let from = [0.75 + 0.25 * H, 0.25 + 0.25 * H, 0.5 + 0.25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 6.0);
-        scene.velocity = vec![VELOCITY[0].to_string(); kind.0];
+        let mut velocity = [VELOCITY[0]; 3];
+        velocity[kind.0..].fill(0.0);
+        scene.velocity = AffineField::uniform(velocity);
         BoxScene { steps: 32, dt: 0.0625, ..scene }
     })?;
-    let mut velocity = [VELOCITY[0]; 3];
-    velocity[scene.dimension..].fill(0.0);
-    let soft = BoxScene { young: SOFT * scene.young, ..scene.clone() };
-    let found = uniform(patient, &soft, velocity)?;
+    let found = uniform(patient, &scene.soft())?;
     if let Some(finding) = found.findings.first() {
         let finding = SolverFinding::defect(
             "particles-on-faces",
@@ -35,7 +34,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         );
         return Ok(Examined::new(found.measured, vec![finding]));
     }
-    let stiff = uniform(patient, &scene, velocity)?;
+    let stiff = uniform(patient, &scene)?;
     let finding = stiff.findings.first().map(|_| {
         SolverFinding::remark(
             "rounding-grows-on-faces",

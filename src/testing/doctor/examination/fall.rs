@@ -3,10 +3,10 @@
 use crate::testing::doctor::course::{
     Course, displacement, line, minus, shown, shown_vector, size, times, velocity,
 };
-use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::BoxScene;
+use crate::testing::doctor::scene::{ANY, BoxScene};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
@@ -22,7 +22,7 @@ const GRAVITY: f64 = 3.7;
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
         let mut gravity = vec![0.0; kind.0];
         gravity[kind.0 - 1] = -GRAVITY;
@@ -42,13 +42,17 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown_vector(times(end, g), d),
         shown_vector(times(0.5 * end * end, g), d)
     );
-    let found = of_speed(patient, &course, g).or_else(|| of_way(patient, &course, g));
-    if found.is_none()
+    let mut findings: Vec<SolverFinding> = of_speed(patient, &course, g).into_iter().collect();
+    // Positions follow from velocities: a defect of these explains them, a remark does not.
+    if findings.iter().all(|finding| finding.weight == FindingWeight::Remark) {
+        findings.extend(of_distance(patient, &course, g));
+    }
+    if findings.is_empty()
         && let Some(failure) = course.failure
     {
         return Err(Hindrance::Broke(failure));
     }
-    Ok(Examined::new(measured, found.into_iter().collect()))
+    Ok(Examined::new(measured, findings))
 }
 
 /// Velocities that are not g t.
@@ -128,7 +132,10 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     if is(-1.0) {
         return ("gravity-upwards", "gravity has the other sign".to_owned());
     }
+    let h = course.problem.grid.h;
     let candidates = [
+        (h, "it is multiplied by the cell size"),
+        (1.0 / h, "it is divided by the cell size"),
         (2.0, "it acts twice: as gravity and as a body force, or in both halves of a step"),
         (0.5, "it acts in one half of each step only"),
         (density, "the force per mass is multiplied by the density"),
@@ -145,8 +152,8 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Positions, where velocities are right.
-fn of_way(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+/// Positions that are not g t^2/2, where velocities have no defect.
+fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];
     let off = course.mean(displacement, last)[axis] - 0.5 * g[axis] * end * end;

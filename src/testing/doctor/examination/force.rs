@@ -2,12 +2,12 @@
 
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
-use crate::external::{BodyForceField, ForceSource};
+use crate::external::{BodyForceField, ForceSource, LevelProblem};
 use crate::testing::doctor::course::{Course, line, minus, shown, size, times, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{BoxScene, H};
+use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, H};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -49,9 +49,10 @@ impl ForceSource for AskedForce {
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let moving = patient.able_with(
         &[2, 3, 1],
+        &ANY,
         &|kind| {
             let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
-            scene.velocity[0] = VELOCITY[0].to_string();
+            scene.velocity = AffineField::uniform([VELOCITY[0], 0.0, 0.0]);
             BoxScene { steps: 20, dt: 0.02, ..scene }
         },
         &|needs| needs.manufactured = true,
@@ -59,8 +60,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let asked = Questions::default();
     let course = run(patient, &moving, &asked, |_, t| FORCE + RATE * t)?;
     let mut found = places(&asked, &moving).or_else(|| of_time(&asked, &course));
-    let resting =
-        BoxScene { velocity: vec!["0".to_owned(); moving.dimension], steps: 1, ..moving.clone() };
+    let resting = BoxScene { velocity: AffineField::default(), steps: 1, ..moving.clone() };
     if found.is_none() {
         let course = run(patient, &resting, &Questions::default(), |x, _| x / H)?;
         found = of_points(&course, resting.dt / H);
@@ -79,6 +79,13 @@ fn integral(t: f64) -> f64 {
     FORCE * t + 0.5 * RATE * t * t
 }
 
+/// Sets the body force of `problem` to one along the first axis that grows with time.
+pub(super) fn ramp(problem: &mut LevelProblem) {
+    let force = AskedForce { asked: Questions::default(), force: |_, t| FORCE + RATE * t };
+    problem.body_force = Some(BodyForceField(Arc::new(force)));
+    problem.constant_body_force = None;
+}
+
 /// A run of `scene` with the force `force(x, t)` along the first axis.
 fn run(
     patient: &Patient<'_>,
@@ -89,7 +96,7 @@ fn run(
     let (mut problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
     let asked = Arc::clone(asked);
     problem.body_force = Some(BodyForceField(Arc::new(AskedForce { asked, force })));
-    let course = patient.run_problem(problem)?;
+    let course = patient.run_problem(scene, problem)?;
     match course.failure {
         Some(failure) => Err(Hindrance::Broke(failure)),
         None => Ok(course),
@@ -205,7 +212,10 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
             shown(share),
             shown(across)
         ),
-        "values of the answer come to other particles than those that they were asked for",
-        "the order of particles (sorted by cells?) and of components in `values`: point after point",
+        "values of an answer are given to other particles than those they were requested for, or the \
+         columns of a state are in another order than the particles or `points`",
+        "the order of particles (sorted by cells?): that of the problem, or of `points`, in all columns \
+         and answers; with points of its own, a solver requests the force at explicit \
+         `reference_position`s; components are given point after point",
     ))
 }

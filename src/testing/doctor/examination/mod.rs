@@ -4,9 +4,12 @@ mod conversation;
 mod faces;
 mod fall;
 mod force;
+mod laws;
 mod periodic;
 mod rest;
+mod start;
 mod stress;
+mod transfer;
 mod translation;
 mod units;
 mod walls;
@@ -22,7 +25,10 @@ pub(super) const ALL: &[Examination] = &[
     periodic::EXAMINATION,
     fall::EXAMINATION,
     force::EXAMINATION,
+    transfer::EXAMINATION,
     stress::EXAMINATION,
+    laws::EXAMINATION,
+    start::EXAMINATION,
     walls::EXAMINATION,
     units::EXAMINATION,
 ];

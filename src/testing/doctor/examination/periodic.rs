@@ -6,53 +6,73 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{BoxScene, H};
+use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, FACES, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",
-    expected: "a body that fills a periodic axis moves along it, its displacements not wrapped",
+    expected: "a body that fills a periodic axis moves along it, and displacements are not wrapped",
     after: &["conversation", "rest", "translation"],
     examine,
 };
 
-/// Cells along the axis.
+/// Cells along the periodic axis.
 const CELLS: f64 = 4.0;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 1, 3], &|kind| {
-        let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
-        scene.grid.0[0] = scene.body.0[0];
-        scene.grid.1[0] = scene.body.1[0];
-        scene.velocity[0] = VELOCITY[0].to_string();
-        scene.faces = vec![("left", "periodic"), ("right", "periodic")];
-        BoxScene { steps: 60, dt: 0.025, ..scene }
-    })?;
-    let found = uniform(patient, &scene, [VELOCITY[0], 0.0, 0.0])?;
-    if found.findings.is_empty() {
-        return Ok(found);
+    let first = patient.able(&[2, 1, 3], &ANY, &|kind| along(kind, 0))?;
+    let mut all = Examined::default();
+    for axis in 0..first.dimension {
+        let examined = one_axis(patient, &along((first.dimension, first.law), axis), axis)?;
+        if axis == 0 {
+            all.measured = examined.measured;
+        }
+        let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
+        let new: Vec<SolverFinding> = examined.findings.into_iter().filter(is_new).collect();
+        all.findings.extend(new);
     }
-    let course = patient.run(&scene)?;
+    Ok(all)
+}
+
+/// A body that moves along the periodic axis `axis`.
+fn along(kind: Kind, axis: usize) -> BoxScene {
+    let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
+    scene.grid.0[axis] = scene.body.0[axis];
+    scene.grid.1[axis] = scene.body.1[axis];
+    let mut velocity = [0.0; 3];
+    velocity[axis] = VELOCITY[0];
+    scene.velocity = AffineField::uniform(velocity);
+    scene.faces = FACES[axis].map(|face| (face, "periodic")).to_vec();
+    BoxScene { steps: 60, dt: 0.025, ..scene }
+}
+
+fn one_axis(patient: &Patient<'_>, scene: &BoxScene, axis: usize) -> Result<Examined, Hindrance> {
+    let examined = uniform(patient, scene)?;
+    let Some(first) = examined.findings.first() else { return Ok(examined) };
+    let course = patient.run(scene)?;
     let (last, period) = (course.last(), CELLS * H);
-    let way = VELOCITY[0] * course.times[last];
+    let distance = VELOCITY[0] * course.times[last];
     let wrapped = course.points(displacement, last).any(|(_, u)| {
-        let periods = (way - u[0]) / period;
+        let periods = (distance - u[axis]) / period;
         libm::round(periods) != 0.0 && (periods - libm::round(periods)).abs() <= 1e-3
     });
+    let name = ["x", "y", "z"][axis];
     let finding = if wrapped {
         SolverFinding::defect(
             "displacements-wrapped",
-            format!("some displacements are off by periods of {period} m after {way} m"),
-            "positions are put back into the period, and displacements are taken from those",
-            "the answer to `advance`: displacements go on growing; keep them apart, or count periods",
+            format!(
+                "along {name} some displacements differ by periods of {period} m from {distance} m"
+            ),
+            "positions are put back into the period, and displacements are computed from those",
+            "the answer to `advance`: displacements keep growing; store them separately, or count periods",
         )
     } else {
         SolverFinding::defect(
             "periodic-axis",
-            found.findings[0].seen.clone(),
-            "the two ends of a periodic axis are not one place",
-            "indices of nodes modulo the number of cells (not that of nodes); node N is node 0, in \
-             every sum and for every function that reaches across the end",
+            format!("along {name}: {}", first.seen),
+            "the two ends of a periodic axis are not treated as one place",
+            "node indices modulo the number of cells (not of nodes); node N is node 0, in every sum and \
+             for every function that reaches across the end",
         )
     };
-    Ok(Examined::new(found.measured, vec![finding]))
+    Ok(Examined::new(examined.measured, vec![finding]))
 }

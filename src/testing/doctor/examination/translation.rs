@@ -3,7 +3,7 @@
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{BoxScene, H};
+use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
@@ -16,15 +16,15 @@ pub(super) const EXAMINATION: Examination = Examination {
 pub(super) const VELOCITY: [f64; 3] = [0.25, -0.15625, 0.125];
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         // Particles pass faces of cells at a distance, also if they are half a step ahead: nodes of
         // almost no mass are for `faces`.
         let from = [0.375 + 0.1125 * H, 0.125 + 0.101_562_5 * H, 0.5 + 0.106_25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 7.0);
-        scene.velocity = VELOCITY[..kind.0].iter().map(f64::to_string).collect();
+        let mut velocity = VELOCITY;
+        velocity[kind.0..].fill(0.0);
+        scene.velocity = AffineField::uniform(velocity);
         BoxScene { steps: 80, dt: 0.025, ..scene }
     })?;
-    let mut velocity = VELOCITY;
-    velocity[scene.dimension..].fill(0.0);
-    uniform(patient, &scene, velocity)
+    uniform(patient, &scene)
 }

@@ -6,12 +6,13 @@ use crate::testing::doctor::course::{Course, displacement, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::ELASTIC;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "units",
     expected: "a thousandth of each length, of each time, and 1e-12 of each mass change nothing but the \
                units of the answer",
-    after: &["conversation", "rest", "translation", "stress"],
+    after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
     examine,
 };
 
@@ -20,7 +21,7 @@ const THOUSANDTH: f64 = 1.0 / 1024.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &|kind| spreading(kind, 4.0))?;
+    let scene = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let plain = patient.run(&scene)?;
     if let Some(failure) = plain.failure {
         return Err(Hindrance::Broke(failure));

@@ -6,7 +6,6 @@ use crate::testing::doctor::course::{
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::scene::{BoxScene, SOFT};
 use std::f64::consts::SQRT_2;
 
 /// Distance from the rim (cells) up to which functions see nodes beyond it.
@@ -19,7 +18,7 @@ pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
 
 /// The cause of what is more than rounding.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
-    let soft = BoxScene { young: SOFT * motion.scene.young, ..motion.scene.clone() };
+    let soft = motion.scene.soft();
     let course = motion.patient.run(&soft)?;
     let is_whole = course.failure.is_none();
     let again = UniformMotion { course, scene: &soft, ..*motion };

@@ -20,14 +20,10 @@ use seen::UniformMotion;
 /// Largest error of a motion whose cause may be rounding to 24 bits.
 const SINGLE: f64 = 1e-4;
 
-/// Examines whether `scene` moves on with `velocity` (m/s), which is the initial one everywhere.
-pub(super) fn uniform(
-    patient: &Patient<'_>,
-    scene: &BoxScene,
-    velocity: [f64; 3],
-) -> Result<Examined, Hindrance> {
+/// Examines whether `scene`, whose initial velocity is uniform, keeps moving with that velocity.
+pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examined, Hindrance> {
     let course = patient.run(scene)?;
-    let motion = UniformMotion { patient, scene, course, velocity };
+    let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };
     let (way, speed) = motion.off();
     let measured = format!(
         "in {} steps x is off by {} of the way, v by {} of the speed",

@@ -28,6 +28,7 @@ impl SolverFactory for Clinic {
         let conditions = ["free", "fixed", "roller", "periodic"];
         let able = Capabilities {
             manufactured: true,
+            columns: vec!["stress".to_owned(), "deformation_gradient".to_owned()],
             ..Capabilities::of(&[2], &["linear_elastic"], &conditions, &["gravity"])
         };
         able.lacking(needs)
@@ -203,10 +204,14 @@ impl Client {
             if !is_there || !holds || self.defect == NoWalls {
                 continue;
             }
+            if self.defect == LowWallsOnly && face.high {
+                continue;
+            }
             if self.defect == WallsLetGo && (v[face.axis] > 0.0) != face.high {
                 continue;
             }
-            if face.condition == "fixed" || self.defect == StickyRollers {
+            let holds_all = face.condition == "fixed" && self.defect != FixedHoldsNormal;
+            if holds_all || self.defect == StickyRollers {
                 *v = [0.0; 2];
             } else {
                 v[face.axis] = 0.0;
@@ -226,6 +231,7 @@ impl Subject for Client {
         let mut mass = vec![0.0; width * height];
         let mut momentum = vec![[0.0; 2]; width * height];
         let mut force = vec![[0.0; 2]; width * height];
+        let mut load = vec![[0.0; 2]; width * height];
         let all: Vec<_> = (0..self.x.len()).map(|p| self.weights(p)).collect();
         for (p, weights) in all.iter().enumerate() {
             let body = self.body_force(p, t);
@@ -243,7 +249,8 @@ impl Subject for Client {
                 for i in 0..2 {
                     momentum[*node][i] += weight * m * self.v[p][i];
                     let pull = sigma[2 * i] * gradient[0] + sigma[2 * i + 1] * gradient[1];
-                    force[*node][i] += weight * m * body[i] - volume * pull;
+                    force[*node][i] -= volume * pull;
+                    load[*node][i] += weight * m * body[i];
                 }
             }
         }
@@ -256,10 +263,21 @@ impl Subject for Client {
         for node in 0..width * height {
             if mass[node] > lightest {
                 let before = velocity[node].map(|p| p / mass[node]);
-                let mut after = [0, 1].map(|i| before[i] + dt * acceleration[node][i] / mass[node]);
+                let late = if defect == LoadAfterWalls { 1.0 } else { 0.0 };
+                let change = [0, 1].map(|i| {
+                    dt * (acceleration[node][i] + (1.0 - late) * load[node][i]) / mass[node]
+                });
+                let mut after = [0, 1].map(|i| before[i] + change[i]);
                 let mut held = before;
-                self.hold(node, &mut after);
-                self.hold(node, &mut held);
+                if defect == HeldAcceleration {
+                    let mut change = change;
+                    self.hold(node, &mut change);
+                    after = [0, 1].map(|i| before[i] + change[i]);
+                } else {
+                    self.hold(node, &mut after);
+                    self.hold(node, &mut held);
+                }
+                after = [0, 1].map(|i| after[i] + late * dt * load[node][i] / mass[node]);
                 acceleration[node] = [0, 1].map(|i| (after[i] - before[i]) / dt);
                 velocity[node] = if defect == ForwardEuler { held } else { after };
             } else {
@@ -284,6 +302,9 @@ impl Subject for Client {
                 _ => 1.0,
             };
             let cell = self.cell(self.x[p]);
+            if defect == MeanVelocity {
+                v = [0, 1].map(|i| 0.5 * (v[i] + self.v[p][i]));
+            }
             for i in 0..2 {
                 self.v[p][i] += first * change[i];
                 match defect {
@@ -298,7 +319,7 @@ impl Subject for Client {
                     LossPerStep => self.v[p][i] *= 0.999,
                     _ => {}
                 }
-                self.x[p][i] += dt * v[i];
+                self.x[p][i] += dt * v[i] * if defect == PositionsShort { 0.75 } else { 1.0 };
                 if defect == UnitCube {
                     self.x[p][i] = self.x[p][i].min(1.0);
                 }
@@ -335,6 +356,7 @@ impl Subject for Client {
                     let x = (self.x[p][0] - grid.origin[0]).rem_euclid(period) + grid.origin[0];
                     u[0] = x - label[0];
                 }
+                RoundedOutput => u = u.map(|u| f64::from(u as f32)),
                 Random => u[0] += 1e-3 * f64::from(self.run) * u[0],
                 _ => {}
             }

@@ -54,5 +54,12 @@ pub(super) enum Defect {
     NoWalls,
     WallsLetGo,
     StickyRollers,
+    LowWallsOnly,
+    FixedHoldsNormal,
+    LoadAfterWalls,
+    HeldAcceleration,
+    MeanVelocity,
+    PositionsShort,
+    RoundedOutput,
     AbsoluteThreshold,
 }

@@ -6,9 +6,19 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::BoxScene;
 
 /// Share by which a column may be off: it may be that of a step before, and waves are near.
-const NEAR: f64 = 0.2;
+pub(super) const NEAR: f64 = 0.2;
 
-/// Columns that do not say what the motion shows.
+/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None` if the
+/// column is not given.
+pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
+    let last = course.last();
+    let (lambda, mu) = scene.lame();
+    let along = |k: usize| Some(inside(course, scene, &course.states[k].stress)?[0]);
+    let time = course.times[last] - course.times[1];
+    Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
+}
+
+/// Columns that do not agree with the motion.
 pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> {
     let (d, last) = (scene.dimension, course.last());
     let (samples, t) = (&course.states[last], course.times[last]);
@@ -37,7 +47,11 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
 }
 
 /// Mean of a tensor within a cell of the middle; none if it is not given.
-fn inside(course: &Course, scene: &BoxScene, column: &[f64]) -> Option<Vec<f64>> {
+pub(in crate::testing::doctor) fn inside(
+    course: &Course,
+    scene: &BoxScene,
+    column: &[f64],
+) -> Option<Vec<f64>> {
     let d = scene.dimension;
     if column.is_empty() {
         return None;

@@ -1,38 +1,45 @@
-//! Mistakes that give certain moduli.
+//! Mistakes with characteristic moduli.
 
-use super::measure::SeenModuli;
-use crate::testing::doctor::course::shown;
+use super::columns;
+use super::measure::MeasuredModuli;
+use crate::testing::doctor::course::{Course, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Share of the largest modulus by which one may be off, and that by which it may be off besides
-/// where momentum spreads as well.
+/// Share of the largest modulus by which one may differ, and by which it may differ in addition where
+/// averaging moves as much momentum as stress.
 const NEAR: f64 = 0.03;
-const SPREAD: f64 = 0.1;
+const AVERAGED: f64 = 0.04;
 
 /// A mistake: its name, the moduli along, across and of shear that it gives, its cause, and where
 /// to look.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
 /// The mistake that gives these moduli, if they are not those of the law.
-pub(super) fn cause(scene: &BoxScene, seen: &SeenModuli) -> Option<SolverFinding> {
-    let near = NEAR + SPREAD * seen.spread;
+pub(super) fn cause(
+    course: &Course,
+    scene: &BoxScene,
+    measured: &MeasuredModuli,
+) -> Option<SolverFinding> {
     let (lambda, mu) = scene.lame();
     let whole = lambda + 2.0 * mu;
-    let shear = 0.5 * (seen.shear[0] + seen.shear[1]);
-    let found = [seen.along, seen.across, shear];
+    let shear = 0.5 * (measured.shear[0] + measured.shear[1]);
+    let moduli = [measured.along, measured.across, shear];
     let count = if scene.dimension > 1 { 3 } else { 1 };
+    let near = NEAR + AVERAGED * measured.averaged_share;
     let are = |wanted: [f64; 3], scale: f64| {
-        (0..count).all(|k| (found[k] - wanted[k]).abs() <= near * scale)
+        (0..count).all(|k| (moduli[k] - wanted[k]).abs() <= near * scale)
     };
-    let words = format!(
-        "moduli are {} of those of the law",
-        (0..count).map(|k| shown(found[k] / [whole, lambda, mu][k])).collect::<Vec<_>>().join(", ")
+    let ratios = (0..count).map(|k| shown(moduli[k] / [whole, lambda, mu][k]));
+    let seen = format!(
+        "in {}-D, moduli are {} of those of the law",
+        scene.dimension,
+        ratios.collect::<Vec<_>>().join(", ")
     );
     let report = |name: &'static str, cause: &str, look_at: &str| {
-        Some(SolverFinding::defect(name, words.clone(), cause, look_at))
+        Some(SolverFinding::defect(name, seen.clone(), cause, look_at))
     };
-    if count == 3 && !((seen.shear[0] - seen.shear[1]).abs() <= near * whole) {
+    if count == 3 && !((measured.shear[0] - measured.shear[1]).abs() <= near * whole) {
         return report(
             "stress-not-symmetric",
             "shear forces along the two axes differ",
@@ -54,13 +61,13 @@ pub(super) fn cause(scene: &BoxScene, seen: &SeenModuli) -> Option<SolverFinding
     if let Some((name, _, cause, look_at)) = mistakes.iter().find(|(_, m, ..)| are(*m, whole)) {
         return report(name, cause, look_at);
     }
-    let factor = found[0] / whole;
+    let factor = moduli[0] / whole;
     if are([whole, lambda, mu].map(|modulus| factor * modulus), factor.abs() * whole) {
-        return Some(scaled(scene, factor, words));
+        return Some(scaled(course, scene, factor, seen));
     }
     report(
         "moduli-differ",
-        "the law is another one, or its parameters are computed otherwise",
+        "the law is another one, or its parameters are computed differently",
         "lambda = E nu/((1 + nu)(1 - 2 nu)) and mu = E/(2 (1 + nu)); two dimensions mean plane \
          strain, one means uniaxial strain",
     )
@@ -119,41 +126,107 @@ fn mistakes(young: f64, poisson: f64, lambda: f64, mu: f64) -> Vec<Mistake> {
     ]
 }
 
-/// All moduli with the same factor.
-fn scaled(scene: &BoxScene, factor: f64, words: String) -> SolverFinding {
+/// All moduli have the same factor: the modulus, the mass, the volume or the gradients are wrong. The
+/// column `stress` shows whether it is the modulus.
+fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> SolverFinding {
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
-    let cell = (0..scene.dimension).fold(1.0, |volume, _| volume * scene.h);
-    let particles = f64::from(1_i32 << scene.dimension);
     if is(-1.0) {
         return SolverFinding::defect(
             "stress-sign",
-            words,
+            seen,
             "inner forces have the other sign: a body that is stretched flies apart",
             "f = -V sigma grad N; a sign convention in which compression is positive",
         );
     }
-    let candidates = [
+    let cause = factors(scene).into_iter().find(|(wanted, _)| is(*wanted));
+    let cause = cause.map_or("", |(_, cause)| cause);
+    let column = columns::factor(course, scene);
+    let is_right = column.is_some_and(|column| (column - 1.0).abs() <= 0.25 * (factor - 1.0).abs());
+    let is_alike = column.is_some_and(|column| (column / factor - 1.0).abs() <= columns::NEAR);
+    let (name, what, look_at) = if is_right {
+        (
+            "mass-or-volume-scaled",
+            format!(
+                "stresses are right and accelerations are {} of those expected: masses are wrong by a \
+                 factor of {}, or volumes by {}",
+                shown(factor),
+                shown(1.0 / factor),
+                shown(factor)
+            ),
+            "mass and volume of particles (those of the problem, not computed from h or from the number of \
+             particles along an edge), the factor 1/h of gradients in forces",
+        )
+    } else if is_alike {
+        (
+            "stress-scaled",
+            format!(
+                "the stress itself has the factor {}, and accelerations with it",
+                shown(factor)
+            ),
+            "Young's modulus and its unit (Pa), the strain, the factor 1/h of velocity gradients",
+        )
+    } else {
+        (
+            "stress-scaled",
+            format!(
+                "accelerations by stress are {} of those expected: the modulus or the volumes have this \
+                 factor, or masses its inverse",
+                shown(factor)
+            ),
+            "volumes and masses of particles (those of the problem), the factor 1/h of gradients, the unit \
+             of Young's modulus (Pa)",
+        )
+    };
+    let cause = if cause.is_empty() { what } else { format!("{what}; {cause}") };
+    SolverFinding::defect(name, seen, &cause, look_at)
+}
+
+/// Factors of accelerations with a known cause, no two of them alike.
+fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
+    let d = scene.dimension as u32;
+    let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);
+    let cell = (0..d).fold(1.0, |volume, _| volume * h);
+    let mut factors = vec![
         (scene.density, "the density is missing in the mass, or taken as one"),
-        (1.0 / scene.density, "forces are divided by the density once more"),
-        (particles, "each particle has the volume of a whole cell"),
-        (1.0 / particles, "volumes are divided by the particles per cell twice"),
-        (cell, "volumes or masses have a cell's volume too much"),
-        (1.0 / scene.h, "gradients are divided by h once more"),
-        (scene.h, "gradients are not divided by h"),
+        (1.0 / scene.density, "forces are divided by the density a second time"),
+        (
+            particles,
+            "each particle has the volume of a whole cell, or the mass of a cell is shared",
+        ),
+        (1.0 / particles, "each particle has the mass of a whole cell"),
+        (1.0 / h, "gradients are divided by h twice"),
+        (h, "gradients are not divided by h"),
         (2.0, "forces count twice, or the strain rate is not halved"),
         (0.5, "forces count half"),
+        (10.0, "a factor of ten in mass or modulus"),
+        (0.1, "a factor of ten in mass or modulus"),
         (1e3, "a unit is kPa, or g"),
         (1e-3, "a unit is kPa, or g"),
         (1e6, "a unit is MPa, or mm with t"),
         (1e-6, "a unit is MPa, or mm with t"),
     ];
-    let known = candidates.into_iter().find(|(wanted, _)| is(*wanted));
-    let cause = known.map_or("all of it is multiplied by one number", |(_, cause)| cause);
-    SolverFinding::defect(
-        "stress-scaled",
-        words,
-        cause,
-        "volumes of particles (those of the problem), masses, the factor h of gradients, units of \
-         Young's modulus (Pa)",
-    )
+    if d > 1 {
+        factors.push((cell, "volumes are multiplied by that of a cell"));
+        factors.push((1.0 / cell, "masses are multiplied by the volume of a cell"));
+    }
+    factors
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::spreading;
+    use super::*;
+
+    #[test]
+    fn no_two_causes_give_the_same_factor() {
+        for d in 1..=3 {
+            let scene = spreading((d, "neo_hookean"));
+            let factors = factors(&scene);
+            for (k, (one, _)) in factors.iter().enumerate() {
+                for (other, cause) in &factors[..k] {
+                    assert!((one / other - 1.0).abs() > 2.0 * NEAR, "{d}-D: {one}, {cause}");
+                }
+            }
+        }
+    }
 }

@@ -1,0 +1,202 @@
+//! Stresses at finite strain and rotation: the columns `stress` and `deformation_gradient` of each law.
+//!
+//! A body without any effect of stiffness moves on with `v = L (X - C)`, with stretch, shear and rotation
+//! of the order of one. In its middle, F is compared with the gradient of the displacements, and the stress
+//! with that of the law for this F: the stress with which a body starts that is displaced by
+//! `(F - I) (X - C)`.
+
+use super::stress::inside;
+use crate::mpm::det_of_rows;
+use crate::testing::doctor::course::{Course, displacement, minus, shown};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::{AffineField, BoxScene, FINITE, Kind, SOFT};
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "laws",
+    expected: "at finite strain and rotation the columns `stress` and `deformation_gradient` are those of \
+               the motion and the law",
+    after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
+    examine,
+};
+
+/// Displacement gradient at the end.
+const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
+
+/// Largest error of a component, relative to the largest one: steps of a rate are finite.
+const NEAR: f64 = 0.04;
+
+const STEPS: u64 = 25;
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let first = patient.able_with(&[2, 3, 1], &FINITE, &scene, &|needs| {
+        needs.column = Some("stress");
+    })?;
+    let is_able = |kind: Kind| patient.able(&[kind.0], &[kind.1], &scene).is_ok();
+    // Every law in one dimension of space, and one law in every dimension.
+    let laws = FINITE.into_iter().map(|law| (first.dimension, law));
+    let dimensions = [1, 2, 3].into_iter().map(|d| (d, first.law));
+    let mut kinds: Vec<Kind> = laws.chain(dimensions).filter(|kind| is_able(*kind)).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
+    let courses = patient.run_all(&scenes)?;
+    let (mut measured, mut findings) = (Vec::new(), Vec::<SolverFinding>::new());
+    for (scene, course) in scenes.iter().zip(&courses) {
+        let state = &course.states[course.last()];
+        let name = format!("{} in {}-D", scene.law, scene.dimension);
+        let motion = deformation_gradient(course, scene);
+        let column = inside(course, scene, &state.deformation_gradient);
+        let gradient = column.as_ref().unwrap_or(&motion);
+        let (stress, _) = law_at(scene, gradient)?;
+        let off = column.as_ref().map(|f| error(f, &motion));
+        let stress_column = inside(course, scene, &state.stress);
+        let stress_off = stress_column.as_ref().map(|column| error(column, &stress));
+        let texts = [(off, "F"), (stress_off, "stress")]
+            .into_iter()
+            .filter_map(|(off, column)| off.map(|off| format!("{column} off by {}", shown(off))));
+        measured.push(format!("{name}: {}", texts.collect::<Vec<_>>().join(", ")));
+        let finding = match (column.as_ref(), stress_column.as_ref()) {
+            (Some(column), _) if off.is_some_and(|off| !(off <= NEAR)) => {
+                of_gradient(&name, column, &motion, scene)
+            }
+            (_, Some(column)) if stress_off.is_some_and(|off| !(off <= NEAR)) => {
+                of_stress(&name, column, &stress, gradient, scene)?
+            }
+            _ => continue,
+        };
+        if findings.iter().all(|known| known.name != finding.name) {
+            findings.push(finding);
+        }
+    }
+    Ok(Examined::new(measured.join("; "), findings))
+}
+
+/// A body whose displacement gradient grows to `GRADIENT`.
+fn scene(kind: Kind) -> BoxScene {
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
+    scene.velocity = field(&scene, &|i, j| GRADIENT[i][j]);
+    let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
+    BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
+}
+
+/// The field with this gradient about the centre of the body.
+fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
+    let d = scene.dimension;
+    let gradient = std::array::from_fn(|i| {
+        std::array::from_fn(|j| if i < d && j < d { gradient(i, j) } else { 0.0 })
+    });
+    AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
+}
+
+/// F in the middle at the end, row after row, by the least squares of displacements there.
+fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
+    let (d, centre) = (scene.dimension, scene.centre());
+    let is_near =
+        |label: &[f64; 3]| (0..d).all(|i| (label[i] - centre[i]).abs() <= scene.h * (1.0 + 1e-9));
+    let points: Vec<_> = course
+        .points(displacement, course.last())
+        .filter(|(label, _)| is_near(label))
+        .map(|(label, u)| (minus(label, centre), u))
+        .collect();
+    let mut f = vec![0.0; d * d];
+    for i in 0..d {
+        for j in 0..d {
+            // Points lie evenly about the centre, so that axes do not mix.
+            let slope: f64 = points.iter().map(|(x, u)| x[j] * u[i]).sum();
+            let squares: f64 = points.iter().map(|(x, _)| x[j] * x[j]).sum();
+            f[i * d + j] = f64::from(u8::from(i == j)) + slope / squares;
+        }
+    }
+    f
+}
+
+/// Stress (Pa) and F, row after row, of a body with the deformation gradient `f`.
+fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
+    let d = scene.dimension;
+    let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
+    let deformed = BoxScene { displacement, velocity: AffineField::default(), ..scene.clone() };
+    let (problem, _) = deformed.problem().map_err(Hindrance::Lacks)?;
+    let particles = problem.particles;
+    Ok((particles.stress[..d * d].to_vec(), particles.deformation_gradient[..d * d].to_vec()))
+}
+
+/// Largest difference of a component, relative to the largest component of `expected`.
+fn error(tensor: &[f64], expected: &[f64]) -> f64 {
+    let scale = expected.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let differences = tensor.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |largest, x| if x <= largest { largest } else { x }) / scale
+}
+
+fn transposed(tensor: &[f64], d: usize) -> Vec<f64> {
+    (0..d * d).map(|k| tensor[(k % d) * d + k / d]).collect()
+}
+
+fn of_gradient(name: &str, mean: &[f64], f: &[f64], scene: &BoxScene) -> SolverFinding {
+    let d = scene.dimension;
+    let seen = format!("{name}: F is {} in the middle, expected {}", list(mean), list(f));
+    let look_at = "F = dx/dX, row after row: F_ij = dx_i/dX_j; F <- (I + dt L) F with the new L, not \
+                   F (I + dt L)";
+    if error(mean, &transposed(f, d)) <= NEAR {
+        return SolverFinding::defect(
+            "deformation-gradient-transposed",
+            seen,
+            "the column has the transpose of F",
+            look_at,
+        );
+    }
+    SolverFinding::defect(
+        "deformation-gradient-update",
+        seen,
+        "F is not updated with the motion at finite strain and rotation: factors in another order, only \
+         the symmetric part of L, or det F forced to another value",
+        look_at,
+    )
+}
+
+fn of_stress(
+    name: &str,
+    mean: &[f64],
+    stress: &[f64],
+    f: &[f64],
+    scene: &BoxScene,
+) -> Result<SolverFinding, Hindrance> {
+    let d = scene.dimension;
+    let seen = format!(
+        "{name}: over E, the stress is {} in the middle, expected {}",
+        list(&mean.iter().map(|s| s / scene.young).collect::<Vec<_>>()),
+        list(&stress.iter().map(|s| s / scene.young).collect::<Vec<_>>())
+    );
+    // The stress of F^T in place of F: isotropic laws have it from F^T F in place of F F^T.
+    let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
+    let factor = mean[0] / stress[0];
+    let scaled: Vec<f64> = stress.iter().map(|s| factor * s).collect();
+    let j = det_of_rows(d, f);
+    let (finding, cause) = if d > 1 && error(mean, &of_transpose) <= NEAR {
+        (
+            "stress-not-objective",
+            "the stress is that of F^T F, in the reference axes, and does not turn with the body: F F^T \
+             belongs in Cauchy's stress",
+        )
+    } else if (factor / j - 1.0).abs() <= NEAR && error(mean, &scaled) <= NEAR {
+        ("stress-not-cauchy", "the column has Kirchhoff's stress J sigma, not Cauchy's")
+    } else {
+        (
+            "stress-at-finite-strain",
+            "the law differs at finite strain: another measure of strain or of stress (Kirchhoff, Piola), \
+             a rate that is objective where the law asks for the plain one or the reverse, J missing",
+        )
+    };
+    Ok(SolverFinding::defect(
+        finding,
+        seen,
+        cause,
+        "the equation of the law (`mpm-verify explain SUITE` prints it); Cauchy's stress, row after row; \
+         left and right Cauchy-Green tensors",
+    ))
+}
+
+fn list(tensor: &[f64]) -> String {
+    format!("({})", tensor.iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", "))
+}

@@ -1,0 +1,194 @@
+//! A body that starts deformed and under stress, and is let go.
+//!
+//! Its displacement is that of a simple shear, so that F and the stress are uniform. In one half of it, momentum
+//! grows by the first Piola stress of the start: `dP_j/dt = -P_ji A` through the reference plane with
+//! normal i, until waves come in from the free faces.
+
+use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
+use crate::mpm::det_of_rows;
+use crate::testing::doctor::course::{Course, displacement, minus, shown, size, times};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::{AffineField, BoxScene, FINITE, H, Kind};
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "start",
+    expected: "a body that starts displaced, with F and stress, is where the problem has it, and its stress \
+               moves it from the first step on",
+    after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
+    examine,
+};
+
+/// Shear at the start: one, so that a square lattice of particles becomes one again. Other deformations
+/// leave a lattice that cells sample unevenly, which costs a tenth of the force with linear functions.
+const SHEAR: f64 = 1.0;
+
+/// Stretch at the start, in one dimension.
+const STRETCH: f64 = 0.05;
+
+/// Relative error of the force: waves are near, and the state has changed a little.
+const NEAR: f64 = 0.12;
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let first = patient.able(&[2, 3, 1], &FINITE, &scene)?;
+    let laws = FINITE.into_iter();
+    let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
+    let scenes: Vec<BoxScene> = laws.collect();
+    let courses = patient.run_all(&scenes)?;
+    let mut all = Examined::default();
+    for (scene, course) in scenes.iter().zip(&courses) {
+        let forces = Forces::new(course, scene);
+        if !all.measured.is_empty() {
+            all.measured.push_str("; ");
+        }
+        all.measured.push_str(&format!(
+            "{}: the stress of the start has {} of its force, off by {}, from {} steps on",
+            scene.law,
+            shown(forces.ratio),
+            shown(forces.error),
+            shown(forces.late)
+        ));
+        let finding = cause(course, scene, &forces);
+        let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
+        let new = finding.filter(is_new);
+        all.findings.extend(new);
+    }
+    Ok(all)
+}
+
+fn scene(kind: Kind) -> BoxScene {
+    let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
+    // The sheared lattice keeps a distance from cell faces.
+    let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], cells, 7.0);
+    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
+    if kind.0 == 1 {
+        field.gradient[0][0] = STRETCH;
+    } else {
+        field.gradient[0][1] = SHEAR;
+    }
+    scene.displacement = field;
+    scene.young = 3.1;
+    scene.with_waves(TRAVEL, STEPS)
+}
+
+/// The force through the plane across the first axis.
+struct Forces {
+    /// Part along the expected force, over its size.
+    ratio: f64,
+    /// Size of the difference from the expected force, over its size.
+    error: f64,
+    /// Steps after which the force begins to act.
+    late: f64,
+}
+
+impl Forces {
+    fn new(course: &Course, scene: &BoxScene) -> Self {
+        let d = scene.dimension;
+        let particles = &course.problem.particles;
+        let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
+        // P = J sigma F^-T: its first column is sigma times the first column of the cofactors of F.
+        let cofactor: Vec<f64> = (0..d)
+            .map(|k| {
+                let mut replaced = f.to_vec();
+                (0..d).for_each(|row| replaced[row * d] = f64::from(u8::from(row == k)));
+                det_of_rows(d, &replaced)
+            })
+            .collect();
+        let mut expected = [0.0; 3];
+        for j in 0..d {
+            expected[j] = (0..d).map(|k| sigma[j * d + k] * cofactor[k]).sum();
+        }
+        let whole = size(expected);
+        let unit = times(1.0 / whole, expected);
+        let mut measured = [0.0; 3];
+        let mut along = vec![0.0; course.states.len()];
+        for j in 0..d {
+            let impulse = impulses(course, scene, (0, j));
+            measured[j] = constant_and_rate(&course.times, &impulse)[0];
+            along.iter_mut().zip(&impulse).for_each(|(sum, impulse)| *sum += unit[j] * impulse);
+        }
+        let [constant, rate] = constant_and_rate(&course.times, &along);
+        let t = course.times[1];
+        let start = t - (along[1] - 0.5 * rate * t * t) / constant;
+        Self {
+            ratio: constant / whole,
+            error: size(minus(measured, expected)) / whole,
+            late: start / t,
+        }
+    }
+}
+
+fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
+    let d = scene.dimension;
+    // The motion of the first step is far smaller than the displacement of the start.
+    let reach = course.farthest(displacement, 0, [0.0; 3]);
+    let before: Vec<[f64; 3]> = course.points(displacement, 0).map(|(_, u)| u).collect();
+    let pairs = course.points(displacement, 1).zip(before);
+    let off = pairs.map(|((_, u), start)| size(minus(u, start))).fold(0.0, f64::max) / reach;
+    let law = scene.law;
+    if !(off <= 0.2) {
+        return Some(SolverFinding::defect(
+            "initial-displacement-ignored",
+            format!(
+                "{law}: after one step displacements are off by {} of those of the start",
+                shown(off)
+            ),
+            "particles start at another place than `position`, or displacements do not count from \
+             `reference_position`",
+            "`particles.position` of the problem, which differs from `reference_position` here",
+        ));
+    }
+    let f = &course.problem.particles.deformation_gradient[..d * d];
+    let identity: Vec<f64> = (0..d * d).map(|k| f64::from(u8::from(k / d == k % d))).collect();
+    let largest =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let size_of_f = largest(f, &identity);
+    let mean = inside(course, scene, &course.states[1].deformation_gradient);
+    let f_is_lost = mean.as_ref().is_some_and(|mean| !(largest(mean, f) <= 0.5 * size_of_f));
+    let force = format!(
+        "{law}: the stress of the start has {} of its force, from {} steps on",
+        shown(forces.ratio),
+        shown(forces.late)
+    );
+    if f_is_lost {
+        let mean =
+            mean.unwrap_or_default().iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", ");
+        return Some(SolverFinding::defect(
+            "initial-deformation-dropped",
+            format!("{force}; after one step F is ({mean})"),
+            "the initial F is not taken: it is reset to one",
+            "`particles.deformation_gradient` of the problem, and where F is initialised",
+        ));
+    }
+    if forces.ratio.abs() <= NEAR {
+        return Some(SolverFinding::defect(
+            "initial-stress-dropped",
+            force,
+            "the initial stress is not taken, or the initial F of which the law computes it",
+            "`particles.stress` and `particles.deformation_gradient` of the problem, and where the solver \
+             initialises its own",
+        ));
+    }
+    if !(forces.error <= NEAR) {
+        return Some(SolverFinding::defect(
+            "initial-stress-differs",
+            format!("{force}, and differs from it by {}", shown(forces.error)),
+            "the stress of a body that starts deformed is another one: the law differs at finite strain, \
+             the stress does not turn with the body (F^T F in place of F F^T), or volumes are not those of \
+             the problem",
+            "the law as a function of F; `particles.volume` of the problem, which may differ from \
+             `reference_volume`",
+        ));
+    }
+    // A start half a step off is a matter of the scheme.
+    (!(-0.75..=0.75).contains(&forces.late)).then(|| {
+        SolverFinding::defect(
+            "initial-stress-dropped",
+            force,
+            "the initial stress is not taken: the law computes it at the end of the first step only",
+            "`particles.stress` of the problem, which acts in the first step of a scheme that updates \
+             stress last",
+        )
+    })
+}
