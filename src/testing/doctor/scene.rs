@@ -1,8 +1,8 @@
 //! Small scenes, written as suites and handed over like those.
 
-use super::course::minus;
+use super::course::{Course, minus};
 use crate::external::{LevelProblem, ProblemNeeds};
-use crate::study::{level_problem, needs};
+use crate::study::{level_problem, needs, subject};
 use crate::suite::yaml::Source;
 use crate::suite::{ConvergencePlan, Suite};
 
@@ -208,8 +208,8 @@ impl BoxScene {
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
     }
 
-    /// The scene as a suite.
-    fn text(&self) -> String {
+    /// The scene as a suite with this method.
+    fn text(&self, method: &str) -> String {
         let (from, to) = &self.body;
         let (low, high) = &self.grid;
         let d = self.dimension;
@@ -233,7 +233,7 @@ impl BoxScene {
              grid: {{from: {low:?}, to: {high:?}}}\n  material: {material}\n\
              {optional}  initial_velocity: {velocity:?}\n\
              run: {{until: {until:e}, dt: {dt:e}}}\nrefine: {{cells: {cells}, ppc: {ppc}}}\n\
-             methods:\n  - mpm: {{basis: linear, transfer: flip, scheme: musl}}\n\
+             methods:\n  - mpm: {{{method}}}\n\
              expect:\n  - drift: {{mass: 1e-13}}\n    because: no step is made\n",
             material = self.material(),
             velocity = self.velocity.formulas(d),
@@ -248,14 +248,37 @@ impl BoxScene {
     /// # Errors
     /// One line with the reason why the scene is no problem.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), String> {
-        let source = Source::from_text("doctor.yaml", self.text());
-        let suite = source.and_then(|source| Suite::load(&source));
-        let suite = suite.map_err(|diagnostic| diagnostic.to_string())?;
+        let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;
         let mut problem = level_problem(&suite.name, plan, case, *level)?;
         problem.instants = (1..=problem.steps).collect();
         Ok((problem, needs(plan)))
+    }
+
+    fn suite(&self, method: &str) -> Result<Suite, String> {
+        let source = Source::from_text("doctor.yaml", self.text(method));
+        let suite = source.and_then(|source| Suite::load(&source));
+        suite.map_err(|diagnostic| diagnostic.to_string())
+    }
+
+    /// The run of this crate's MPM with PIC and the named basis: what averaging alone does.
+    ///
+    /// # Errors
+    /// One line with the reason why there is none.
+    pub(super) fn averaged(&self, basis: &str) -> Result<Course, String> {
+        let suite = self.suite(&format!("basis: {basis}, transfer: pic, scheme: usl"))?;
+        let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
+        let level = plan.refine.levels.first().ok_or("no level")?;
+        let case = plan.cases.first().ok_or("no case")?;
+        let mut subject = subject(plan, case.method, *level)?;
+        let mut course = Course::new(&level_problem(&suite.name, plan, case, *level)?);
+        course.look(0.0, subject.as_ref());
+        for step in 1..=self.steps {
+            subject.step(self.dt).map_err(|failure| failure.to_string())?;
+            course.look(step as f64 * self.dt, subject.as_ref());
+        }
+        Ok(course)
     }
 }

@@ -21,7 +21,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
-        let mut scene = BoxScene::of_cells(kind, [0.25; 3], 3.0, 3.0);
+        let mut scene = BoxScene::of_cells(kind, [0.25; 3], 3.0, 6.0);
         let mut velocity = [0.25; 3];
         velocity[kind.0..].fill(0.0);
         scene.velocity = AffineField::uniform(velocity);
@@ -115,10 +115,18 @@ fn grouped_under_acceleration(
     }
     let mut at_once = problem.clone();
     at_once.instants = vec![STEPS];
-    let stepwise = patient.run_problem(&scene, problem)?;
+    let stepwise = match patient.run_problem(&scene, problem) {
+        Ok(stepwise) => stepwise,
+        Err(Hindrance::Broke(_)) => return Ok(None),
+        Err(lacks) => return Err(lacks),
+    };
+    // A body that is torn apart is left to the examinations of forces.
+    if stepwise.failure.is_some() {
+        return Ok(None);
+    }
     let at_once = patient.run_problem(&scene, at_once)?;
-    if let Some(failure) = stepwise.failure.as_ref().or(at_once.failure.as_ref()) {
-        return Err(Hindrance::Broke(failure.clone()));
+    if let Some(failure) = at_once.failure {
+        return Err(Hindrance::Broke(failure));
     }
     Ok(grouped(&stepwise, &at_once, patient, "under acceleration"))
 }

@@ -58,8 +58,22 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         &|needs| needs.manufactured = true,
     )?;
     let asked = Questions::default();
-    let course = run(patient, &moving, &asked, |_, t| FORCE + RATE * t)?;
-    let mut found = places(&asked, &moving).or_else(|| of_time(&asked, &course));
+    let course = run(patient, &moving, &asked, |_, t| FORCE + RATE * t);
+    // Requests at wrong places or times explain a run that breaks.
+    let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
+    let course = match (course, requests) {
+        (Err(Hindrance::Broke(_)), Some(finding)) => {
+            return Ok(Examined::new("the run ends early".to_owned(), vec![finding]));
+        }
+        (Err(other), _) => return Err(other),
+        (Ok(course), None) => course,
+        (Ok(_), Some(finding)) => {
+            let count = asked.lock().unwrap_or_else(PoisonError::into_inner).len();
+            let measured = format!("{count} values were requested");
+            return Ok(Examined::new(measured, vec![finding]));
+        }
+    };
+    let mut found = of_time(&asked, &course);
     let resting = BoxScene { velocity: AffineField::default(), steps: 1, ..moving.clone() };
     if found.is_none() {
         let course = run(patient, &resting, &Questions::default(), |x, _| x / H)?;
@@ -101,6 +115,29 @@ fn run(
         Some(failure) => Err(Hindrance::Broke(failure)),
         None => Ok(course),
     }
+}
+
+/// Requests for times outside of the run.
+fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
+    let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
+    let end = scene.steps as f64 * scene.dt;
+    let (first, last) =
+        asked.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (t, _)| {
+            (low.min(*t), high.max(*t))
+        });
+    let is_outside = !asked.is_empty() && !(first >= -scene.dt && last <= end + scene.dt);
+    is_outside.then(|| {
+        SolverFinding::defect(
+            "force-of-another-time",
+            format!(
+                "times {} to {} s are requested in a run from 0 to {end} s",
+                shown(first),
+                shown(last)
+            ),
+            "the force is requested at wrong times, such as the number of the step",
+            "the time of a request, in s: `from` of `advance`, and steps of `dt` from there on",
+        )
+    })
 }
 
 /// Questions at places where particles are, and not at those from which they come.
@@ -159,7 +196,9 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         shown(at[at.len() - 1]),
         at.len()
     );
-    if is(1.0) {
+    // Velocities of a leapfrog hide the shift in what the body gains, but not in the requests.
+    let is_late = at.len() as u64 == last as u64 && (at[0] / dt - 1.0).abs() <= NEAR;
+    if is(1.0) || is_late {
         return Some(SolverFinding::remark(
             "force-of-the-end-of-the-step",
             seen,

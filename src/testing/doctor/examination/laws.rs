@@ -5,13 +5,13 @@
 //! with that of the law for this F: the stress with which a body starts that is displaced by
 //! `(F - I) (X - C)`.
 
-use super::stress::inside;
+use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{Course, displacement, minus, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{AffineField, BoxScene, FINITE, Kind, SOFT};
+use crate::testing::doctor::scene::{AffineField, BoxScene, FINITE, H, Kind, SOFT};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "laws",
@@ -23,6 +23,12 @@ pub(super) const EXAMINATION: Examination = Examination {
 
 /// Displacement gradient at the end.
 const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
+
+/// Rate (1/s) of the stretch by which volumes are examined.
+const STRETCHED: f64 = 0.5;
+
+/// Displacement gradient at the start of a body that starts deformed.
+const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
 /// Largest error of a component, relative to the largest one: steps of a rate are finite.
 const NEAR: f64 = 0.04;
@@ -40,7 +46,11 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut kinds: Vec<Kind> = laws.chain(dimensions).filter(|kind| is_able(*kind)).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    let scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
+    let mut scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
+    // From an undeformed start on, F and the velocity gradient commute.
+    let elastic = FINITE.map(|law| (first.dimension, law));
+    let mut elastic = elastic.into_iter().filter(|(d, law)| *d > 1 && *law != "linear_elastic");
+    scenes.extend(elastic.find_map(|kind| patient.able(&[kind.0], &[kind.1], &deformed).ok()));
     let courses = patient.run_all(&scenes)?;
     let (mut measured, mut findings) = (Vec::new(), Vec::<SolverFinding>::new());
     for (scene, course) in scenes.iter().zip(&courses) {
@@ -70,15 +80,61 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             findings.push(finding);
         }
     }
+    if findings.is_empty() {
+        let (ratio, finding) = volumes(patient, (first.dimension, first.law))?;
+        measured.push(format!("force at a stretch of 1.5: {} of the expected one", shown(ratio)));
+        findings.extend(finding);
+    }
     Ok(Examined::new(measured.join("; "), findings))
+}
+
+/// The momentum that flows through a body while it is stretched to one and a half of its length, over that
+/// of the law: forces have the present volumes of particles.
+fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
+    let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
+    scene.velocity = field(&scene, &|i, j| if (i, j) == (0, 0) { STRETCHED } else { 0.0 });
+    // Waves travel a cell in the time of the stretch.
+    scene.young = scene.density * H * H;
+    let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
+    let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
+    let impulse = |course: &Course| impulses(course, &scene, (0, 0))[course.last()];
+    let d = scene.dimension;
+    // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 is sigma_00.
+    let mut expected = 0.0;
+    for (share, weight) in [(0.0, 1.0), (0.25, 4.0), (0.5, 2.0), (0.75, 4.0), (1.0, 1.0)] {
+        let mut f = vec![0.0; d * d];
+        (0..d).for_each(|i| f[i * d + i] = 1.0);
+        f[0] += share * STRETCHED;
+        expected += weight / 12.0 * law_at(&scene, &f)?.0[0];
+    }
+    let ratio = (impulse(&courses[0]) - impulse(&courses[1])) / expected;
+    let finding = (!((ratio - 1.0).abs() <= 0.15)).then(|| {
+        SolverFinding::defect(
+            "volume-at-finite-strain",
+            format!("{}: the force has {} of the expected impulse", scene.law, shown(ratio)),
+            "the volumes of particles do not follow J = det F: they stay those of the start, change twice, or \
+             change the other way",
+            "V = J V0 in inner forces, with Cauchy's stress; or V0 with Kirchhoff's stress",
+        )
+    });
+    Ok((ratio, finding))
 }
 
 /// A body whose displacement gradient grows to `GRADIENT`.
 fn scene(kind: Kind) -> BoxScene {
-    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
+    let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
     scene.velocity = field(&scene, &|i, j| GRADIENT[i][j]);
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
+}
+
+/// The body of `scene` that starts in another deformation.
+fn deformed(kind: Kind) -> BoxScene {
+    let scene = scene(kind);
+    let displacement = field(&scene, &|i, j| START[i][j]);
+    BoxScene { displacement, ..scene }
 }
 
 /// The field with this gradient about the centre of the body.

@@ -20,12 +20,12 @@ use super::question::Examination;
 pub(super) const ALL: &[Examination] = &[
     conversation::EXAMINATION,
     rest::EXAMINATION,
+    transfer::EXAMINATION,
     translation::EXAMINATION,
     faces::EXAMINATION,
     periodic::EXAMINATION,
     fall::EXAMINATION,
     force::EXAMINATION,
-    transfer::EXAMINATION,
     stress::EXAMINATION,
     laws::EXAMINATION,
     start::EXAMINATION,

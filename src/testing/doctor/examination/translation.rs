@@ -8,7 +8,7 @@ use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, H};
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
     expected: "a body without stress moves on through four cells, with x = X + v t to rounding",
-    after: &["conversation", "rest"],
+    after: &["conversation", "rest", "transfer"],
     examine,
 };
 

@@ -5,6 +5,7 @@
 //! force is `rho c g t A`. Both ends are held at once: one is pushed, the other one pulled. The momentum of
 //! one half shows the force of its wall as long as no wave arrives from the other.
 
+use super::stress::constant_and_rate;
 use super::translation::VELOCITY;
 use crate::testing::doctor::course::{Course, displacement, line, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -41,25 +42,57 @@ const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 /// Force below which there is no wall.
 const NONE: f64 = 0.2;
 
+/// Displacement of a pushed body through the wall, over that of a free body in the time of one cell.
+const THROUGH: f64 = 0.8;
+
 /// Relative error of the force under gravity, which begins smoothly.
 const SMOOTH: f64 = 0.15;
 
-/// One wall in one run.
+/// Displacement into a wall, over g t times the time of one cell, that is examined with half the step.
+const SUNK: f64 = 0.1;
+
+/// Part of the weight of a cell that may be missing in the force of a wall under gravity.
+const WEIGHT: f64 = 0.3;
+
+/// One wall, as the runs show it: `None` where no run does.
 #[derive(Debug, Clone)]
 struct Wall {
     face: &'static str,
     condition: &'static str,
-    /// Force over the expected one of a body that is pushed, that is pulled, and under gravity.
-    pushed: f64,
-    pulled: f64,
-    /// Force along the wall over the expected one.
-    along: f64,
+    /// Force over the expected one of a body that is pushed against the wall.
+    pushed: Option<f64>,
+    /// Force over the expected one of a body that is pulled from it.
+    pulled: Option<f64>,
+    /// Force over the expected one of a body that moves along it.
+    along: Option<f64>,
+    /// Force over the expected one under gravity.
     falling: Option<f64>,
-    /// Displacement (m) of the body at the wall, over that of a free body in the time of one cell.
-    through: f64,
-    /// Displacement (m) along gravity at the wall, over g t times the time of one cell: with the steps of
+    /// Force at once under gravity, over that on the mass of one cell: what is missing at all times.
+    offset: Option<f64>,
+    /// Displacement of a pushed body through the wall, over that of a free body in the time of one cell.
+    through: Option<f64>,
+    /// Largest displacement in the first step, over that of the velocity.
+    jump: Option<f64>,
+    /// Displacement along gravity at the wall, over g t times the time of one cell: with the steps of
     /// the run, and with half of them.
-    sinking: [f64; 2],
+    sinking: Option<[f64; 2]>,
+}
+
+impl Wall {
+    /// The forces, for reports.
+    fn describe(&self) -> String {
+        let forces = [
+            ("pushed", self.pushed),
+            ("pulled", self.pulled),
+            ("along it", self.along),
+            ("under gravity", self.falling),
+            ("under gravity at once", self.offset),
+        ];
+        let texts = forces
+            .into_iter()
+            .filter_map(|(name, force)| force.map(|force| format!("{name} {}", shown(force))));
+        texts.collect::<Vec<_>>().join(", ")
+    }
 }
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -85,23 +118,13 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         lacks.dedup();
         return Err(Hindrance::Lacks(lacks.join("; ")));
     }
-    let mut measured: Vec<String> = Vec::new();
-    for wall in &walls {
-        let falling =
-            wall.falling.map_or(String::new(), |f| format!(", {} under gravity", shown(f)));
-        measured.push(format!(
-            "{} {}: {} of the force pushed, {} pulled{falling}, {} cells beyond",
-            wall.condition,
-            wall.face,
-            shown(wall.pushed),
-            shown(wall.pulled),
-            shown(wall.through)
-        ));
-    }
+    let name = |wall: &Wall| format!("{} {}: {}", wall.condition, wall.face, wall.describe());
+    let forces = walls.iter().map(name).collect::<Vec<_>>().join("; ");
+    let mut measured = vec![format!("forces over the expected ones: {forces}")];
     if !sliding.measured.is_empty() {
         measured.push(format!("sliding: {}", sliding.measured));
     }
-    let mut findings = findings(&walls);
+    let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
     // A wall that moves or is missing explains a body that does not slide evenly.
     if findings.is_empty() {
         findings.extend(sliding.findings);
@@ -120,7 +143,8 @@ fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Both walls across `axis`: the bar is thrown one way, the other way, along the wall, and falls.
+/// Both walls across `axis`: the bar is thrown, moves along the wall, and falls. On the first axis it is
+/// thrown both ways.
 fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -129,48 +153,66 @@ fn walls_across(
 ) -> Result<[Wall; 2], Hindrance> {
     let plain = bar(kind, axis, condition);
     let (c, d) = (plain.wave_speed(), kind.0);
-    let thrown =
-        |velocity: [f64; 3]| BoxScene { velocity: AffineField::uniform(velocity), ..plain.clone() };
-    let normal = |way: f64| std::array::from_fn(|i| if i == axis { way * SPEED * c } else { 0.0 });
-    let mut scenes = vec![thrown(normal(1.0)), thrown(normal(-1.0))];
-    let holds_along = condition == "fixed" && d > 1;
-    let other = (axis + 1) % d;
-    if holds_along {
+    let thrown = |way: f64| {
+        let velocity = std::array::from_fn(|i| if i == axis { way * SPEED * c } else { 0.0 });
+        BoxScene { velocity: AffineField::uniform(velocity), ..plain.clone() }
+    };
+    let mut scenes = vec![thrown(1.0)];
+    if axis == 0 {
+        scenes.push(thrown(-1.0));
+    }
+    let moves_along = condition == "fixed" && d > 1;
+    if moves_along {
         scenes.push(broad(kind, axis, c));
     }
     let gravity = std::array::from_fn::<f64, 3, _>(|i| if i == axis { GRAVITY } else { 0.0 });
     let falling = BoxScene { gravity: Some(gravity[..d].to_vec()), ..plain.clone() };
     let (_, needs) = falling.problem().map_err(Hindrance::Lacks)?;
-    let has_gravity = patient.solver.lacks(&needs).is_empty();
-    if has_gravity {
-        scenes.extend([falling.clone(), falling.with_half_the_step()]);
+    let falls = patient.solver.lacks(&needs).is_empty();
+    if falls {
+        scenes.push(falling.clone());
     }
     let courses = patient.run_all(&scenes)?;
-    let falls = has_gravity.then(|| [&courses[courses.len() - 2], &courses[courses.len() - 1]]);
-    Ok([false, true].map(|high| {
-        let side = Side { axis, high };
-        // Towards the high wall, the first run pushes and the second one pulls.
-        let (push, pull) = if high { (0, 1) } else { (1, 0) };
+    let cell_time = H / c;
+    let sinking = |side: Side, course: &Course| {
+        side.at_wall(course, &plain) / (GRAVITY * course.times[course.last()] * cell_time)
+    };
+    let sides = [false, true].map(|high| Side { axis, high });
+    let fall = falls.then(|| &courses[courses.len() - 1]);
+    let sunk = fall.map(|course| sides.map(|side| sinking(side, course)));
+    // Only a body that sinks into the wall is examined again.
+    let halved = match sunk {
+        Some(sunk) if sunk.iter().any(|sunk| !(sunk.abs() <= SUNK)) => {
+            Some(patient.run_all(&[falling.with_half_the_step()])?)
+        }
+        _ => None,
+    };
+    Ok(sides.map(|side| {
         let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
-        let along = if holds_along {
-            side.force(&courses[2], &scenes[2], other, c / libm::sqrt(2.0))
-        } else {
-            1.0
-        };
-        let cell_time = H / c;
+        // The first run pushes the high wall and pulls the low one, the second one the reverse.
+        let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
+        let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
+        let run_along = if axis == 0 { 2 } else { 1 };
+        let other = (axis + 1) % d;
+        let through =
+            |course: &Course| side.sign() * side.at_wall(course, &plain) / (SPEED * c * cell_time);
+        let place = usize::from(side.high);
         Wall {
-            face: FACES[axis][usize::from(high)],
+            face: FACES[axis][place],
             condition,
-            pushed: force(push),
-            pulled: force(pull),
-            along,
-            falling: falls.map(|[course, _]| side.force_under_gravity(course, &plain, c)),
-            through: side.sign() * side.at_wall(&courses[push], &plain) / (SPEED * c * cell_time),
-            sinking: falls.map_or([0.0; 2], |falls| {
-                falls.map(|course| {
-                    let end = course.times[course.last()];
-                    side.at_wall(course, &plain) / (GRAVITY * end * cell_time)
-                })
+            pushed: of_run(push),
+            pulled: of_run(pull),
+            along: moves_along.then(|| {
+                let scene = &scenes[run_along];
+                side.force(&courses[run_along], scene, other, c / libm::sqrt(2.0))
+            }),
+            falling: fall.map(|course| side.force_under_gravity(course, &plain, c).1),
+            offset: fall.map(|course| side.force_under_gravity(course, &plain, c).0),
+            through: courses.get(push).filter(|_| push == 0 || axis == 0).map(through),
+            jump: Some(courses[0].farthest(displacement, 1, [0.0; 3]) / (SPEED * c * plain.dt)),
+            sinking: sunk.map(|sunk| {
+                let halved = halved.as_ref().and_then(|halved| halved.first());
+                [sunk[place], halved.map_or(sunk[place], |halved| sinking(side, halved))]
             }),
         }
     }))
@@ -240,17 +282,15 @@ impl Side {
         -slope / (c * scene.velocity.value[along])
     }
 
-    /// Force of the wall over `rho c g t`, under gravity from rest.
-    fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> f64 {
-        let last = course.last();
+    /// Force of the wall under gravity from rest: the part that acts at once, over `rho h g`, and the
+    /// part that grows, over `rho c g t`.
+    fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> (f64, f64) {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
-        let squares: Vec<f64> =
-            (last / 2..=last).map(|k| 0.5 * course.times[k] * course.times[k]).collect();
-        let held: Vec<f64> = (last / 2..=last)
+        let held: Vec<f64> = (0..=course.last())
             .map(|k| half * GRAVITY * course.times[k] - self.gained(course, scene, self.axis, k))
             .collect();
-        let (_, slope, _) = line(&squares, &held);
-        slope / (c * GRAVITY)
+        let [constant, rate] = constant_and_rate(&course.times, &held);
+        (constant / (scene.h * GRAVITY), rate / (c * GRAVITY))
     }
 
     /// Displacement (m) along the axis at the wall at the end: the line through the points within two cells.
@@ -270,39 +310,64 @@ impl Side {
     }
 }
 
-/// The findings on all walls, one for each kind, with the faces that show it.
-fn findings(walls: &[Wall]) -> Vec<SolverFinding> {
-    let mut findings = Vec::<(SolverFinding, Vec<String>)>::new();
-    for wall in walls {
-        let Some(finding) = of_wall(wall) else { continue };
-        let name = format!("{} {}", wall.condition, wall.face);
-        match findings.iter_mut().find(|(known, _)| known.name == finding.name) {
-            Some((_, faces)) => faces.push(name),
-            None => findings.push((finding, vec![name])),
-        }
-    }
-    let named = findings.into_iter().map(|(mut finding, faces)| {
-        let all = faces.len() == walls.len();
-        let faces = if all { "all walls".to_owned() } else { faces.join(", ") };
-        finding.seen = format!("{faces}: {}", finding.seen);
-        finding
-    });
-    named.collect()
+/// Kinds of findings, those that explain others first.
+const KINDS: [&str; 9] = [
+    "position-limited",
+    "wall-holds-acceleration-only",
+    "wall-holds-velocity-only",
+    "wall-lets-go",
+    "wall-missing",
+    "wall-force",
+    "fixed-lets-slide",
+    "particles-cross-wall",
+    "wall-moves-under-gravity",
+];
+
+/// The finding that explains the others, with the faces that show it.
+fn finding(walls: &[Wall]) -> Option<SolverFinding> {
+    let of_walls: Vec<(&Wall, SolverFinding)> =
+        walls.iter().filter_map(|wall| Some((wall, of_wall(wall)?))).collect();
+    let first = KINDS.iter().find(|kind| of_walls.iter().any(|(_, found)| found.name == **kind))?;
+    let faces: Vec<String> = of_walls
+        .iter()
+        .filter(|(_, found)| found.name == *first)
+        .map(|(wall, _)| format!("{} {}", wall.condition, wall.face))
+        .collect();
+    let faces = if faces.len() == walls.len() { "all walls".to_owned() } else { faces.join(", ") };
+    let (_, mut finding) = of_walls.into_iter().find(|(_, found)| found.name == *first)?;
+    finding.seen = format!("{faces}: {}", finding.seen);
+    Some(finding)
 }
 
 fn of_wall(wall: &Wall) -> Option<SolverFinding> {
     let is_near = |force: f64| THROWN.contains(&force);
     let is_none = |force: f64| force.abs() <= NONE;
-    let forces = format!(
-        "{} of the force that stops a bar pushed against it, {} of that of one pulled from it",
-        shown(wall.pushed),
-        shown(wall.pulled)
-    );
-    if is_none(wall.pushed) && is_none(wall.pulled) {
-        if let Some(falling) = wall.falling.filter(|falling| *falling > 0.5) {
+    let (pushed, pulled) = (wall.pushed, wall.pulled);
+    let seen = format!("forces over the expected ones are {}", wall.describe());
+    let thrown = || [pushed, pulled].into_iter().flatten();
+    if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
+        return Some(SolverFinding::defect(
+            "position-limited",
+            format!("in the first step particles move by up to {} of v dt", shown(jump)),
+            "particles next to a wall are moved away from it, to a limit of the solver's own",
+            "clamps on positions, margins at the ends of the grid: a wall is where the grid ends",
+        ));
+    }
+    if thrown().all(is_none) {
+        if wall.through.is_some_and(|through| through.abs() <= 0.5 * TRAVEL) {
+            return Some(SolverFinding::defect(
+                "wall-holds-velocity-only",
+                seen,
+                "the velocity of the nodes at the wall is held and their acceleration is not: particles \
+                 get no force from the wall",
+                "accelerations of held nodes, or changes of their velocity, from which particles are \
+                 updated (FLIP): zero at the wall, or the change from the mapped velocity to zero",
+            ));
+        }
+        if wall.falling.is_some_and(|falling| falling > 0.5) {
             return Some(SolverFinding::defect(
                 "wall-holds-acceleration-only",
-                format!("{forces}, but {} of that under gravity from rest", shown(falling)),
+                seen,
                 "the acceleration of the nodes at the wall is held and their velocity is not: they keep the \
                  velocity that is mapped to them",
                 "velocities of held nodes: zero after the mapping from particles, before they move \
@@ -311,62 +376,65 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
         }
         return Some(SolverFinding::defect(
             "wall-missing",
-            forces,
+            seen,
             "no force acts at the wall",
             "`faces` of the problem: `axis` and `high` give the side (every axis, low and high ends), `at` \
              the place; nodes beyond the wall, if the solver has some there",
         ));
     }
-    if is_near(wall.pushed) && is_none(wall.pulled) {
+    if pushed.is_some_and(is_near) && pulled.is_some_and(is_none) {
         return Some(SolverFinding::defect(
             "wall-lets-go",
-            forces,
+            seen,
             "the wall holds a body that is pushed against it, and not one that is pulled from it",
             "walls act in both directions here: a solver whose walls separate does not claim `fixed` or \
              `roller`",
         ));
     }
-    if !(is_near(wall.pushed) && is_near(wall.pulled)) {
+    let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
+    let is_even = wall.along.is_none_or(|along| is_near(along) || along.abs() <= NONE);
+    if !(thrown().all(is_near) && is_even && wall.falling.is_none_or(is_smooth)) {
         return Some(SolverFinding::defect(
             "wall-force",
-            forces,
+            seen,
             "the wall acts with another strength, or at another place",
             "nodes on the face of the body: their normal velocity is zero, also in the velocities that move \
              particles and strain them; functions at the wall",
         ));
     }
-    if !is_near(wall.along) {
+    if wall.along.is_some_and(|along| along.abs() <= NONE) {
         return Some(SolverFinding::defect(
             "fixed-lets-slide",
-            format!("{} of the force that stops a body that moves along it", shown(wall.along)),
+            seen,
             "a fixed wall holds the normal component of the velocity only",
             "at `fixed`, every component of the velocity of a node is zero; `roller` holds the one along \
              `axis` of the face only",
         ));
     }
-    if !(wall.through.abs() <= 0.5) {
+    if let Some(through) = wall.through.filter(|through| !(through.abs() <= THROUGH)) {
         return Some(SolverFinding::defect(
             "particles-cross-wall",
             format!(
-                "the force is right, but at the end the body is {} cells of free motion beyond the wall",
-                shown(wall.through)
+                "the force is right, but at the end the body is beyond the wall by {} times the free motion \
+                 in the time of a wave through a cell",
+                shown(through)
             ),
             "particles do not move with the velocity of the grid at their place, which is zero at a wall",
             "the velocity that moves particles: the sum of the weights times the new velocities of nodes, \
              not the particle's own velocity or a mean with it",
         ));
     }
-    let falling = wall.falling?;
-    let [sinking, halved] = wall.sinking;
+    let [sinking, halved] = wall.sinking?;
     // Averaging (PIC) softens the wall too, but more with smaller steps.
-    let sinks_by_steps = sinking.abs() > 0.1 && halved.abs() <= 0.75 * sinking.abs();
-    if sinks_by_steps || !((falling - 1.0).abs() <= SMOOTH) {
+    let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
+    // The wall does not carry the weight of its own nodes: half a cell.
+    let is_missing = wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
+    if sinks_by_steps || is_missing {
         return Some(SolverFinding::defect(
             "wall-moves-under-gravity",
             format!(
-                "{} of the force under gravity, and at the wall the body falls by {} of g t times the time \
-                 of a wave through a cell, {} with half the step",
-                shown(falling),
+                "{seen}; under gravity the body sinks at the wall by {} of g t times the time of a wave \
+                 through a cell, and by {} with half the step",
                 shown(sinking),
                 shown(halved)
             ),

@@ -143,7 +143,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
              of steps that `advance` takes",
         ));
     }
-    if (0.5..1.5).contains(&slope) {
+    if (0.9..1.1).contains(&slope) {
         return Some(SolverFinding::defect(
             "weights-do-not-sum-to-one",
             format!("displacements are {} of velocity times time, everywhere", shown(slope)),
@@ -157,7 +157,8 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
         "displacement-scaled",
         format!("displacements are {} of velocity times time", shown(slope)),
         units(slope),
-        "the units in which positions come back, and the step by which they are moved",
+        "the units in which positions are returned; the update of positions, x <- x + dt v; the sum of all \
+         weights of a particle, which must be 1",
     ))
 }
 

@@ -236,7 +236,10 @@ impl Subject for Client {
         for (p, weights) in all.iter().enumerate() {
             let body = self.body_force(p, t);
             let sigma = self.sigma[p];
-            let volume = volumes[p]
+            let f = self.f[p];
+            let j = f[0] * f[3] - f[1] * f[2];
+            let volume = j
+                * volumes[p]
                 * match defect {
                     WholeCells => 4.0,
                     PushingStress => -1.0,

@@ -24,7 +24,7 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::{BoxScene, ELASTIC};
-use measure::{MeasuredModuli, STRETCH};
+use measure::{MeasuredModuli, STRETCH, moduli_by_momentum};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "stress",
@@ -38,10 +38,12 @@ pub(super) const EXAMINATION: Examination = Examination {
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let mut all = Examined::default();
-    let others = [2, 3, 1].into_iter().filter(|d| *d != first.dimension);
+    let others = [3, 1].into_iter().filter(|d| *d != first.dimension);
     let others = others.filter_map(|d| patient.able(&[d], &[first.law], &spreading).ok());
+    let mut averages = true;
     for scene in std::iter::once(first.clone()).chain(others) {
-        let examined = examine_scene(patient, &scene)?;
+        let (examined, share) = examine_scene(patient, &scene, averages)?;
+        averages = share > 1e-6;
         if !all.measured.is_empty() {
             all.measured.push_str("; ");
         }
@@ -51,32 +53,72 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             break;
         }
     }
+    if all.findings.is_empty() {
+        all.findings.extend(in_tension(patient, &first)?);
+    }
     Ok(all)
 }
 
-fn examine_scene(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examined, Hindrance> {
+/// The finding on a body that is stretched, where one that is compressed has none.
+fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
+    let mut stretched = scene.clone();
+    stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
+    let (course, mut measured) = measure(patient, &stretched, true)?;
+    measured.along = -measured.along;
+    measured.across = -measured.across;
+    measured.shear = measured.shear.map(|shear| -shear);
+    let finding = moduli::cause(&course, &stretched, &measured);
+    Ok(finding.map(|finding| {
+        SolverFinding::defect(
+            "tension-differs",
+            format!("in tension: {}", finding.seen),
+            "a body that is stretched has another stress than one that is compressed: no tension, damage, or \
+             a limit",
+            "the law of the problem, which is the same in tension and compression where strains are small",
+        )
+    }))
+}
+
+/// The run of `scene`, the moduli, and, if the solver `averages` velocities, a run without stiffness.
+fn measure(
+    patient: &Patient<'_>,
+    scene: &BoxScene,
+    averages: bool,
+) -> Result<(Course, MeasuredModuli), Hindrance> {
+    let mut scenes = vec![scene.clone()];
+    if averages {
+        scenes.push(scene.soft());
+    }
+    let mut courses = patient.run_all(&scenes)?.into_iter();
+    let course = courses.next().ok_or_else(|| Hindrance::Broke(String::new()))?;
+    let measured = moduli_by_momentum(&course, courses.next().as_ref(), scene);
+    Ok((course, measured))
+}
+
+/// The examination of one scene, and the share of momentum that averaging moves.
+fn examine_scene(
+    patient: &Patient<'_>,
+    scene: &BoxScene,
+    averages: bool,
+) -> Result<(Examined, f64), Hindrance> {
     let mut scene = scene.clone();
-    let mut courses = patient.run_all(&[scene.clone(), scene.soft()])?;
-    let mut measured = measure::moduli(&courses[0], &courses[1], &scene);
+    let (mut course, mut measured) = measure(patient, &scene, averages)?;
     let (lambda, mu) = scene.lame();
     let ratio = measured.along.abs() / (lambda + 2.0 * mu);
     // Waves that are faster than expected have come in: repeat with a shorter time.
     if ratio > 2.0 {
         scene.dt /= ratio.sqrt();
-        courses = patient.run_all(&[scene.clone(), scene.soft()])?;
-        measured = measure::moduli(&courses[0], &courses[1], &scene);
+        (course, measured) = measure(patient, &scene, averages)?;
     }
-    let text = describe(&scene, &measured);
-    let course = &courses[0];
-    if let Some(finding) = lost_momentum(patient, course, &scene) {
-        return Ok(Examined::new(text, vec![finding]));
+    let mut examined = Examined::new(describe(&scene, &measured), Vec::new());
+    let finding = lost_momentum(patient, &course, &scene);
+    let finding = finding.or_else(|| moduli::cause(&course, &scene, &measured));
+    examined.findings.extend(finding);
+    if examined.findings.is_empty() {
+        examined.findings = columns::findings(&course, &scene);
     }
-    if let Some(finding) = moduli::cause(course, &scene, &measured) {
-        return Ok(Examined::new(text, vec![finding]));
-    }
-    let mut findings = columns::findings(course, &scene);
-    if findings.is_empty() && measured.viscous_share > 0.05 {
-        findings.push(SolverFinding::remark(
+    if examined.findings.is_empty() && measured.viscous_share > 0.05 {
+        examined.findings.push(SolverFinding::remark(
             "viscosity",
             format!(
                 "stress has a part of {} m2/s times the rate of strain",
@@ -86,7 +128,7 @@ fn examine_scene(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examined, Hi
             "artificial viscosity, damping in proportion to the stiffness (Rayleigh's beta)",
         ));
     }
-    Ok(Examined::new(text, findings))
+    Ok((examined, measured.averaged_share))
 }
 
 fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {
@@ -116,7 +158,7 @@ fn lost_momentum(
     let (start, end) = (course.mean(velocity, 0), course.mean(velocity, last));
     let change: [f64; 3] = std::array::from_fn(|i| end[i] - start[i]);
     // Speed that a face gains in the time.
-    let gain = scene.wave_speed() * STRETCH * course.times[last];
+    let gain = scene.wave_speed() * STRETCH.abs() * course.times[last];
     let share = size(change) / gain;
     let most = match patient.solver.precision() {
         Precision::Double => 1e-6,

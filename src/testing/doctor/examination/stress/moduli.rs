@@ -92,6 +92,24 @@ fn mistakes(young: f64, poisson: f64, lambda: f64, mu: f64) -> Vec<Mistake> {
             "one dimension means uniaxial strain: the modulus is lambda + 2 mu and not E",
         ),
         (
+            "poisson-ratio-ignored",
+            [young, 0.0, 0.5 * young],
+            "Poisson's ratio is taken as zero",
+            parameters,
+        ),
+        (
+            "plane-deviator",
+            [bulk + mu, bulk - mu, mu],
+            "the deviator is that of two dimensions, and the bulk modulus that of three",
+            "the trace of the strain: a third of it in the deviator, also in plane strain",
+        ),
+        (
+            "shear-missing",
+            [lambda + 2.0 * mu, lambda, 0.0],
+            "shear strains cause no stress",
+            "the components of the strain rate off the diagonal",
+        ),
+        (
             "lame-parameters-exchanged",
             [mu + 2.0 * lambda, mu, lambda],
             "lambda and mu are exchanged",
