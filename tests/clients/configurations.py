@@ -1,0 +1,67 @@
+"""Sound configurations of the clients: `mpm-verify doctor` must report no defect in any of them."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+BASES = ["linear", "quadratic_bspline", "cubic_bspline"]
+SCHEMES = ["usl", "musl"]
+STARTS = ["at_zero", "half_step_back"]
+BLENDS = [1.0, 0.99, 0.95, 0.5, 0.0]
+NUMPY = ["{python}", "examples/solvers/numpy_mpm.py"]
+APIC = ["{python}", "tests/clients/apic_mpm.py"]
+VARIANT = ["{python}", "tests/clients/variant.py"]
+
+
+@dataclass
+class Configuration:
+    """A command line; {python}, {cpp} and {fortran} stand for programs that `ci/doctor` finds or builds."""
+
+    family: str
+    name: str
+    command: list[str]
+    # Whether theory gives displacements of the order 2 that the client claims. A share of PIC diffuses momentum,
+    # and the start at t = 0 costs an order in time.
+    is_second_order: bool
+
+
+def points_of(kind):
+    return ["--points", kind] if kind else []
+
+
+def of_numpy(kind, blends, starts=tuple(STARTS)):
+    family = f"NumPy client, points: {kind or 'none'}"
+    for basis, scheme, start, flip in itertools.product(BASES, SCHEMES, starts, blends):
+        options = ["--basis", basis, "--scheme", scheme, "--start", start, "--flip", str(flip)]
+        name = "-".join(["numpy", basis, scheme, start, f"flip-{flip}", *([kind] if kind else [])])
+        command = [*VARIANT, *points_of(kind), *options] if kind else [*NUMPY, *options]
+        yield Configuration(family, name, command, flip == 1.0 and start == "half_step_back")
+
+
+def of_apic():
+    for basis, gradient, start, kind in itertools.product(
+            BASES[1:], ["basis", "affine"], STARTS, ["", "particles", "shuffled", "nodes"]):
+        options = ["--basis", basis, "--gradient", gradient, "--start", start]
+        name = "-".join(["apic", basis, gradient, start, *([kind] if kind else [])])
+        command = [*VARIANT, "--client", "apic", *points_of(kind), *options] if kind else [*APIC, *options]
+        yield Configuration("APIC client", name, command, start == "half_step_back")
+
+
+def of_cpp():
+    for basis, scheme, start in itertools.product(BASES, SCHEMES, STARTS):
+        yield Configuration("C++ client", f"cpp-{basis}-{scheme}-{start}",
+                            ["{cpp}", "--basis", basis, "--scheme", scheme, "--start", start],
+                            start == "half_step_back")
+
+
+CONFIGURATIONS = [
+    *of_numpy("", BLENDS),
+    *of_numpy("particles", BLENDS),
+    *of_numpy("shuffled", BLENDS),
+    *of_numpy("nodes", [1.0, 0.95]),
+    *of_apic(),
+    *of_cpp(),
+    Configuration("Fortran client", "fortran", ["{fortran}"], False),
+]
+CONFIGURATIONS = {configuration.name: configuration for configuration in CONFIGURATIONS}

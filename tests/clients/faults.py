@@ -1,0 +1,1001 @@
+"""Faults of MPM clients: mistakes that authors of solvers make, each as a change to a sound Python client.
+
+`variant.py` runs a client with a fault, and `ci/doctor` measures which faults `mpm-verify doctor` and `run --gate`
+detect. A fault changes the answers, beyond rounding, to some problem that the client claims to support.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Fault:
+    """A mistake, in one or more settings of the client."""
+
+    name: str
+    description: str  # what the author did wrong
+    cause: str  # the diagnosis that its author would accept
+    settings: str | list[str] = ""  # options of the client; a list makes variants NAME, NAME-2, NAME-3
+    edits: dict[str, str] = field(default_factory=dict)  # old text -> new text in the sources of the client
+    patch: str = ""  # methods of a subclass of the client
+    source: str = "invented"
+    client: str = "numpy"
+    points: str = ""  # the option `--points` of variant.py
+    expected: frozenset[str] = frozenset()  # acceptable names of the first defect that `doctor` reports
+    also: frozenset[str] = frozenset()  # acceptable names of further defects
+
+    def command(self) -> list[str]:
+        """Arguments of `variant.py`."""
+        points = ["--points", self.points] if self.points else []
+        return ["--client", self.client, "--fault", self.name, *points, *self.settings.split()]
+
+
+# Abbreviations of settings.
+LINEAR, QUADRATIC, CUBIC = "--basis linear", "--basis quadratic_bspline", "--basis cubic_bspline"
+USL, MUSL, HALF_BACK = "--scheme usl", "--scheme musl", "--start half_step_back"
+MOVE = "self.x += dt * self.gather(velocity)"
+FORCE = "self.problem.body_force(time)"
+END = '(-1 if face["high"] else 0,)'
+MASS = "self.m, self.vol = problem.mass, problem.volume.copy()"
+MU = "self.mu = young / (2 * (1 + poisson))"
+LAMBDA = "self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))"
+STATE = "self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()"
+STARTED = "if not self.started and self.start"
+# Maps to the nodes without setting the held components to zero.
+UNHELD = """
+    def unheld(self, terms):
+        free, self.free = self.free, np.ones_like(self.free)
+        sums = self.per_mass(terms)
+        self.free = free
+        return sums
+"""
+
+POSITIONS = [
+    Fault("position-from-mean-velocity",
+          "Moves a particle by the mean of its old velocity and the new grid velocity.",
+          "particles do not move with the grid velocity at their position",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}", f"{CUBIC} {MUSL} {HALF_BACK}"],
+          {"self.weigh()": "self.weigh(); old = self.v.copy()",
+           MOVE: "self.x += 0.5 * dt * (old + self.gather(velocity))"},
+          source="B1: geomechanics/mpm #42"),
+    Fault("position-from-particle-velocity",
+          "Moves a particle with its own FLIP velocity instead of the grid velocity.",
+          "particles do not move with the grid velocity at their position",
+          [f"{QUADRATIC} {USL}", f"{LINEAR} {MUSL} {HALF_BACK}"],
+          {MOVE: "self.x += dt * self.v"},
+          source="B1: geomechanics/mpm #42, variant"),
+    Fault("position-from-old-grid-velocity",
+          "Moves particles with the grid velocity of the beginning of the step: explicit Euler for positions.",
+          "positions use the grid velocity before the forces are applied",
+          f"{QUADRATIC} {USL}",
+          {"self.weigh()": "self.weigh(); old = self.velocity()", MOVE: "self.x += dt * self.gather(old)"}),
+    Fault("position-25-percent-short",
+          "Multiplies the step of the positions by 0.75.",
+          "displacements are three quarters of what the velocity gives",
+          [f"{LINEAR} {USL} {HALF_BACK}", f"{QUADRATIC} {MUSL}"],
+          {MOVE: "self.x += 0.75 * dt * self.gather(velocity)"},
+          source="B8: fall stops at its first remark"),
+    Fault("position-updated-twice",
+          "Updates the positions in the loop over particles and again in the loop that finds their cells.",
+          "positions are updated twice per step",
+          f"{LINEAR} {MUSL}",
+          {MOVE: f"{MOVE}; self.x += dt * self.gather(velocity)"}),
+    Fault("position-half-a-step-ahead",
+          "Returns x + v dt/2, a position half a step after the time asked for.",
+          "displacements belong to a time half a step later",
+          [f"{LINEAR} {MUSL} {HALF_BACK}", f"{CUBIC} {USL}"],
+          patch="""
+              def step(self, dt, time):
+                  super().step(dt, time)
+                  self.dt = dt
+
+              def state(self):
+                  state = super().state()
+                  return {**state, "displacement": state["displacement"] + 0.5 * self.dt * self.v}
+          """),
+    Fault("position-clamped-near-grid-ends",
+          "Keeps positions at least one cell away from the ends of the grid, also at walls.",
+          "particles cannot enter the first and the last cell",
+          f"{LINEAR} {MUSL}",
+          {MOVE: f"{MOVE}; edge = np.where(self.problem.periodic, -np.inf, self.problem.h); "
+                 "low = self.problem.origin; high = low + self.problem.h * np.array(self.problem.cells); "
+                 "self.x = np.clip(self.x, low + edge, high - edge)"}),
+    Fault("velocity-clamped",
+          "Limits each component of the grid velocity to 1 m/s, for stability.",
+          "velocities are limited by an absolute number",
+          f"{QUADRATIC} {USL}",
+          {"velocity = self.velocity() + dt * acceleration":
+           "velocity = np.clip(self.velocity() + dt * acceleration, -1, 1)"}),
+    Fault("displacement-wrapped",
+          "Wraps positions into the periodic domain and returns differences of wrapped positions.",
+          "displacements jump by a period when a particle crosses the periodic face",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              def locate(self):
+                  lengths = self.problem.h * np.array(self.problem.cells)
+                  turns = np.floor((self.x - self.problem.origin) / lengths)
+                  self.x = self.x - np.where(self.problem.periodic, turns * lengths, 0)
+                  super().locate()
+          """),
+]
+
+LOADS = [
+    Fault("gravity-after-walls",
+          "Adds body forces to the grid acceleration after the wall nodes were set to zero.",
+          "body forces act on nodes that a wall holds",
+          [f"{LINEAR} {USL}", f"{QUADRATIC} {USL} {HALF_BACK}", f"{LINEAR} {MUSL}"],
+          {"return self.per_mass(self.n[..., None] * force[:, None] - stress)":
+           "return self.per_mass(-stress) + self.unheld(self.n[..., None] * force[:, None])"},
+          patch=UNHELD, source="B2: taichi_elements PR #115"),
+    Fault("gravity-sign",
+          "Subtracts body forces.",
+          "body forces have the opposite sign",
+          f"{LINEAR} {MUSL}", {FORCE: f"-{FORCE}"}),
+    Fault("gravity-twice",
+          "Adds gravity to the nodal forces and again to the particle velocities.",
+          "body forces act twice",
+          [f"{QUADRATIC} {USL} {HALF_BACK}", f"{LINEAR} {MUSL}"], {FORCE: f"2 * {FORCE}"}),
+    Fault("gravity-half",
+          "Keeps the factor one half of a leapfrog kick in every step.",
+          "body forces are halved",
+          f"{LINEAR} {USL}", {FORCE: f"0.5 * {FORCE}"}),
+    Fault("gravity-axes-exchanged",
+          "Reads the components of body forces in reverse order.",
+          "components of body forces are exchanged",
+          f"{LINEAR} {MUSL}", {FORCE: f"{FORCE}[:, ::-1]"}),
+    Fault("gravity-last-axis-only",
+          "Uses the last component of the body force only.",
+          "body forces act along the last axis only",
+          f"{QUADRATIC} {MUSL}",
+          {FORCE: f"({FORCE} * (np.arange(self.d) == self.d - 1))"}),
+    Fault("gravity-ramped",
+          "Increases body forces linearly during the first 20 steps, as in quasi-static analyses.",
+          "body forces are ramped at the start",
+          f"{LINEAR} {USL}",
+          {FORCE: f"{FORCE} * min(1, self.ramp / 20)"},
+          patch="""
+              ramp = 0
+
+              def step(self, dt, time):
+                  self.ramp += 1
+                  super().step(dt, time)
+          """),
+    Fault("gravity-hard-coded",
+          "Applies (0, -9.81) m/s2 in every problem, also in those without body forces.",
+          "gravity acts in problems that state none",
+          f"{LINEAR} {MUSL}",
+          {FORCE: f"{FORCE} + np.where(np.arange(self.d) == self.d - 1, -9.81, 0.0)"}),
+    Fault("body-force-per-volume",
+          "Takes the values as forces per volume and multiplies them by the particle volume.",
+          "body forces are divided by the density",
+          f"{LINEAR} {MUSL}", {f"self.m[:, None] * {FORCE}": f"self.vol[:, None] * {FORCE}"},
+          source="B11: density 2 hides the cause"),
+    Fault("body-force-times-density",
+          "Takes the values as accelerations of a unit density and multiplies by mass and density.",
+          "body forces are multiplied by the density",
+          f"{QUADRATIC} {USL}", {FORCE: f'self.problem.materials[0]["density"] * {FORCE}'},
+          source="B11: density 2 hides the cause"),
+    Fault("body-force-at-present-positions",
+          "Asks for body forces at the present positions instead of the reference positions.",
+          "body forces are evaluated at deformed positions",
+          [f"{LINEAR} {MUSL} {HALF_BACK}", f"{CUBIC} {USL}"],
+          {FORCE: "self.problem.body_force(time, self.x)"}),
+    Fault("body-force-of-the-first-step",
+          "Asks for body forces once and keeps them.",
+          "body forces do not change with time",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL} {HALF_BACK}"],
+          {FORCE: "self.kept_force(time)"},
+          patch="""
+              kept = None
+
+              def kept_force(self, time):
+                  if self.kept is None:
+                      self.kept = self.problem.body_force(time)
+                  return self.kept
+          """),
+    Fault("body-force-of-the-step-end",
+          "Asks for body forces at the end of the step in a leapfrog scheme.",
+          "body forces are those of a time one step later",
+          f"{LINEAR} {MUSL} {HALF_BACK}",
+          {"time + step * dt": "time + (step + 1) * dt"}),
+    Fault("body-force-time-in-steps",
+          "Passes the number of the step where a time in seconds is expected.",
+          "body forces are evaluated at wrong times",
+          f"{LINEAR} {MUSL}", {"time + step * dt": "round(time / dt) + step"}),
+    Fault("body-force-of-one-particle",
+          "Uses the value of the first particle for all particles.",
+          "body forces do not vary in space",
+          f"{QUADRATIC} {MUSL}", {FORCE: f"{FORCE}[:1]"}),
+    Fault("body-force-of-other-points",
+          "Asks for body forces at the points of the answers, whose order is not that of the particles.",
+          "body forces of other points act on the particles",
+          f"{LINEAR} {MUSL} {HALF_BACK}",
+          patch="""
+              def setup(self, problem):
+                  vars(problem).pop("body_force", None)
+                  return super().setup(problem)
+          """, points="shuffled", source="E4: sizes agree, places do not"),
+]
+
+WALLS = [
+    Fault("wall-keeps-mapped-velocity",
+          "Sets the acceleration of held nodes to zero and keeps the velocity mapped to them.",
+          "walls hold the acceleration but not the velocity",
+          [f"{LINEAR} {USL}", f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL} --flip 0.95"],
+          {"return self.per_mass(self.n[..., None] * (self.m[:, None] * self.v)[:, None])":
+           "return self.unheld(self.n[..., None] * (self.m[:, None] * self.v)[:, None])"},
+          patch=UNHELD, source="B3: Kratos #7254"),
+    Fault("wall-keeps-acceleration",
+          "Sets the velocity of held nodes to zero, and gives particles the acceleration before that.",
+          "walls hold the velocity but not the acceleration",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {"return self.per_mass(self.n[..., None] * force[:, None] - stress)":
+           "return self.unheld(self.n[..., None] * force[:, None] - stress)"},
+          patch=UNHELD),
+    Fault("walls-ignored",
+          "Does not read the faces of the problem.",
+          "walls are missing",
+          f"{LINEAR} {MUSL}", {"for face in problem.faces:": "for face in []:"}),
+    Fault("walls-along-x-only",
+          "Applies conditions on faces normal to x and forgets the other axes.",
+          "faces normal to y are not held",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {"for face in problem.faces:": 'for face in [f for f in problem.faces if f["axis"] == 0]:'},
+          source="B10: walls along y not held"),
+    Fault("walls-at-low-ends-only",
+          "Applies conditions at the low end of each axis only.",
+          "high faces are not held",
+          [f"{LINEAR} {MUSL}", f"{CUBIC} {USL}"],
+          {"for face in problem.faces:": 'for face in [f for f in problem.faces if not f["high"]]:'},
+          source="B10: walls at high ends not held"),
+    Fault("walls-high-applied-low",
+          "Ignores `high`, so that conditions of high faces hold the low end.",
+          "conditions of high faces act on low faces",
+          f"{LINEAR} {MUSL}", {END: "(0,)"}, source="B10, variant"),
+    Fault("roller-axis",
+          "Holds the component along the next axis on rollers.",
+          "rollers hold a tangential component",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {'self.free[(*end, ..., face["axis"])] = 0': 'self.free[(*end, ..., (face["axis"] + 1) % self.d)] = 0'},
+          source="B10, variant"),
+    Fault("roller-holds-all",
+          "Treats rollers like fixed faces.",
+          "rollers hold tangential components too",
+          f"{LINEAR} {USL}", {'if face["condition"] == "fixed":': 'if face["condition"] in ("fixed", "roller"):'}),
+    Fault("roller-holds-nothing",
+          "Compares the condition with a name that the protocol does not use.",
+          "rollers are not applied",
+          f"{QUADRATIC} {MUSL}", {'face["condition"] == "roller"': 'face["condition"] == "slip"'}),
+    Fault("fixed-holds-normal-only",
+          "Holds the normal component only on fixed faces.",
+          "fixed faces let the body slide along them",
+          [f"{LINEAR} {MUSL}", f"{CUBIC} {USL}"],
+          {"self.free[end] = 0": 'self.free[(*end, ..., face["axis"])] = 0'},
+          source="B10: every component of fixed"),
+    Fault("wall-one-node-inside",
+          "Holds the node with the number of cells minus one on high faces: counts from one.",
+          "the wall of high faces is one cell away from its place",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {END: '(-2 if face["high"] else 0,)'}),
+    Fault("wall-three-nodes-thick",
+          "Holds three layers of nodes on each wall.",
+          "walls hold nodes inside the body",
+          f"{LINEAR} {MUSL}", {END: '(slice(-3, None) if face["high"] else slice(0, 3),)'}),
+    Fault("wall-splines-not-clamped",
+          "Uses uniform knots at walls, where the spline on the boundary is not interpolating.",
+          "the field at the wall is not zero when the boundary node is held",
+          [f"{QUADRATIC} {USL}", f"{CUBIC} {MUSL}"], {"    if not periodic:\n": "    if False:\n"}),
+    Fault("wall-releases-tension",
+          "Implements fixed faces as contact: nodes are held only when the body moves into the wall.",
+          "the body separates from the wall in tension",
+          f"{LINEAR} {USL}",
+          patch="""
+              def setup(self, problem):
+                  super().setup(problem)
+                  self.held, self.inward = self.free.copy(), np.zeros((*self.counts, self.d))
+                  for face in problem.faces:
+                      end = (slice(None),) * face["axis"] + (-1 if face["high"] else 0,)
+                      self.inward[(*end, ..., face["axis"])] = -1 if face["high"] else 1
+                  self.inward = self.inward.reshape(-1, self.d)
+
+              def weigh(self):
+                  super().weigh()
+                  self.free = np.ones_like(self.held)
+                  leaves = (self.velocity() * self.inward).sum(axis=1, keepdims=True) > 0
+                  self.free = np.where(leaves, 1, self.held)
+          """),
+    Fault("wall-stops-particles",
+          "Sets the velocity of every particle in a wall cell to zero instead of holding nodes.",
+          "particles next to a wall are stopped",
+          f"{LINEAR} {MUSL}",
+          {MOVE: f"{MOVE}; self.stop()"},
+          patch="""
+              def stop(self):
+                  for face in self.problem.faces:
+                      if face["condition"] == "fixed":
+                          last = self.problem.cells[face["axis"]] - 1 if face["high"] else 0
+                          self.v[self.cell[:, face["axis"]] == last] = 0
+          """),
+]
+
+AFFINE = [
+    Fault("affine-times-h",
+          "Multiplies the affine matrix C by the cell size.",
+          "the affine part of the transfer has a factor h",
+          [QUADRATIC, f"{CUBIC} {HALF_BACK}"],
+          {'self.by_moment)\n': 'self.by_moment) * self.problem.h\n'},
+          client="apic", source="B4: taichi #4450"),
+    Fault("affine-over-h",
+          "Divides the affine matrix C by the cell size.",
+          "the affine part of the transfer has a factor 1/h",
+          [QUADRATIC, f"{CUBIC} {HALF_BACK}"],
+          {'self.by_moment)\n': 'self.by_moment) / self.problem.h\n'},
+          client="apic", source="B4: taichi #4450"),
+    Fault("affine-transposed",
+          "Stores the transpose of the affine matrix C.",
+          "the affine matrix is transposed",
+          [QUADRATIC, f"{CUBIC} {HALF_BACK}", f"{QUADRATIC} --gradient affine"],
+          {'self.affine = np.einsum("pka,pkb->pab"': 'self.affine = np.einsum("pka,pkb->pba"'},
+          client="apic", source="B4: taichi #4450"),
+    Fault("affine-quarter",
+          "Omits the factor 4 of the inverse moment of quadratic B-splines.",
+          "the affine matrix is a quarter of what it should be",
+          [QUADRATIC, f"{QUADRATIC} {HALF_BACK} --gradient affine"],
+          {'self.by_moment)\n': 'self.by_moment) / 4\n'},
+          client="apic", source="B4: taichi #4450, variant"),
+    Fault("affine-moment-of-other-basis",
+          "Uses the moment h^2/4 of quadratic B-splines with cubic ones, whose moment is h^2/3.",
+          "the inverse moment belongs to another basis",
+          [CUBIC, f"{CUBIC} --gradient affine {HALF_BACK}"],
+          {'np.einsum("pk,pka->pa", self.n, self.offset**2)':
+           "np.full((len(self.n), self.d), self.problem.h**2 / 4)"}, client="apic"),
+    Fault("affine-offset-sign",
+          "Takes x_p - x_i where x_i - x_p is needed when the affine velocity is mapped to nodes.",
+          "the affine part of the transfer has the opposite sign",
+          QUADRATIC, {"self.v[:, None] + np.einsum(": "self.v[:, None] - np.einsum("}, client="apic"),
+    Fault("affine-offset-of-cells",
+          "Measures offsets from the centres of cells instead of the nodes.",
+          "offsets between nodes and particles are half a cell off",
+          QUADRATIC, {"(nodes - self.s[..., None])": "(nodes + 0.5 - self.s[..., None])"}, client="apic"),
+    Fault("affine-force-without-moment",
+          "Omits the inverse moment from the gradients of moving least squares.",
+          "gradients have a factor h^2/4",
+          f"{QUADRATIC} --gradient affine",
+          {"self.dn = self.by_moment": "self.dn = self.n[..., None] * self.offset"}, client="apic"),
+    Fault("affine-of-the-last-axis-dropped",
+          "Fills the affine matrix in a loop that stops one axis early.",
+          "part of the affine matrix is zero",
+          f"{CUBIC}", {'self.by_moment)\n': 'self.by_moment) * (np.arange(self.d) < max(self.d - 1, 1))\n'},
+          client="apic"),
+]
+
+MATERIALS = [
+    Fault("stress-from-right-tensor",
+          "Computes the Cauchy stress from F^T F instead of F F^T.",
+          "the stress is not objective: it does not rotate with the body",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {"left = self.f @ self.f.transpose(0, 2, 1)": "left = self.f.transpose(0, 2, 1) @ self.f"},
+          source="B5: solids4foam #342"),
+    Fault("stress-second-piola",
+          "Uses the second Piola-Kirchhoff stress as Cauchy stress.",
+          "the stress is not pushed forward to the present configuration",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  j, inverse = np.linalg.det(self.f)[:, None, None], np.linalg.inv(self.f)
+                  self.sigma = j * inverse @ self.sigma @ inverse.transpose(0, 2, 1)
+          """, source="B5, variant"),
+    Fault("stress-first-piola",
+          "Uses the first Piola-Kirchhoff stress as Cauchy stress.",
+          "the stress is the first Piola-Kirchhoff stress",
+          f"{LINEAR} {MUSL}",
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  j, inverse = np.linalg.det(self.f)[:, None, None], np.linalg.inv(self.f)
+                  self.sigma = j * self.sigma @ inverse.transpose(0, 2, 1)
+          """, source="B5, variant"),
+    Fault("stress-kirchhoff",
+          "Computes the Kirchhoff stress and uses it as Cauchy stress with the present volume.",
+          "the stress is J times the Cauchy stress",
+          f"{QUADRATIC} {MUSL} {HALF_BACK}",
+          {"left = self.f @": "spherical, by_j = spherical * j[:, None, None], np.ones_like(by_j); left = self.f @"}),
+    Fault("stress-log-without-j",
+          "Forgets 1/J in the volumetric term of the neo-Hookean law.",
+          "the volumetric stress lacks the factor 1/J",
+          f"{LINEAR} {MUSL}",
+          {"(self.lam * np.log(j)[:, None, None] - self.mu) * by_j":
+           "self.lam * np.log(j)[:, None, None] - self.mu * by_j"}),
+    Fault("stress-log10",
+          "Uses the decimal logarithm.",
+          "the volumetric stress is 0.434 of what it should be",
+          f"{LINEAR} {USL}", {"np.log(j)": "np.log10(j)"}),
+    Fault("stress-shear-of-full-left-tensor",
+          "Computes mu F F^T without subtracting the unit tensor.",
+          "the undeformed state has a stress",
+          f"{QUADRATIC} {USL}", {"np.log(j)[:, None, None] - self.mu)": "np.log(j)[:, None, None])"}),
+    Fault("stress-sign",
+          "Adds the divergence of the stress with the wrong sign.",
+          "internal forces have the opposite sign",
+          f"{LINEAR} {MUSL}", {"force[:, None] - stress": "force[:, None] + stress"}),
+    Fault("stress-updated-twice",
+          "Updates the stress before and after the momentum equation, each time with the whole step.",
+          "strain and stress are updated twice per step",
+          f"{LINEAR} {USL}", {"self.update_stress(step)": "self.update_stress(step); self.update_stress(step)"}),
+    Fault("strain-halved",
+          "Symmetrises the velocity gradient twice with a factor one half.",
+          "strain increments are halved",
+          f"{QUADRATIC} {MUSL}", {"0.5 * (step + step.transpose(0, 2, 1))": "0.25 * (step + step.transpose(0, 2, 1))"}),
+    Fault("strain-from-old-velocity",
+          "Updates strains with the grid velocity of the beginning of the step.",
+          "strains use the grid velocity before the forces are applied",
+          [f"{QUADRATIC} {USL}", f"{LINEAR} {USL} --flip 0.95"],
+          {"self.weigh()": "self.weigh(); old = self.velocity()", "velocity[self.nodes], self.dn))":
+           "old[self.nodes], self.dn))"}),
+    Fault("strain-diagonal-only",
+          "Computes the normal components of the strain only.",
+          "shear strains are ignored",
+          f"{LINEAR} {MUSL}", {"self.strain(dt * np": "self.strain(np.eye(self.d) * dt * np"}),
+    Fault("shear-engineering",
+          "Adds engineering shear strains, twice the tensor components, to the tensor.",
+          "the shear modulus is doubled",
+          [f"{LINEAR} {MUSL}", f"{CUBIC} {USL}"],
+          {"0.5 * (step + step.transpose(0, 2, 1))":
+           "(1 - 0.5 * np.eye(self.d)) * (step + step.transpose(0, 2, 1))"}),
+    Fault("lame-exchanged",
+          "Exchanges the two Lame parameters.",
+          "lambda and mu are exchanged",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {MU: f"{MU}; self.lam, self.mu = self.mu, self.lam"}),
+    Fault("lame-plane-stress",
+          "Uses the first Lame parameter of plane stress, E nu/(1 - nu^2).",
+          "the material is in plane stress instead of plane strain",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL} {HALF_BACK}"],
+          {LAMBDA: "self.lam = young * poisson / (1 - poisson**2)"}),
+    Fault("lame-bulk-modulus",
+          "Uses the bulk modulus as first Lame parameter.",
+          "lambda is the bulk modulus",
+          f"{LINEAR} {USL}", {LAMBDA: "self.lam = young / (3 * (1 - 2 * poisson))"}),
+    Fault("lame-bulk-with-plane-deviator",
+          "Splits the strain of the plane into bulk and deviator with 1/2 instead of 1/3 of the trace.",
+          "the deviator is that of two dimensions, the bulk modulus that of three",
+          f"{QUADRATIC} {MUSL}", {MU: f"{MU}; self.lam += 2 * self.mu * (1 / 3 - 1 / self.d)"}),
+    Fault("lame-poisson-ignored",
+          "Sets Poisson's ratio to zero.",
+          "Poisson's ratio is ignored",
+          f"{LINEAR} {MUSL}", {'parameters["young"], parameters["poisson"]': 'parameters["young"], 0.0'}),
+    Fault("lame-poisson-ignored-in-one-dimension",
+          "Uses Young's modulus in one dimension, which is uniaxial strain.",
+          "the bar is in uniaxial stress",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {MU: f"{MU}; self.lam, self.mu = (self.lam, self.mu) if self.d > 1 else (0.0, young / 2)"}),
+    Fault("lame-shear-modulus-without-two",
+          "Forgets the factor 2 in mu = E/(2 (1 + nu)).",
+          "the shear modulus is doubled",
+          f"{LINEAR} {USL}", {MU: "self.mu = young / (1 + poisson)"}),
+    Fault("jaumann-term-sign",
+          "Adds the terms of the Jaumann rate with the wrong sign.",
+          "the stress rotates against the body",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              def rate(self, step):
+                  spin = 0.5 * (step - step.transpose(0, 2, 1))
+                  turned = spin @ self.sigma - self.sigma @ spin
+                  super().rate(step)
+                  self.sigma -= turned
+          """),
+    Fault("volume-not-updated",
+          "Multiplies the Cauchy stress by the reference volume.",
+          "particle volumes do not change with J",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {"self.vol[:, None, None] * self.sigma": "self.vol0[:, None, None] * self.sigma"}),
+    Fault("volume-updated-twice",
+          "Updates the volume in the strain update and again before the force.",
+          "particle volumes change with J squared",
+          f"{LINEAR} {MUSL}", {"self.vol[:, None, None] * self.sigma": "(self.vol**2 / self.vol0)[:, None, None] * self.sigma"}),
+    Fault("volume-divided-by-j",
+          "Divides the reference volume by J, as a density.",
+          "particle volumes change with 1/J",
+          f"{QUADRATIC} {MUSL}", {"self.vol[:, None, None] * self.sigma": "(self.vol0**2 / self.vol)[:, None, None] * self.sigma"}),
+    Fault("f-multiplied-from-the-right",
+          "Updates F by F L dt instead of L F dt.",
+          "F is updated with the factors in the wrong order",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {"self.f += step @ self.f": "self.f += self.f @ step"}),
+    Fault("f-additive",
+          "Updates F by L dt, without multiplying by the old F.",
+          "F is a sum of increments",
+          f"{LINEAR} {USL}", {"self.f += step @ self.f": "self.f += step"}),
+    Fault("f-without-rotation",
+          "Updates F with the symmetric part of the velocity gradient.",
+          "F has no rotation",
+          f"{QUADRATIC} {MUSL}", {"self.f += step @ self.f": "self.f += 0.5 * (step + step.transpose(0, 2, 1)) @ self.f"}),
+    Fault("f-from-transposed-gradient",
+          "Computes the velocity gradient with its indices exchanged.",
+          "the velocity gradient is transposed",
+          [f"{LINEAR} {MUSL}", f"{CUBIC} {USL}"], {'"pka,pkb->pab", velocity[self.nodes]': '"pka,pkb->pba", velocity[self.nodes]'}),
+    Fault("f-not-updated-by-rate-law",
+          "Updates F for hyperelastic laws only, and returns it for all laws.",
+          "F stays the identity for the linear law",
+          f"{LINEAR} {MUSL}", {"self.f += step @ self.f":
+                               'self.f += step @ self.f if self.update_stress == self.neo_hookean else 0'}),
+    Fault("j-limited",
+          "Limits J to between 0.95 and 1.05, as in models of snow.",
+          "J is limited",
+          f"{LINEAR} {MUSL}", {"j = np.linalg.det(self.f)\n": "j = np.clip(np.linalg.det(self.f), 0.95, 1.05)\n"}),
+    Fault("no-tension",
+          "Sets the stress of stretched particles to zero, a setting for sand.",
+          "the material has no stress in tension",
+          f"{LINEAR} {MUSL}",
+          {"self.update_stress(step)": "self.update_stress(step); "
+           "self.sigma[np.trace(self.sigma, axis1=1, axis2=2) > 0] = 0"}),
+    Fault("bulk-viscosity",
+          "Leaves the artificial viscosity of shock problems switched on.",
+          "an artificial viscosity acts in compression",
+          f"{QUADRATIC} {USL}",
+          {"stress = np.einsum(": "stress = self.viscous_pressure() + np.einsum("},
+          patch="""
+              viscous = 0.0
+
+              def strain(self, step):
+                  super().strain(step)
+                  speed = np.sqrt((self.lam + 2 * self.mu) * self.vol / self.m)
+                  trace = np.trace(step, axis1=1, axis2=2) / self.dt
+                  q = np.where(trace < 0, -self.m / self.vol * speed * self.problem.h * trace, 0)
+                  self.viscous = -(self.vol * q)[:, None, None]
+
+              def step(self, dt, time):
+                  self.dt = dt
+                  super().step(dt, time)
+
+              def viscous_pressure(self):
+                  return self.viscous * self.dn
+          """),
+]
+
+INITIAL = [
+    Fault("mass-one-particle-more",
+          "Divides the body into n + 1 spacings per axis, so that masses are ((n + 1)/n)^d too large.",
+          "particle masses are too large: ((n + 1)/n)^d",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {MASS: "side = len(problem.mass) ** (1 / self.d); "
+                 "self.m, self.vol = problem.mass * (1 + 1 / side) ** self.d, problem.volume.copy()"},
+          source="B6: newton PR #940"),
+    Fault("mass-times-ten",
+          "Has particle masses that are ten times too large.",
+          "particle masses are too large",
+          f"{LINEAR} {USL}", {MASS: "self.m, self.vol = 10 * problem.mass, problem.volume.copy()"},
+          source="B6: newton PR #940, variant"),
+    Fault("mass-without-density",
+          "Uses volumes as masses, as with a unit density.",
+          "the density is ignored",
+          f"{LINEAR} {MUSL}", {MASS: "self.m, self.vol = problem.volume, problem.volume.copy()"},
+          source="B6, variant"),
+    Fault("mass-density-twice",
+          "Multiplies the masses by the density.",
+          "the density is applied twice",
+          f"{QUADRATIC} {MUSL}", {MASS: 'self.m, self.vol = problem.materials[0]["density"] * problem.mass, problem.volume.copy()'},
+          source="B6, variant"),
+    Fault("mass-from-deformed-volume",
+          "Computes the mass from the density and the volume at the start, which is not the reference volume.",
+          "masses are wrong where the body starts deformed",
+          f"{LINEAR} {MUSL}", {MASS: 'self.m, self.vol = problem.materials[0]["density"] * problem.volume, problem.volume.copy()'}),
+    Fault("volume-of-the-cell",
+          "Gives each particle the volume of a whole cell.",
+          "particle volumes are too large",
+          f"{LINEAR} {MUSL}", {MASS: "self.m, self.vol = problem.mass, np.full(len(problem.mass), problem.h**self.d)"},
+          source="B6, variant"),
+    Fault("volume-of-two-per-axis",
+          "Gives each particle the volume (h/2)^d, whatever the number of particles per cell.",
+          "particle volumes are right for two particles per axis only",
+          f"{QUADRATIC} {USL}",
+          {MASS: "self.m, self.vol = problem.mass, (0.5 * problem.h) ** self.d * np.linalg.det(problem.deformation_gradient)"},
+          source="B6, variant"),
+    Fault("initial-stress-dropped",
+          "Starts with zero stress.",
+          "the initial stress is ignored",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {STATE: "self.f, self.sigma = problem.deformation_gradient.copy(), np.zeros_like(problem.stress)"},
+          source="B7: cb-geo/mpm #344"),
+    Fault("initial-f-dropped",
+          "Starts with F = 1.",
+          "the initial deformation gradient is ignored",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {STATE: "self.f, self.sigma = np.broadcast_to(np.eye(self.d), problem.stress.shape).copy(), problem.stress.copy()"},
+          source="B7: cb-geo/mpm #344"),
+    Fault("initial-displacement-dropped",
+          "Starts particles at their reference positions.",
+          "the initial displacement is ignored",
+          f"{LINEAR} {MUSL}", {"problem.position.copy(), problem.velocity": "problem.reference_position.copy(), problem.velocity"},
+          source="B7: cb-geo/mpm #344"),
+    Fault("initial-velocity-dropped",
+          "Starts at rest.",
+          "the initial velocity is ignored",
+          f"{LINEAR} {MUSL}", {"problem.velocity.copy()": "np.zeros_like(problem.velocity)"}),
+    Fault("initial-velocity-uniform",
+          "Gives all particles the mean initial velocity.",
+          "the initial velocity does not vary in space",
+          f"{QUADRATIC} {USL}", {"problem.velocity.copy()": "problem.velocity * 0 + problem.velocity.mean(axis=0)"}),
+    Fault("initial-f-transposed",
+          "Reads tensors column by column.",
+          "the initial deformation gradient is transposed",
+          f"{LINEAR} {MUSL}", {'particles["deformation_gradient"].reshape(-1, d, d)':
+                               'particles["deformation_gradient"].reshape(-1, d, d).transpose(0, 2, 1).copy()'}),
+    Fault("initial-vectors-component-wise",
+          "Reads velocities as all first components followed by all second components.",
+          "columns of vectors are read in the wrong layout",
+          f"{LINEAR} {MUSL}", {'particles["velocity"].reshape(-1, d)': 'particles["velocity"].reshape(d, -1).T.copy()'}),
+    Fault("reference-volume-of-deformed-body",
+          "Takes the volume at the start as the reference volume.",
+          "volumes are J times too large where the body starts deformed",
+          f"{LINEAR} {MUSL}", {"self.vol0 = self.vol / np.linalg.det(self.f)": "self.vol0 = self.vol.copy()"}),
+    Fault("random-seeding",
+          "Displaces particles at random by up to a twentieth of a cell to avoid artefacts of the lattice.",
+          "initial positions are changed",
+          f"{QUADRATIC} {USL}", {"problem.position.copy(), problem.velocity":
+                                 "problem.position + 0.05 * problem.h * np.random.default_rng(1).uniform("
+                                 "-1, 1, problem.position.shape), problem.velocity"}),
+    Fault("own-seeding",
+          "Places particles on its own lattice, a quarter of a cell away from the given positions.",
+          "initial positions are shifted",
+          f"{QUADRATIC} {MUSL}", {"problem.position.copy(), problem.velocity":
+                                  "problem.position + 0.25 * problem.h, problem.velocity"}),
+    Fault("origin-ignored",
+          "Assumes that the grid starts at the coordinate zero.",
+          "the origin of the grid is ignored",
+          f"{QUADRATIC} {USL}",
+          {"self.s = (self.x - problem.origin) / problem.h": "self.s = self.x / problem.h"}),
+    Fault("square-grid-assumed",
+          "Uses the number of cells of the first axis for all axes.",
+          "the number of cells is that of the first axis",
+          f"{LINEAR} {MUSL}", {"ends, periodic = np.array(problem.cells)": "ends, periodic = np.array(problem.cells[:1] * self.d)"}),
+]
+
+GRID = [
+    Fault("gradient-per-cell",
+          "Forgets to divide the slopes of the basis by the cell size.",
+          "gradients lack the factor 1/h",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {"dn[r] / self.problem.h": "dn[r]"}),
+    Fault("gradient-of-one-axis",
+          "Uses the slope along an axis as gradient, without the functions of the other axes.",
+          "gradients lack the weights of the other axes",
+          f"{LINEAR} {MUSL}", {"np.prod([*value[:a], slope[a], *value[a + 1:]], axis=0)": "slope[a]"}),
+    Fault("gradient-third-axis-copied",
+          "Copies the line of the second axis for the third and forgets to change the index.",
+          "gradients along z are those along y",
+          f"{LINEAR} {MUSL}",
+          {"self.dn = np.array(gradients).transpose(2, 0, 1).copy()":
+           "self.dn = np.array(gradients).transpose(2, 0, 1).copy(); self.dn[..., 2:] = self.dn[..., 1:self.d - 1]"}),
+    Fault("gradient-half-cell-off",
+          "Evaluates gradients at the cell centre and functions at the particle.",
+          "gradients are evaluated at another place than the functions",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def weigh(self):
+                  s, self.s = self.s, self.cell + 0.5
+                  super().weigh()
+                  dn, self.s = self.dn, s
+                  super().weigh()
+                  self.dn = dn
+          """),
+    Fault("weights-truncated",
+          "Neglects weights below 0.03 to save time.",
+          "weights do not sum to one",
+          [f"{CUBIC} {MUSL}", f"{QUADRATIC} {USL}"],
+          {"self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy()":
+           "self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy(); self.n[self.n < 0.03] = 0"}),
+    Fault("weights-of-rounded-cell",
+          "Finds cells by rounding to the nearest integer, which is right for quadratic splines at nodes only.",
+          "particles use the functions of a neighbouring cell",
+          f"{LINEAR} {MUSL}", {"np.minimum(self.s.astype(int), ends - 1)": "np.minimum(np.rint(self.s).astype(int), ends - 1)"}),
+    Fault("weights-typo",
+          "Has a typing error in a coefficient of the middle function: 0.74 instead of 0.75.",
+          "weights do not sum to one",
+          f"{QUADRATIC} {USL}", {"return np.array(value), -np.diff":
+                                 "return np.array(value) * (1 - 0.0133 * (np.arange(degree + 1) == degree // 2))[:, None], -np.diff"}),
+    Fault("cells-found-once-per-message",
+          "Updates the cells of particles at the start of each message only.",
+          "particles that cross a cell face keep their old cell",
+          [f"{QUADRATIC} {USL}", f"{LINEAR} {MUSL}"],
+          patch="""
+              is_stale = False
+
+              def locate(self):
+                  old = getattr(self, "cell", None)
+                  super().locate()
+                  if self.is_stale:
+                      self.cell = old
+
+              def advance(self, steps, dt, time):
+                  self.locate()
+                  self.is_stale = True
+                  super().advance(steps, dt, time)
+                  self.is_stale = False
+          """),
+    Fault("mass-of-the-first-step",
+          "Computes nodal masses once.",
+          "nodal masses do not follow the particles",
+          f"{QUADRATIC} {USL}",
+          {"self.mass = self.add(self.n * self.m[:, None])":
+           'self.mass = vars(self).get("mass", self.add(self.n * self.m[:, None]))'}),
+    Fault("mass-threshold-absolute",
+          "Ignores nodes whose mass is below 1e-3 kg.",
+          "nodes with a small mass are ignored: results depend on units",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {"where=mass > 0": "where=mass > 1e-3"}),
+    Fault("mass-regularised",
+          "Divides by the nodal mass plus 1e-3 kg to avoid division by zero.",
+          "nodal velocities are too small by an absolute mass",
+          f"{LINEAR} {USL}", {"np.divide(sums, mass,": "np.divide(sums, mass + 1e-3,"}),
+    Fault("sums-lose-duplicates",
+          "Adds to nodes with `field[nodes] += terms`, which keeps one of several contributions.",
+          "contributions of particles to a node overwrite each other",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              def add(self, terms):
+                  sums = np.zeros(len(self.free))
+                  sums[self.nodes.ravel()] += terms.ravel()
+                  return sums
+          """),
+    Fault("sums-race",
+          "Adds to nodes from several threads without atomics, so that one of a thousand contributions is lost.",
+          "results differ from run to run",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              generator = np.random.default_rng()
+
+              def add(self, terms):
+                  return super().add(np.where(self.generator.random(terms.shape) < 1e-3, 0, terms))
+          """),
+    Fault("periodic-seam-open",
+          "Limits node numbers to the last node instead of wrapping them.",
+          "the periodic face is not closed",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {"at = [index[r] % count for": "at = [np.minimum(index[r], count - 1) for"}),
+]
+
+TIME = [
+    Fault("restart-kick",
+          "Repeats the half step back of the leapfrog at each message.",
+          "the half step of the start is repeated in every message",
+          [f"{LINEAR} {MUSL} {HALF_BACK}", f"{QUADRATIC} {USL} {HALF_BACK}"],
+          patch="""
+              def advance(self, steps, dt, time):
+                  self.started = False
+                  super().advance(steps, dt, time)
+          """, source="B12: restart kick"),
+    Fault("time-restarts",
+          "Counts time from zero in each message.",
+          "the time of body forces restarts with every message",
+          [f"{LINEAR} {MUSL}", f"{CUBIC} {USL} {HALF_BACK}"],
+          {"time + step * dt": "step * dt"}, source="B12, variant"),
+    Fault("f-restarts",
+          "Sets F to the identity at each message, as a restart in the updated configuration does.",
+          "F restarts with every message",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              def advance(self, steps, dt, time):
+                  self.f = np.broadcast_to(np.eye(self.d), self.f.shape).copy()
+                  super().advance(steps, dt, time)
+          """, source="B12, variant"),
+    Fault("stress-restarts",
+          "Does not keep the stress from message to message.",
+          "the stress restarts with every message",
+          f"{LINEAR} {USL}",
+          patch="""
+              def advance(self, steps, dt, time):
+                  self.sigma = np.zeros_like(self.sigma)
+                  super().advance(steps, dt, time)
+          """, source="B12, variant"),
+    Fault("velocity-reset-to-grid",
+          "Sends particle velocities through the grid at the start of each message.",
+          "velocities are smoothed in every message",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def advance(self, steps, dt, time):
+                  self.weigh()
+                  self.v = self.gather(self.velocity())
+                  super().advance(steps, dt, time)
+          """, source="B12, variant"),
+    Fault("steps-one-short",
+          "Takes one step fewer than asked in each message.",
+          "a step is missing in every message",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL} {HALF_BACK}"], {"range(steps)": "range(steps - 1)"}),
+    Fault("steps-one-more",
+          "Takes one step more than asked in each message.",
+          "there is a step too many in every message",
+          f"{LINEAR} {USL}", {"range(steps)": "range(steps + 1)"}),
+    Fault("time-step-of-its-own",
+          "Uses a time step from its own stability criterion, 0.17 h/c, for as many steps as asked.",
+          "the time step is not the one that is asked for",
+          f"{QUADRATIC} {USL}",
+          {"self.step(dt, time + step * dt)":
+           "dt = 0.17 * self.problem.h / np.sqrt((self.lam + 2 * self.mu) * self.vol0[0] / self.m[0]); "
+           "self.step(dt, time + step * dt)"}),
+    Fault("start-kick-sign",
+          "Takes the first velocity half a step forward instead of back.",
+          "the half step of the start has the opposite sign",
+          [f"{LINEAR} {MUSL} {HALF_BACK}", f"{QUADRATIC} {USL} {HALF_BACK}"],
+          {"self.v -= 0.5 * change": "self.v += 0.5 * change"}),
+    Fault("start-whole-step-back",
+          "Takes the first velocity a whole step back.",
+          "the step back of the start is twice too long",
+          f"{LINEAR} {MUSL} {HALF_BACK}", {"self.v -= 0.5 * change": "self.v -= change"}),
+    Fault("flip-without-increments",
+          "Blends the old particle velocity with the grid velocity and forgets the FLIP increment.",
+          "accelerations act on the PIC part of the blend only",
+          [f"{LINEAR} {MUSL} --flip 0.95", f"{QUADRATIC} {USL} --flip 0.5"],
+          {"        self.v += change\n": "        self.v += 0 * change\n"}),
+    Fault("pic-part-before-update",
+          "Blends with the grid velocity before the forces are applied.",
+          "accelerations act on the FLIP part of the blend only",
+          f"{LINEAR} {MUSL} --flip 0.95",
+          {"velocity = self.velocity() + dt * acceleration": "velocity = self.velocity()"}),
+    Fault("damping-left-on",
+          "Multiplies velocities by 0.999 in every step.",
+          "velocities are damped",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL} {HALF_BACK}"], {MOVE: f"{MOVE}; self.v *= 0.999"}),
+    Fault("damping-local-left-on",
+          "Leaves the local damping of quasi-static analyses switched on, with a factor of 0.05.",
+          "forces are reduced where they do work",
+          f"{LINEAR} {USL}",
+          patch="""
+              def acceleration(self, time):
+                  value = super().acceleration(time)
+                  return value - 0.05 * np.abs(value) * np.sign(self.velocity())
+          """),
+    Fault("acceleration-of-the-last-step",
+          "Applies the forces of the preceding step: they are computed after the update.",
+          "forces are one step late",
+          f"{LINEAR} {MUSL}",
+          patch="""
+              last = None
+
+              def acceleration(self, time):
+                  value = super().acceleration(time)
+                  self.last, late = value, value if self.last is None else self.last
+                  return late
+          """),
+]
+
+OUTPUT = [
+    Fault("output-displacement-single",
+          "Writes displacements in single precision.",
+          "displacements are rounded to single precision",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {'"displacement": self.x - self.problem.reference_position':
+           '"displacement": np.float32(self.x - self.problem.reference_position)'},
+          source="B9: PlasticineLab #4"),
+    Fault("output-six-digits",
+          "Passes its results through a text file with six digits.",
+          "results are rounded to six digits",
+          f"{LINEAR} {USL}",
+          patch="""
+              def state(self):
+                  six = np.vectorize(lambda value: float(f"{value:.5e}"))
+                  return {key: six(value) if isinstance(value, np.ndarray) else value
+                          for key, value in super().state().items()}
+          """, source="B9, variant"),
+    Fault("single-precision",
+          "Keeps positions, velocities and stresses in single precision, and claims double.",
+          "the solver computes in single precision",
+          [f"{LINEAR} {MUSL}", f"{CUBIC} {USL} {HALF_BACK}"],
+          patch="""
+              def step(self, dt, time):
+                  super().step(dt, time)
+                  for name in ("x", "v", "f", "sigma"):
+                      setattr(self, name, np.float32(getattr(self, name)).astype(float))
+          """, source="B9, variant"),
+    Fault("single-precision-grid",
+          "Keeps nodal quantities in single precision, and claims double.",
+          "the grid is in single precision",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def per_mass(self, terms):
+                  return np.float32(super().per_mass(terms)).astype(float)
+          """),
+    Fault("output-position",
+          "Returns positions as displacements.",
+          "displacements are positions",
+          f"{LINEAR} {MUSL}", {'"displacement": self.x - self.problem.reference_position': '"displacement": self.x'}),
+    Fault("output-displacement-from-start",
+          "Returns displacements from the initial positions instead of the reference positions.",
+          "displacements lack the initial displacement",
+          f"{LINEAR} {MUSL}", {'"displacement": self.x - self.problem.reference_position':
+                               '"displacement": self.x - self.problem.position'}),
+    Fault("output-other-order",
+          "Sorts particles by cell for speed and returns them in the sorted order.",
+          "particles are returned in another order",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              def state(self):
+                  order = np.lexsort(self.cell.T)
+                  return {key: value[order] if isinstance(value, np.ndarray) else value
+                          for key, value in super().state().items()}
+          """, source="A3: another order"),
+    Fault("output-stress-other-order",
+          "Sorts particles, and returns all columns but the stress in the original order.",
+          "stresses belong to other particles",
+          f"{LINEAR} {MUSL}", {'"stress": self.sigma,': '"stress": self.sigma[::-1],'}),
+    Fault("output-points-in-other-order",
+          "Names points in one order and answers in the reverse order.",
+          "answers are not in the order of the points",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def state(self):
+                  return {key: value[::-1] if isinstance(value, np.ndarray) else value
+                          for key, value in super().state().items()}
+          """, points="particles", source="A3, variant"),
+    Fault("output-component-wise",
+          "Returns all first components followed by all second components.",
+          "columns of vectors are written in the wrong layout",
+          f"{LINEAR} {MUSL}",
+          {'"displacement": self.x - self.problem.reference_position, "velocity": self.v':
+           '"displacement": (self.x - self.problem.reference_position).T, "velocity": self.v.T'}),
+    Fault("output-velocity-of-last-step",
+          "Returns the velocity of the beginning of the last step.",
+          "velocities belong to a time one step earlier",
+          f"{LINEAR} {MUSL}",
+          {"self.weigh()": "self.weigh(); self.old = self.v.copy()", '"velocity": self.v,': '"velocity": self.old,'}),
+    Fault("output-velocity-in-cells",
+          "Returns velocities in cells per second, its internal unit.",
+          "velocities are divided by the cell size",
+          f"{QUADRATIC} {USL}", {'"velocity": self.v,': '"velocity": self.v / self.problem.h,'}),
+    Fault("output-displacement-in-millimetres",
+          "Returns displacements in millimetres.",
+          "displacements are in another unit",
+          f"{LINEAR} {USL}", {'"displacement": self.x - self.problem.reference_position':
+                              '"displacement": 1000 * (self.x - self.problem.reference_position)'}),
+    Fault("output-stress-in-kilopascal",
+          "Returns stresses in kPa.",
+          "stresses are in another unit",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {'"stress": self.sigma,': '"stress": self.sigma / 1000,'}),
+    Fault("output-pressure-sign",
+          "Returns stresses that are positive in compression, as in soil mechanics.",
+          "stresses have the opposite sign",
+          f"{LINEAR} {MUSL}", {'"stress": self.sigma,': '"stress": -self.sigma,'}),
+    Fault("output-stress-voigt",
+          "Returns stresses in the order xx, yy, xy, 0.",
+          "components of the stress are in the wrong order",
+          f"{LINEAR} {MUSL}",
+          {'"stress": self.sigma,': '"stress": self.sigma.reshape(len(self.x), -1)[:, [0, 3, 1, 2] if self.d == 2 else slice(None)],'}),
+    Fault("output-stress-deviator",
+          "Returns the deviator of the stress.",
+          "the stress lacks its mean",
+          f"{QUADRATIC} {USL}",
+          {'"stress": self.sigma,': '"stress": self.sigma - np.trace(self.sigma, axis1=1, axis2=2)[:, None, None] * np.eye(self.d) / 3,'}),
+    Fault("output-stress-one-step-late",
+          "Returns the stress of the beginning of the last step.",
+          "stresses belong to a time one step earlier",
+          f"{LINEAR} {USL}",
+          {"self.weigh()": "self.weigh(); self.old = self.sigma.copy()", '"stress": self.sigma,': '"stress": self.old,'}),
+    Fault("output-stress-first-piola",
+          "Returns the first Piola-Kirchhoff stress.",
+          "the stress returned is the first Piola-Kirchhoff stress",
+          f"{LINEAR} {MUSL}",
+          {'"stress": self.sigma,': '"stress": np.linalg.det(self.f)[:, None, None] * self.sigma @ np.linalg.inv(self.f).transpose(0, 2, 1),'}),
+    Fault("output-f-transposed",
+          "Returns the transpose of F: writes it column by column.",
+          "the deformation gradient returned is transposed",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {'"deformation_gradient": self.f': '"deformation_gradient": self.f.transpose(0, 2, 1)'}),
+    Fault("output-f-minus-one",
+          "Returns the displacement gradient F - 1.",
+          "the deformation gradient returned lacks the identity",
+          f"{LINEAR} {MUSL}", {'"deformation_gradient": self.f': '"deformation_gradient": self.f - np.eye(self.d)'}),
+    Fault("output-f-inverse",
+          "Returns the inverse of F.",
+          "the deformation gradient returned is inverted",
+          f"{CUBIC} {MUSL}", {'"deformation_gradient": self.f': '"deformation_gradient": np.linalg.inv(self.f)'}),
+]
+
+
+def variants(fault):
+    """A fault for each of its settings."""
+    if isinstance(fault.settings, str):
+        return [fault]
+    names = [fault.name, *(f"{fault.name}-{k}" for k in range(2, len(fault.settings) + 1))]
+    return [Fault(**{**vars(fault), "name": name, "settings": settings})
+            for name, settings in zip(names, fault.settings)]
+
+
+FAMILIES = {"positions": POSITIONS, "loads": LOADS, "walls": WALLS, "affine transfer": AFFINE, "materials": MATERIALS,
+            "initial state": INITIAL, "grid and basis": GRID, "time": TIME, "output": OUTPUT}
+FAULTS = {fault.name: fault for family in FAMILIES.values() for each in family for fault in variants(each)}

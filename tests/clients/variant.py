@@ -1,0 +1,136 @@
+"""Runs a Python client with a fault of `faults.py`, or with its states given at other points.
+
+    python3 tests/clients/variant.py [--client NAME] [--fault NAME] [--points KIND] OPTION ...
+
+The remaining options are those of the client. `--points particles` names the particles' reference positions as
+points, `--points shuffled` the same in a random order, and `--points nodes` the mesh nodes in the body.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import textwrap
+import types
+from pathlib import Path
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+from faults import FAULTS
+
+CLIENTS = Path(__file__).resolve().parent
+SOLVERS = CLIENTS.parents[1] / "examples/solvers"
+# Client name -> files to load in order, class name.
+SOURCES = {
+    "numpy": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py"], "Mpm"),
+    "apic": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "apic_mpm.py"], "Apic"),
+}
+MAIN = '\nif __name__ == "__main__":\n'
+
+
+def edited(texts, fault):
+    """The sources with the edits of `fault`; each old text must occur exactly once in all of them."""
+    for old, new in fault.edits.items():
+        counts = [text.count(old) for text in texts]
+        if sum(counts) != 1:
+            sys.exit(f"{fault.name}: the sources of the client contain `{old}` {sum(counts)} times, not once")
+        texts = [text.replace(old, new) for text in texts]
+    return texts
+
+
+def load(client, fault):
+    """The module of the client, the name of its class, and its main program."""
+    files, name = SOURCES[client]
+    texts = [file.read_text() for file in files]
+    for file, text in zip(files, edited(texts, fault) if fault else texts):
+        head, _, main = text.partition(MAIN)
+        module = types.ModuleType(file.stem)
+        module.__file__ = str(file)
+        sys.modules[file.stem] = module
+        exec(compile(head, str(file), "exec"), module.__dict__)
+    if fault and fault.patch:
+        text = f"class {name}({name}):\n" + textwrap.indent(textwrap.dedent(fault.patch).strip("\n"), "    ")
+        exec(compile(text, f"<{fault.name}>", "exec"), module.__dict__)
+    return module, name, textwrap.dedent(main)
+
+
+def ask_at(problem, places):
+    """Makes `places` the default positions of body forces; with points, the default of the protocol is the points."""
+    ask = problem.body_force
+    problem.body_force = lambda t, at=None: ask(t, places if at is None else at)
+
+
+class AtParticles:
+    """States at the particles, which are named as points."""
+
+    def order(self, count):
+        return np.arange(count)
+
+    def setup(self, problem):
+        self.chosen = self.order(len(problem.reference_position))
+        volume = problem.volume / np.linalg.det(problem.deformation_gradient)
+        points = {"reference_position": problem.reference_position[self.chosen], "weight": volume[self.chosen]}
+        ask_at(problem, problem.reference_position)
+        super().setup(problem)
+        return points
+
+    def state(self):
+        return {key: value[self.chosen] if isinstance(value, np.ndarray) else value
+                for key, value in super().state().items()}
+
+
+class Shuffled(AtParticles):
+    """States at the particles in a random order."""
+
+    def order(self, count):
+        return np.random.default_rng(39).permutation(count)
+
+
+class AtNodes:
+    """Displacements and velocities of the mesh nodes in the body: means over the particles, weighted with volumes and
+    the linear function of the node. Reference positions are such means too: those of the nodes, but at the boundary
+    further inside. Linear fields are reproduced exactly, and so are the sums of volume and momentum."""
+
+    def __init__(self, *arguments, **options):
+        super().__init__(*arguments, **options)
+        self.capabilities = {**self.capabilities, "columns": []}
+
+    def setup(self, problem):
+        s = (problem.reference_position - problem.origin) / problem.h
+        axes = [np.arange(cells + 1) for cells in problem.cells]
+        nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, problem.dimension)
+        volume = problem.volume / np.linalg.det(problem.deformation_gradient)
+        share = volume * np.maximum(1 - np.abs(s[None] - nodes[:, None]), 0).prod(axis=-1)
+        share = share[share.sum(axis=1) > 1e-9 * volume.max()]
+        weight = share.sum(axis=1)
+        self.share = share / weight[:, None]
+        ask_at(problem, problem.reference_position)
+        super().setup(problem)
+        return {"reference_position": self.share @ problem.reference_position, "weight": weight}
+
+    def state(self):
+        state = super().state()
+        return {**{key: state[key] for key in ("crossings", "min_j") if key in state},
+                **{key: self.share @ state[key] for key in ("displacement", "velocity")}}
+
+
+POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes}
+
+
+def main():
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    parser.add_argument("--client", choices=SOURCES, default="numpy")
+    parser.add_argument("--fault", choices=FAULTS, metavar="NAME")
+    parser.add_argument("--points", choices=POINTS)
+    arguments, rest = parser.parse_known_args()
+    module, name, program = load(arguments.client, FAULTS.get(arguments.fault))
+    if arguments.points:
+        bases = (POINTS[arguments.points], module.__dict__[name])
+        module.__dict__[name] = type(name, bases, {})
+    sys.argv[1:] = rest
+    exec(compile(program, module.__file__, "exec"), module.__dict__)
+
+
+if __name__ == "__main__":
+    main()
