@@ -29,9 +29,10 @@ class Apic(Mpm):
     def __init__(self, basis: str, start: str, gradient: str) -> None:
         super().__init__(basis, "usl", 1.0, start)
         self.is_mls = gradient == "affine"
-        if self.is_mls or basis == "cubic_bspline":
-            # The moments change near walls, which costs these variants the order 2 there.
-            self.capabilities = {**self.capabilities, "conditions": ["free", "periodic"]}
+        # The moments change near walls, which costs moving least squares and cubic B-splines the order 2 there.
+        walls = [] if self.is_mls or basis == "cubic_bspline" else ["fixed", "roller"]
+        self.capabilities = {**self.capabilities, "conditions": ["free", "periodic", *walls],
+                             "loads": ["gravity", "body_force"]}
 
     def setup(self, problem: Problem) -> None:
         self.affine = np.zeros((len(problem.position), problem.dimension, problem.dimension))
@@ -55,6 +56,11 @@ class Apic(Mpm):
     def velocity(self) -> Array:
         moved = self.v[:, None] + np.einsum("pab,pkb->pka", self.affine, self.offset)
         return self.per_mass(self.n[..., None] * self.m[:, None, None] * moved)
+
+    def acceleration(self, time: float, _: float = 0.0) -> Array:
+        stress = np.einsum("pkb,pab->pka", self.dn, self.vol[:, None, None] * self.sigma)
+        force = self.m[:, None] * self.problem.body_force(time)
+        return self.per_mass(self.n[..., None] * force[:, None] - stress)
 
     def take(self, velocity: Array) -> None:
         """Affine fields of the particles, from a nodal velocity."""

@@ -26,29 +26,29 @@ class Configuration:
     is_second_order: bool
 
 
-def points_of(kind):
+def points_options(kind):
     return ["--points", kind] if kind else []
 
 
-def of_numpy(kind, blends, starts=tuple(STARTS)):
+def numpy_configurations(kind, blends, starts=tuple(STARTS)):
     family = f"NumPy client, points: {kind or 'none'}"
     for basis, scheme, start, flip in itertools.product(BASES, SCHEMES, starts, blends):
         options = ["--basis", basis, "--scheme", scheme, "--start", start, "--flip", str(flip)]
         name = "-".join(["numpy", basis, scheme, start, f"flip-{flip}", *([kind] if kind else [])])
-        command = [*VARIANT, *points_of(kind), *options] if kind else [*NUMPY, *options]
+        command = [*VARIANT, *points_options(kind), *options] if kind else [*NUMPY, *options]
         yield Configuration(family, name, command, flip == 1.0 and start == "half_step_back")
 
 
-def of_apic():
+def apic_configurations():
     for basis, gradient, start, kind in itertools.product(
             BASES[1:], ["basis", "affine"], STARTS, ["", "particles", "shuffled", "nodes"]):
         options = ["--basis", basis, "--gradient", gradient, "--start", start]
         name = "-".join(["apic", basis, gradient, start, *([kind] if kind else [])])
-        command = [*VARIANT, "--client", "apic", *points_of(kind), *options] if kind else [*APIC, *options]
+        command = [*VARIANT, "--client", "apic", *points_options(kind), *options] if kind else [*APIC, *options]
         yield Configuration("APIC client", name, command, start == "half_step_back")
 
 
-def of_cpp():
+def cpp_configurations():
     for basis, scheme, start in itertools.product(BASES, SCHEMES, STARTS):
         yield Configuration("C++ client", f"cpp-{basis}-{scheme}-{start}",
                             ["{cpp}", "--basis", basis, "--scheme", scheme, "--start", start],
@@ -56,12 +56,12 @@ def of_cpp():
 
 
 CONFIGURATIONS = [
-    *of_numpy("", BLENDS),
-    *of_numpy("particles", BLENDS),
-    *of_numpy("shuffled", BLENDS),
-    *of_numpy("nodes", [1.0, 0.95]),
-    *of_apic(),
-    *of_cpp(),
+    *numpy_configurations("", BLENDS),
+    *numpy_configurations("particles", BLENDS),
+    *numpy_configurations("shuffled", BLENDS),
+    *numpy_configurations("nodes", [1.0, 0.95]),
+    *apic_configurations(),
+    *cpp_configurations(),
     Configuration("Fortran client", "fortran", ["{fortran}"], False),
 ]
 CONFIGURATIONS = {configuration.name: configuration for configuration in CONFIGURATIONS}

@@ -42,13 +42,13 @@ MU = "self.mu = young / (2 * (1 + poisson))"
 LAMBDA = "self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))"
 STATE = "self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()"
 STARTED = "if not self.started and self.start"
-# Maps to the nodes without setting the held components to zero.
+# Calls a method without setting the held components of nodal fields to zero.
 UNHELD = """
-    def unheld(self, terms):
+    def unheld(self, method, *arguments):
         free, self.free = self.free, np.ones_like(self.free)
-        sums = self.per_mass(terms)
+        field = method(*arguments)
         self.free = free
-        return sums
+        return field
 """
 
 POSITIONS = [
@@ -125,9 +125,12 @@ LOADS = [
           "Adds body forces to the grid acceleration after the wall nodes were set to zero.",
           "body forces act on nodes that a wall holds",
           [f"{LINEAR} {USL}", f"{QUADRATIC} {USL} {HALF_BACK}", f"{LINEAR} {MUSL}"],
-          {"return self.per_mass(self.n[..., None] * force[:, None] - stress)":
-           "return self.per_mass(-stress) + self.unheld(self.n[..., None] * force[:, None])"},
-          patch=UNHELD, source="B2: taichi_elements PR #115"),
+          patch=UNHELD + """
+    def acceleration(self, time, *more):
+        force = self.m[:, None] * self.problem.body_force(time)
+        field = self.unheld(self.per_mass, self.n[..., None] * force[:, None])
+        return super().acceleration(time, *more) + (1 - self.free) * field
+          """, source="B2: taichi_elements PR #115"),
     Fault("gravity-sign",
           "Subtracts body forces.",
           "body forces have the opposite sign",
@@ -223,16 +226,18 @@ WALLS = [
           "Sets the acceleration of held nodes to zero and keeps the velocity mapped to them.",
           "walls hold the acceleration but not the velocity",
           [f"{LINEAR} {USL}", f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL} --flip 0.95"],
-          {"return self.per_mass(self.n[..., None] * (self.m[:, None] * self.v)[:, None])":
-           "return self.unheld(self.n[..., None] * (self.m[:, None] * self.v)[:, None])"},
-          patch=UNHELD, source="B3: Kratos #7254"),
+          patch=UNHELD + """
+    def velocity(self):
+        return self.unheld(super().velocity)
+          """, source="B3: Kratos #7254"),
     Fault("wall-keeps-acceleration",
           "Sets the velocity of held nodes to zero, and gives particles the acceleration before that.",
           "walls hold the velocity but not the acceleration",
           [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
-          {"return self.per_mass(self.n[..., None] * force[:, None] - stress)":
-           "return self.unheld(self.n[..., None] * force[:, None] - stress)"},
-          patch=UNHELD),
+          patch=UNHELD + """
+    def acceleration(self, *times):
+        return self.unheld(super().acceleration, *times)
+          """),
     Fault("walls-ignored",
           "Does not read the faces of the problem.",
           "walls are missing",
@@ -400,21 +405,40 @@ MATERIALS = [
           "Computes the Kirchhoff stress and uses it as Cauchy stress with the present volume.",
           "the stress is J times the Cauchy stress",
           f"{QUADRATIC} {MUSL} {HALF_BACK}",
-          {"left = self.f @": "spherical, by_j = spherical * j[:, None, None], np.ones_like(by_j); left = self.f @"}),
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  self.sigma = np.linalg.det(self.f)[:, None, None] * self.sigma
+          """),
     Fault("stress-log-without-j",
           "Forgets 1/J in the volumetric term of the neo-Hookean law.",
           "the volumetric stress lacks the factor 1/J",
           f"{LINEAR} {MUSL}",
-          {"(self.lam * np.log(j)[:, None, None] - self.mu) * by_j":
-           "self.lam * np.log(j)[:, None, None] - self.mu * by_j"}),
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  j = np.linalg.det(self.f)[:, None, None]
+                  self.sigma = self.sigma + self.lam * np.log(j) * (1 - 1 / j) * np.eye(self.d)
+          """),
     Fault("stress-log10",
           "Uses the decimal logarithm.",
           "the volumetric stress is 0.434 of what it should be",
-          f"{LINEAR} {USL}", {"np.log(j)": "np.log10(j)"}),
+          f"{LINEAR} {USL}",
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  j = np.linalg.det(self.f)[:, None, None]
+                  self.sigma = self.sigma + self.lam * (np.log10(j) - np.log(j)) / j * np.eye(self.d)
+          """),
     Fault("stress-shear-of-full-left-tensor",
           "Computes mu F F^T without subtracting the unit tensor.",
           "the undeformed state has a stress",
-          f"{QUADRATIC} {USL}", {"np.log(j)[:, None, None] - self.mu)": "np.log(j)[:, None, None])"}),
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  self.sigma = self.sigma + self.mu / np.linalg.det(self.f)[:, None, None] * np.eye(self.d)
+          """),
     Fault("stress-sign",
           "Adds the divergence of the stress with the wrong sign.",
           "internal forces have the opposite sign",
@@ -520,7 +544,14 @@ MATERIALS = [
     Fault("j-limited",
           "Limits J to between 0.95 and 1.05, as in models of snow.",
           "J is limited",
-          f"{LINEAR} {MUSL}", {"j = np.linalg.det(self.f)\n": "j = np.clip(np.linalg.det(self.f), 0.95, 1.05)\n"}),
+          f"{LINEAR} {MUSL}",
+          patch="""
+              def neo_hookean(self, step):
+                  f, j = self.f, np.linalg.det(self.f)
+                  self.f = ((np.clip(j, 0.95, 1.05) / j) ** (1 / self.d))[:, None, None] * f
+                  super().neo_hookean(step)
+                  self.f = f
+          """),
     Fault("no-tension",
           "Sets the stress of stretched particles to zero, a setting for sand.",
           "the material has no stress in tension",
@@ -837,8 +868,8 @@ TIME = [
           "forces are reduced where they do work",
           f"{LINEAR} {USL}",
           patch="""
-              def acceleration(self, time):
-                  value = super().acceleration(time)
+              def acceleration(self, *times):
+                  value = super().acceleration(*times)
                   return value - 0.05 * np.abs(value) * np.sign(self.velocity())
           """),
     Fault("acceleration-of-the-last-step",
@@ -848,8 +879,8 @@ TIME = [
           patch="""
               last = None
 
-              def acceleration(self, time):
-                  value = super().acceleration(time)
+              def acceleration(self, *times):
+                  value = super().acceleration(*times)
                   self.last, late = value, value if self.last is None else self.last
                   return late
           """),

@@ -29,7 +29,7 @@ SOURCES = {
 MAIN = '\nif __name__ == "__main__":\n'
 
 
-def edited(texts, fault):
+def apply_edits(texts, fault):
     """The sources with the edits of `fault`; each old text must occur exactly once in all of them."""
     for old, new in fault.edits.items():
         counts = [text.count(old) for text in texts]
@@ -43,7 +43,7 @@ def load(client, fault):
     """The module of the client, the name of its class, and its main program."""
     files, name = SOURCES[client]
     texts = [file.read_text() for file in files]
-    for file, text in zip(files, edited(texts, fault) if fault else texts):
+    for file, text in zip(files, apply_edits(texts, fault) if fault else texts):
         head, _, main = text.partition(MAIN)
         module = types.ModuleType(file.stem)
         module.__file__ = str(file)
@@ -58,7 +58,7 @@ def load(client, fault):
 def ask_at(problem, places):
     """Makes `places` the default positions of body forces; with points, the default of the protocol is the points."""
     ask = problem.body_force
-    problem.body_force = lambda t, at=None: ask(t, places if at is None else at)
+    problem.body_force = lambda t, at=None, **more: ask(t, places if at is None else at, **more)
 
 
 class AtParticles:

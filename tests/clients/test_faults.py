@@ -1,0 +1,167 @@
+"""Tests of the faults themselves: each applies to the sources of its client, and changes an answer beyond rounding.
+
+    python3 -m pytest tests/clients    # or: python3 tests/clients/test_faults.py
+
+The problems are small, and take a few steps in several messages. They need no `mpm-verify`.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+import variant
+from faults import FAULTS
+
+MESSAGES = [3, 1, 4, 2]  # steps of each message
+ROUNDING = 1e-9  # of the largest value of a column
+ROOM = {"free": 1.0, "fixed": 0.0, "roller": 0.0, "periodic": 0.0}  # cells of the grid beyond a face
+
+
+class Harness:
+    """Takes the place of the channel: answers requests for body forces."""
+
+    def __init__(self):
+        self.places, self.values = None, None
+
+    def column(self, value):
+        return np.array(value, float)
+
+    def write(self, request):
+        x, t = request.get("reference_position", self.places), request["t"]
+        self.values = np.sin(3 * x + 40 * t + np.arange(x.shape[1])) * (2 + x.sum(axis=1, keepdims=True))
+
+    def read(self):
+        return {"type": "body_force", "values": self.values.ravel()}
+
+
+def problem(law, faces, cells, per_axis, force="none", speed=0.0, strain=0.0, turn=0.0):
+    """A box of some cells, moving and rotating, with an initial deformation and stress."""
+    d, h, density, dt = len(cells), 0.13, 3.0, 0.0013
+    conditions = [faces[axis * 2: axis * 2 + 2] for axis in range(d)]
+    room = np.array([[ROOM[c] for c in pair] for pair in conditions])
+    start, count = np.array([0.7, -0.4, 1.9])[:d], np.array(cells)
+    lattice = [start[a] + h * (np.arange(n * per_axis) + 0.5) / per_axis for a, n in enumerate(cells)]
+    x0 = np.stack(np.meshgrid(*lattice, indexing="ij"), axis=-1).reshape(-1, d)
+    n, middle = len(x0), start + 0.5 * h * count
+    gradient = strain * (np.triu(np.full((d, d), 0.8), 1) + np.diag(np.arange(1.0, d + 1)))
+    is_free = all(c == "free" for c in faces)
+    u = (x0 - middle) @ gradient.T if is_free else np.zeros_like(x0)
+    f = np.broadcast_to(np.eye(d) + (gradient if is_free else 0), (n, d, d))
+    stress = np.broadcast_to(strain * 50.0 * (np.eye(d) + 0.5), (n, d, d))
+    spin = turn * (np.tri(d, k=-1) - np.tri(d, k=-1).T)
+    velocity = speed * (1 + 0.3 * np.sin(9 * x0)) + (x0 - middle) @ spin.T
+    volume = (h / per_axis) ** d
+    message = {
+        "type": "problem", "suite": "small", "dimension": d,
+        "grid": {"origin": (start - h * room[:, 0]).tolist(), "h": h,
+                 "cells": (count + room.sum(axis=1)).astype(int).tolist(),
+                 "periodic": [pair[0] == "periodic" for pair in conditions]},
+        "faces": [{"name": f"{axis}{high}", "axis": axis, "high": bool(high), "condition": conditions[axis][high],
+                   "at": float(start[axis] + high * h * count[axis])} for axis in range(d) for high in (0, 1)],
+        "materials": [{"law": law, "parameters": {"young": 700.0, "poisson": 0.3}, "density": density}],
+        "bodies": [], "plane": "strain", "contact": None, "loads": [], "body_force": force, "body_force_value": [40.0, -70.0, 20.0][:d],
+        "particles_per_cell": per_axis**d, "steps": sum(MESSAGES), "dt": dt, "until": sum(MESSAGES) * dt,
+        "instants": np.cumsum(MESSAGES).tolist(),
+        "particles": {"reference_position": x0, "position": x0 + u, "velocity": velocity,
+                      "mass": np.full(n, density * volume), "reference_volume": np.full(n, volume),
+                      "volume": volume * np.linalg.det(f), "deformation_gradient": f, "stress": stress,
+                      "body": np.zeros(n)},
+    }
+    for key, value in message["particles"].items():
+        message["particles"][key] = np.asarray(value).ravel()
+    return message
+
+
+FREE, PERIODIC = ["free"] * 6, ["periodic"] * 6
+PROBLEMS = {
+    "walls at low ends": problem("linear_elastic", ["fixed", "free", "roller", "free"], (4, 5), 2, "constant", -3.0),
+    "walls at high ends": problem("linear_elastic", ["free", "roller", "free", "fixed"], (5, 4), 2, "asked", 4.0),
+    "between walls": problem("neo_hookean", ["fixed"] * 4, (6, 4), 3, "constant", 8.0),
+    "rotating and strained": problem("neo_hookean", FREE[:4], (4, 5), 3, "none", 0.5, -0.05, 12.0),
+    "rotating and stressed": problem("linear_elastic", FREE[:4], (3, 4), 2, "none", 0.5, -0.1, 15.0),
+    "periodic": problem("neo_hookean", PERIODIC[:4], (5, 4), 2, "asked", 18.0),
+    "falling": problem("linear_elastic", FREE[:4], (4, 3), 2, "constant", 1.0),
+    "bar": problem("linear_elastic", ["fixed", "free"], (6,), 2, "asked", -5.0),
+    "block": problem("linear_elastic", FREE, (2, 3, 2), 2, "none", 0.5, -0.05, 5.0),
+    "fast bar": problem("neo_hookean", PERIODIC[:2], (6,), 3, "constant", 30.0),
+}
+
+
+def solver(client, fault, options, points=""):
+    """A solver as its main program makes it."""
+    module, name, program = variant.load(client, fault)
+    if points:
+        module.__dict__[name] = type(name, (variant.POINTS[points], module.__dict__[name]), {})
+    made = []
+    module.__dict__["serve"] = made.append
+    sys.argv[1:] = options.split()
+    exec(compile(program, "main", "exec"), module.__dict__)
+    return made[0], sys.modules["mpm_verify"].Problem
+
+
+def answers(client, fault, options, points, message):
+    """The states after each message, or the error of the solver."""
+    harness = Harness()
+    try:
+        subject, kind = solver(client, fault, options, points)
+        if not {face["condition"] for face in message["faces"]} <= set(subject.capabilities["conditions"]):
+            return None
+        made = kind(message, harness)
+        named = subject.setup(made)
+        harness.places = named["reference_position"] if named else made.reference_position
+        states, taken = [], 0
+        for steps in MESSAGES:
+            subject.advance(steps, message["dt"], taken * message["dt"])
+            taken += steps
+            states.append({key: np.array(value, float) for key, value in subject.state().items()
+                           if isinstance(value, np.ndarray)})
+        return states
+    except (ArithmeticError, ValueError, IndexError) as error:
+        return str(error)
+
+
+def differ(a, b):
+    """Whether two lists of states differ beyond rounding."""
+    if isinstance(a, str) or isinstance(b, str):
+        return a != b
+    return any(x[key].shape != y[key].shape or not np.abs(x[key] - y[key]).max() <= ROUNDING * np.abs(x[key]).max()
+               for x, y in zip(a, b) for key in x)
+
+
+def effects():
+    """The problems whose answers each fault changes."""
+    sound, changed = {}, {}
+    for name, fault in FAULTS.items():
+        changed[name] = []
+        for label, message in PROBLEMS.items():
+            key = (fault.client, fault.settings, fault.points, label)
+            if key not in sound:
+                sound[key] = answers(fault.client, None, fault.settings, fault.points, message)
+                assert not isinstance(sound[key], str), (key, sound[key])
+            if sound[key] is not None:
+                faulty = answers(fault.client, fault, fault.settings, fault.points, message)
+                if differ(sound[key], faulty):
+                    changed[name].append(label)
+    return changed
+
+
+def test_every_fault_changes_an_answer():
+    assert not [name for name, problems in effects().items() if not problems]
+
+
+def test_points_in_another_order_have_the_same_answers():
+    for label, message in PROBLEMS.items():
+        plain = answers("numpy", None, "", "", message)
+        order = np.random.default_rng(39).permutation(len(plain[0]["displacement"]))
+        for points, expected in (("particles", slice(None)), ("shuffled", order)):
+            states = answers("numpy", None, "", points, message)
+            assert not differ([{key: value[expected] for key, value in state.items()} for state in plain], states), label
+
+
+if __name__ == "__main__":
+    for name, problems in effects().items():
+        print(f"{name:40} {', '.join(problems) or 'NO EFFECT'}")
+    test_points_in_another_order_have_the_same_answers()
