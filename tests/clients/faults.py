@@ -41,7 +41,6 @@ MASS = "self.m, self.vol = problem.mass, problem.volume.copy()"
 MU = "self.mu = young / (2 * (1 + poisson))"
 LAMBDA = "self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))"
 STATE = "self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()"
-STARTED = "if not self.started and self.start"
 # Calls a method without setting the held components of nodal fields to zero.
 UNHELD = """
     def unheld(self, method, *arguments):
