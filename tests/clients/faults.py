@@ -167,7 +167,7 @@ LOADS = [
           "Applies (0, -9.81) m/s2 in every problem, also in those without body forces.",
           "gravity acts in problems that state none",
           f"{LINEAR} {MUSL}",
-          {FORCE: f"{FORCE} + np.where(np.arange(self.d) == self.d - 1, -9.81, 0.0)"}),
+          {FORCE: f"({FORCE} + np.where(np.arange(self.d) == self.d - 1, -9.81, 0.0))"}),
     Fault("body-force-per-volume",
           "Takes the values as forces per volume and multiplies them by the particle volume.",
           "body forces are divided by the density",
