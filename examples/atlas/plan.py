@@ -10,6 +10,12 @@ SPACE = ["translating-block-3d", "falling-block-3d", "free-bar-pulse-3d", "free-
          "free-bar-pulse-hencky-3d", "moving-bar-pulse-3d", "moving-bar-pulse-small-3d",
          "moving-bar-pulse-hencky-3d"]
 SUITES = PLANE + SPACE
+# For codes whose points keep their neighbours: finite elements and total-Lagrangian SPH.
+LAGRANGIAN = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-pulse-small",
+              "moving-bar-pulse", "square-between-rollers", "shear-wave", "mms-axis-aligned-2d",
+              "vibrating-bar", "vibrating-bar-small-amplitude", "free-bar-second-mode",
+              "released-bar", "mms-fixed-bar-small", "mms-periodic-bar-sin",
+              "mms-periodic-bar-cos", "free-bar-pulse-small-3d", "mms-axis-aligned-3d"]
 
 # Own methods that stand beside the codes, by the names of their cases.
 OWN = {
@@ -53,6 +59,8 @@ class Code:
     further: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
     changes: dict[str, dict[str, str]] = field(default_factory=dict)
     crate: str | None = None
+    adapter: str | None = None  # path from this folder, if it is not that of the name
+    takes_any_law: bool = True  # option `--any-law` for suites in which nothing deforms
 
     def runs(self) -> list[Run]:
         asked = [(suite, variant, arguments) for variant, arguments in self.variants.items()
@@ -60,7 +68,7 @@ class Code:
         asked += [(suite, variant, arguments)
                   for variant, (arguments, suites) in self.further.items() for suite in suites]
         rigid = {True: ["--any-law"], False: []}
-        return [Run(suite, variant, arguments + rigid[is_rigid(suite)],
+        return [Run(suite, variant, arguments + rigid[self.takes_any_law and is_rigid(suite)],
                     self.changes.get(variant, {}))
                 for suite, variant, arguments in asked]
 
@@ -69,6 +77,9 @@ class Code:
 # it comes to lie on a face later, which whole steps of 0.06 of a cell would bring about from 0.1 of a cell.
 OFF_FACES = {"grid: {from: [0, 0.375, 0.375], to: [1, 0.625, 0.625]}":
              "grid: {from: [0, 0.3723, 0.3723], to: [1, 0.6223, 0.6223]}"}
+
+# A step that is refined with the grid, where the suite has one for all levels.
+DT_AS_H = {"dt: 1e-3": 'dt: "0.2*h/sqrt(E/rho)"'}
 
 CODES = [
     Code("kratos", "Kratos MPM 10.4.4", PLANE + SPACE, {"USL": ["--scheme", "usl"]}, {
@@ -95,4 +106,18 @@ CODES = [
         "FLIP 1, no stiffness": (["--flip", "1", "--stiffness", "0"],
                                  ["translating-block-3d", "falling-block-3d"]),
     }, crate="atlas-phyz"),
+    Code("scikit_fem", "scikit-fem 12.0.2", LAGRANGIAN,
+         {"linear": [], "quadratic": ["--degree", "2"]}, {
+             "quadrature points": (["--points", "quadrature"],
+                                   ["vibrating-bar", "vibrating-bar-small-amplitude",
+                                    "mms-fixed-bar-small", "mms-axis-aligned-3d"]),
+             "dt as h": ([], ["vibrating-bar-small-amplitude"]),
+         }, {"dt as h": DT_AS_H}, takes_any_law=False),
+    Code("felupe_fem", "felupe 11.3.0", LAGRANGIAN,
+         {"linear": [], "quadratic": ["--degree", "2"]}, takes_any_law=False),
+    Code("sph", "SPH of this repository", LAGRANGIAN, {"radius 1.6": []}, {
+        "radius 2.6": (["--radius", "2.6"], ["free-bar-pulse-small", "square-between-rollers",
+                                             "free-bar-second-mode", "mms-axis-aligned-2d"]),
+        "dt as h": ([], ["vibrating-bar-small-amplitude"]),
+    }, {"dt as h": DT_AS_H}, adapter="../solvers/sph.py", takes_any_law=False),
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from plan import CODES, OWN, PLANE, SPACE
+from plan import CODES, LAGRANGIAN, OWN, PLANE, SPACE
 
 PAGE = Path(__file__).resolve().parent.parent.parent / "docs" / "atlas.md"
 
@@ -33,10 +33,13 @@ def table(head: list[str], rows: list[list[str]]) -> str:
 
 
 def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
-    """Suites against the variants of codes and own methods."""
+    """Suites against the variants of codes and own methods. A table is for codes that are Lagrangian,
+    or for the others, which stand beside methods of this crate."""
+    lagrangian = suites is LAGRANGIAN
     columns = [(f"{code.title}, {variant}", code.name, variant) for code in CODES
-               for variant in code.variants if set(code.suites) & set(suites)]
-    own = [run for run in reports["own"] if run["suite"] in suites]
+               if (code.suites is LAGRANGIAN) == lagrangian and set(code.suites) & set(suites)
+               for variant in code.variants]
+    own = [run for run in reports["own"] if run["suite"] in suites and not lagrangian]
     methods = [label for label in dict.fromkeys(OWN.values())
                if any(OWN[run["case"]] == label for run in own)]
     rows = []
@@ -74,7 +77,7 @@ def write(folder: Path) -> None:
     reports = {file.stem: json.loads(file.read_text())["runs"] for file in folder.glob("*.json")}
     page = PAGE.read_text()
     for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
-                       ("further", further(reports))]:
+                       ("lagrangian", matrix(LAGRANGIAN, reports)), ("further", further(reports))]:
         begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
         head, rest = page.split(begin)
         page = head + begin + text + "\n" + end + rest.split(end)[1]
