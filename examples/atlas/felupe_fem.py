@@ -51,16 +51,16 @@ class Felupe(FiniteElements):
 
     def make_law(self, material: Message, stress: Array) -> None:
         self.field = self.container(self.u)
+        law = LAWS[material["law"]](material["parameters"])
         if material["law"] == "neo_hookean":
-            lame = Material(material["parameters"])
-            law = felupe.NeoHookeCompressible(mu=lame.mu, lmbda=lame.lam)
+            umat = felupe.NeoHookeCompressible(mu=law.mu, lmbda=law.lam)
         else:
-            d = len(self.field.extract()[0])
-            f = self.field.extract()[0].reshape(d, d, -1).transpose(2, 0, 1)
-            pad = d - stress.shape[1]
-            stress = np.pad(stress, ((0, 0), (0, pad), (0, pad)))
-            law = UserMaterial(LAWS[material["law"]](material["parameters"], f, stress))
-        self.solid = felupe.SolidBody(law, self.field)
+            f = self.field.extract()[0]
+            pad = len(f) - stress.shape[1]  # felupe has F of plane strain in three dimensions
+            f = f.reshape(len(f), len(f), -1).transpose(2, 0, 1)
+            law.start(f, np.pad(stress, ((0, 0), (0, pad), (0, pad))))
+            umat = UserMaterial(law)
+        self.solid = felupe.SolidBody(umat, self.field)
 
     def at_gauss(self, field: Array) -> Array:
         values = felupe.Field(self.region, dim=field.shape[1], values=field).interpolate()

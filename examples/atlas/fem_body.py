@@ -1,7 +1,7 @@
 """The body of a problem for finite elements: a box of elements of size h.
 
-The protocol hands over the initial state at particles. It is interpolated to nodes by polynomials of
-degree 5 along each axis of the lattice of particles, an error of order 6 in h.
+The protocol hands over the initial state at particles. It is interpolated to nodes by polynomials
+of degree 5 along each axis of the lattice of particles, an error of order 6 in h.
 """
 
 from __future__ import annotations
@@ -166,8 +166,8 @@ def lagrange(axis: Array, x: Array) -> tuple[Array, Array]:
 def main(solver: type[FiniteElements]) -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--degree", type=int, choices=[1, 2], default=1, help="of the elements")
-    parser.add_argument("--points", choices=["nodes", "quadrature"], help="points of the states; by "
-                        "default nodes with degree 1, quadrature points with degree 2")
+    parser.add_argument("--points", choices=["nodes", "quadrature"], help="points of the states; "
+                        "by default nodes with degree 1, quadrature points with degree 2")
     options = parser.parse_args()
     points = options.points or {1: "nodes", 2: "quadrature"}[options.degree]
     serve(solver(options.degree, points))

@@ -43,8 +43,8 @@ class ScikitFem(FiniteElements):
         self.weight = self.basis.dx.ravel()
 
     def make_law(self, material: Message, stress: Array) -> None:
-        law = LAWS[material["law"]]
-        self.law = law(material["parameters"], self.deformation_gradient(), stress)
+        self.law = LAWS[material["law"]](material["parameters"])
+        self.law.start(self.deformation_gradient(), stress)
 
     def at_gauss(self, field: Array) -> Array:
         columns = [np.asarray(self.basis.interpolate(column)).ravel() for column in field.T]

@@ -33,8 +33,8 @@ def table(head: list[str], rows: list[list[str]]) -> str:
 
 
 def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
-    """Suites against the variants of codes and own methods. A table is for codes that are Lagrangian,
-    or for the others, which stand beside methods of this crate."""
+    """Suites against the variants of codes. The MPM codes are compared with methods of this crate,
+    finite elements and SPH have a table without them."""
     lagrangian = suites is LAGRANGIAN
     columns = [(f"{code.title}, {variant}", code.name, variant) for code in CODES
                if (code.suites is LAGRANGIAN) == lagrangian and set(code.suites) & set(suites)

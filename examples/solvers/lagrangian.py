@@ -6,46 +6,37 @@ examples/atlas.
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 
 from mpm_verify import Array, Message, Problem
 
 
-class Law(Protocol):
-    """A material at n points. Deformation gradients and stresses have the shape (n, d, d)."""
-
-    def piola(self, f: Array) -> Array:
-        """The first Piola-Kirchhoff stress (Pa) at the deformation gradient `f`."""
-
-
 class Material:
-    """An elastic material with the Lame parameters of Young's modulus and Poisson's ratio."""
+    """An elastic law at n points. Deformation gradients and stresses have the shape (n, d, d)."""
 
     def __init__(self, parameters: Message) -> None:
         young, poisson = parameters["young"], parameters["poisson"]
         self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         self.mu = young / (2 * (1 + poisson))
 
+    def start(self, f: Array, stress: Array) -> None:
+        """Takes the initial deformation gradient and Cauchy stress (Pa)."""
+
+    def piola(self, f: Array) -> Array:
+        """The first Piola-Kirchhoff stress (Pa) at the deformation gradient `f`."""
+        raise NotImplementedError
+
 
 class NeoHookean(Material):
     """P = lambda ln(J) F^-T + mu (F - F^-T)."""
 
-    def __init__(self, parameters: Message, f: Array, stress: Array) -> None:
-        super().__init__(parameters)
-
     def piola(self, f: Array) -> Array:
-        inverse = inverse_transpose(f)
         spherical = self.lam * np.log(volume_ratio(f)) - self.mu
-        return spherical[:, None, None] * inverse + self.mu * f
+        return spherical[:, None, None] * inverse_transpose(f) + self.mu * f
 
 
 class Corotated(Material):
     """P = 2 mu (F - R) + lambda (J - 1) J F^-T, where F = R U."""
-
-    def __init__(self, parameters: Message, f: Array, stress: Array) -> None:
-        super().__init__(parameters)
 
     def piola(self, f: Array) -> Array:
         j = volume_ratio(f)
@@ -59,8 +50,7 @@ class LinearElastic(Material):
     of an objective rate. Each step is integrated by the midpoint rule. `piola` must be called once
     for each step, in the order of the steps."""
 
-    def __init__(self, parameters: Message, f: Array, stress: Array) -> None:
-        super().__init__(parameters)
+    def start(self, f: Array, stress: Array) -> None:
         self.f, self.stress = f.copy(), stress.copy()
 
     def piola(self, f: Array) -> Array:

@@ -2,15 +2,17 @@
 
     mpm-verify run SUITE --solver 'python3 examples/solvers/sph.py'
 
-Gradients are corrected to be exact for linear fields (Bonet & Lok 1999), neighbours are those of the
-reference configuration, and forces are the derivative of an energy, so that momentum is conserved.
+Gradients are corrected to be exact for linear fields (Bonet & Lok 1999), neighbours are those of
+the reference configuration, and forces are the derivative of an energy, so that momentum is
+conserved.
 
 Orders in h of the displacement, for particles on a lattice: 2 inside the body, and at rollers and
-periodic ends, where images of the particles complete the neighbourhood. A free face cuts it off: the
-gradient has order 1 there, in a layer as wide as the kernel. In a weak form that is an error of order
-2, and the suites with free ends show 2. Off a lattice the order is 0, and `setup` refuses.
+periodic ends, where images of the particles complete the neighbourhood. A free face cuts the
+neighbourhood off: the gradient has order 1 there, in a layer as wide as the kernel. In the weak form
+this is an error of order 2, and suites with free faces show order 2. Off a lattice the order is 0, and
+`setup` refuses.
 
-The shortest wave of the lattice has no energy. Nothing damps it; smooth initial data do not excite it.
+The shortest wave of the lattice has no energy and is not damped. Smooth initial data do not excite it.
 """
 
 from __future__ import annotations
@@ -54,7 +56,8 @@ class Sph(TotalLagrangian):
         self.find_pairs()
         self.weigh_pairs()
         self.f = self.deformation_gradient()
-        self.law = LAWS[material["law"]](material["parameters"], self.f, problem.stress)
+        self.law = LAWS[material["law"]](material["parameters"])
+        self.law.start(self.f, problem.stress)
         self.piola = self.law.piola(self.f)
 
     def find_images(self) -> None:
