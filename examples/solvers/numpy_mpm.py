@@ -46,12 +46,13 @@ class Mpm:
     formal_order = 2
     capabilities = {
         "dimensions": [1, 2, 3],
-        "laws": ["linear_elastic", "neo_hookean"],
-        "conditions": ["free", "fixed", "roller", "periodic"],
-        "loads": ["gravity", "body_force"],
+        "laws": ["linear_elastic", "neo_hookean", "hencky", "corotated"],
+        "conditions": ["free", "fixed", "roller", "periodic", "velocity"],
+        "loads": ["gravity", "body_force", "damping", "traction", "force"],
         "columns": ["stress", "deformation_gradient"],
         "manufactured": True,
         "initial_deformation": True,
+        "initial_stress": True,
     }
 
     def __init__(self, basis: str, scheme: str, flip: float, start: str) -> None:
@@ -63,7 +64,8 @@ class Mpm:
         young, poisson = parameters["young"], parameters["poisson"]
         self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         self.mu = young / (2 * (1 + poisson))
-        self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean}[law]
+        self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean,
+                              "hencky": self.hencky, "corotated": self.corotated}[law]
         self.x, self.v = problem.position.copy(), problem.velocity.copy()
         self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()
         self.m, self.vol = problem.mass, problem.volume.copy()
@@ -72,15 +74,55 @@ class Mpm:
         self.counts = [n if periodic else n + self.degree
                        for n, periodic in zip(problem.cells, problem.periodic)]
         self.free = np.ones((*self.counts, self.d))
+        numbers = np.arange(np.prod(self.counts)).reshape(self.counts)
+        places = self.node_places()
+        self.driven = []
         for face in problem.faces:
             end = (slice(None),) * face["axis"] + (-1 if face["high"] else 0,)
+            if face["condition"] == "velocity":
+                nodes = numbers[end].ravel()
+                self.driven.append((face, nodes, places[nodes]))
             if face["condition"] == "fixed":
                 self.free[end] = 0
             elif face["condition"] == "roller":
                 self.free[(*end, ..., face["axis"])] = 0
         self.free = self.free.reshape(-1, self.d)
         self.crossings, self.min_j, self.started = 0, (self.vol / self.vol0).min(), False
+        self.velocity_time = 0.0  # of the velocities of the particles
+        self.tractions, self.forces, self.damping = [], [], []
+        for index, load in enumerate(problem.loads):
+            if load["load"] == "traction":
+                self.tractions.append((index, *self.surface(load["face"])))
+            elif load["load"] == "force":
+                low, high = load["region"]["from"], load["region"]["to"]
+                x0 = problem.reference_position
+                inside = np.all((x0 >= low) & (x0 <= high), axis=1)
+                self.forces.append((index, inside * self.vol0 / self.vol0[inside].sum()))
+            elif load["load"] == "damping":
+                self.damping.append(index)
         self.locate()
+
+    def node_places(self) -> Array:
+        """Places of the nodes (m): with B-splines, the means of the knots of each function."""
+        problem, axes = self.problem, []
+        for a, cells in enumerate(problem.cells):
+            index = np.arange(self.counts[a])[:, None]
+            knots = index + np.arange(self.degree) + 1 - self.degree
+            if not problem.periodic[a]:
+                knots = np.clip(knots, 0, cells)
+            axes.append(problem.origin[a] + problem.h * knots.mean(axis=1))
+        return np.stack([x.ravel() for x in np.meshgrid(*axes, indexing="ij")], axis=1)
+
+    def surface(self, name: str) -> tuple[Array, Array, Array, Array]:
+        """The layer of particles at a face: their numbers, the middles X of their shares of the
+        face (m), the vectors from the particles to these (m), and the areas of the shares."""
+        [face] = [face for face in self.problem.faces if face["name"] == name]
+        x0, axis = self.problem.reference_position, face["axis"]
+        depth = np.abs(face["at"] - x0[:, axis])
+        layer = np.flatnonzero(depth < 2 * depth.min())
+        arm = np.zeros((len(layer), self.d))
+        arm[:, axis] = face["at"] - x0[layer, axis]
+        return layer, x0[layer] + arm, arm, self.vol0[layer] / (2 * depth[layer])
 
     def locate(self) -> None:
         """Finds the places of the particles in the grid, and their cells."""
@@ -131,13 +173,37 @@ class Mpm:
 
     def velocity(self) -> Array:
         """Velocities of the nodes (m/s), from those of the particles."""
-        return self.per_mass(self.n[..., None] * (self.m[:, None] * self.v)[:, None])
+        field = self.per_mass(self.n[..., None] * (self.m[:, None] * self.v)[:, None])
+        for face, nodes, places in self.driven:
+            field[nodes] = self.face_velocity(face, self.velocity_time, places) * self.free[nodes]
+        return field
 
-    def acceleration(self, time: float) -> Array:
-        """Accelerations of the nodes (m/s2), from stresses and body forces at `time` (s)."""
+    def face_velocity(self, face: Message, t: float, places: Array) -> Array:
+        """Velocity of a face (m/s); before the start it is continued through its value there."""
+        if t < 0:
+            return 2 * self.face_velocity(face, 0.0, places) - self.face_velocity(face, -t, places)
+        return self.problem.face_velocity(face, t, places)
+
+    def acceleration(self, time: float, dt: float) -> Array:
+        """Accelerations of the nodes (m/s2), from stresses and loads at `time` (s). They take the
+        velocities to the time `time + dt/2`."""
         stress = np.einsum("pkb,pab->pka", self.dn, self.vol[:, None, None] * self.sigma)
         force = self.m[:, None] * self.problem.body_force(time)
-        return self.per_mass(self.n[..., None] * force[:, None] - stress)
+        for index, share in self.forces:
+            force += share[:, None] * self.problem.load(index, time)
+        terms = self.n[..., None] * force[:, None] - stress
+        for index, layer, places, arm, area in self.tractions:
+            # The functions at the surface, as far as their slopes at the particles give them.
+            moved = np.einsum("pab,pb->pa", self.f[layer], arm)
+            at_surface = self.n[layer] + np.einsum("pka,pa->pk", self.dn[layer], moved)
+            pull = area[:, None] * self.problem.load(index, time, places)
+            terms[layer] += at_surface[..., None] * pull[:, None]
+        field = self.per_mass(terms)
+        for face, nodes, places in self.driven:
+            before, after = (self.face_velocity(face, t, places)
+                             for t in (self.velocity_time, time + 0.5 * dt))
+            field[nodes] = (after - before) / dt * self.free[nodes]
+        return field
 
     def advance(self, steps: int, dt: float, time: float) -> None:
         for step in range(steps):
@@ -145,7 +211,9 @@ class Mpm:
 
     def step(self, dt: float, time: float) -> None:
         self.weigh()
-        acceleration = self.acceleration(time)
+        if not self.started and self.start == "half_step_back":
+            self.velocity_time = -0.5 * dt
+        acceleration = self.acceleration(time, dt)
         change = dt * self.gather(acceleration)
         if not self.started and self.start == "half_step_back":
             self.v -= 0.5 * change
@@ -155,6 +223,9 @@ class Mpm:
         self.v += change
         if self.flip < 1:
             self.v = self.flip * self.v + (1 - self.flip) * self.gather(velocity)
+        self.velocity_time = time + 0.5 * dt
+        for index in self.damping:
+            self.v *= np.exp(-self.problem.load(index, time)[0] * dt)
         if self.scheme == "musl":
             velocity = self.velocity()
         self.strain(dt * np.einsum("pka,pkb->pab", velocity[self.nodes], self.dn))
@@ -182,12 +253,31 @@ class Mpm:
 
     def neo_hookean(self, _: Array) -> None:
         """sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)."""
+        left = self.f @ self.f.transpose(0, 2, 1)
+        log = np.log(np.linalg.det(self.f))[:, None, None]
+        self.kirchhoff((self.lam * log - self.mu) * np.eye(self.d) + self.mu * left)
+
+    def hencky(self, _: Array) -> None:
+        """sigma = (lambda tr(eps) I + 2 mu eps)/J, eps = ln(F F^T)/2."""
+        squares, axes = np.linalg.eigh(self.f @ self.f.transpose(0, 2, 1))
+        log = 0.5 * np.log(squares)
+        principal = self.lam * log.sum(axis=1, keepdims=True) + 2 * self.mu * log
+        self.kirchhoff(np.einsum("pai,pi,pbi->pab", axes, principal, axes))
+
+    def corotated(self, _: Array) -> None:
+        """sigma = (2 mu/J) (F - R) F^T + lambda (J - 1) I, with the rotation R of F."""
+        u, _, vt = np.linalg.svd(self.f)
+        j = np.linalg.det(self.f)[:, None, None]
+        shear = 2 * self.mu * (self.f - u @ vt) @ self.f.transpose(0, 2, 1)
+        self.kirchhoff(shear + self.lam * (j - 1) * j * np.eye(self.d))
+
+    def kirchhoff(self, tau: Array) -> None:
+        """Stress and volume of a law of the whole deformation, from its Kirchhoff stress and the
+        stress S0 of the reference configuration: sigma = (tau + F S0 F^T)/J."""
         j = np.linalg.det(self.f)
         self.vol = j * self.vol0
-        by_j = 1 / j[:, None, None]
-        spherical = (self.lam * np.log(j)[:, None, None] - self.mu) * by_j
-        left = self.f @ self.f.transpose(0, 2, 1)
-        self.sigma = spherical * np.eye(self.d) + self.mu * by_j * left
+        initial = self.f @ self.problem.reference_stress @ self.f.transpose(0, 2, 1)
+        self.sigma = (tau + initial) / j[:, None, None]
 
     def state(self) -> Message:
         return {"displacement": self.x - self.problem.reference_position, "velocity": self.v,

@@ -19,7 +19,12 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String
     let memory = args.solver_memory.map(|mb| mb.saturating_mul(1_000_000));
     let limits = ProgramLimits { silence, memory };
     let solver = SolverProgram::greet(command, limits);
-    solver.map(Some).map_err(|reason| format!("error: --solver {command}: the solver {reason}"))
+    let solver =
+        solver.map_err(|reason| format!("error: --solver {command}: the solver {reason}"))?;
+    for warning in solver.warnings() {
+        output::complain(&format!("warning: capabilities of the solver: {warning}"));
+    }
+    Ok(Some(solver))
 }
 
 /// The suites with the solver in place of their methods; those that look inside a method are left

@@ -1,5 +1,6 @@
 //! Abilities of solvers, and needs of problems.
 
+use super::names;
 use serde::{Deserialize, Serialize};
 
 /// Abilities of a solver. What is not named is lacking.
@@ -24,6 +25,16 @@ pub struct Capabilities {
     pub initial_deformation: bool,
     /// Whether there may be more than one body.
     pub several_bodies: bool,
+    /// Whether bodies may be in contact, with Coulomb friction.
+    pub contact: bool,
+    /// Whether bodies in two dimensions may be plates in plane stress.
+    pub plane_stress: bool,
+    /// Whether bodies in two dimensions may be meridian planes of bodies of revolution.
+    pub axisymmetric: bool,
+    /// Whether there may be a stress in the reference configuration.
+    pub initial_stress: bool,
+    /// Whether the body force may depend on the displacement.
+    pub displacement_force: bool,
     /// Whether columns may be raw bytes.
     pub binary: bool,
 }
@@ -31,6 +42,7 @@ pub struct Capabilities {
 /// Needs of a problem, each by the name that suites and capabilities have for it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
+#[expect(clippy::struct_excessive_bools, reason = "independent needs, each with its ability")]
 pub struct ProblemNeeds {
     /// Number of space dimensions.
     pub dimension: usize,
@@ -48,6 +60,16 @@ pub struct ProblemNeeds {
     pub initial_deformation: bool,
     /// Whether there are several bodies.
     pub several_bodies: bool,
+    /// Whether bodies are in contact.
+    pub contact: bool,
+    /// Whether the bodies are plates in plane stress.
+    pub plane_stress: bool,
+    /// Whether the bodies are bodies of revolution.
+    pub axisymmetric: bool,
+    /// Whether there is a stress in the reference configuration.
+    pub initial_stress: bool,
+    /// Whether the body force depends on the displacement.
+    pub displacement_force: bool,
     /// Parts of the scene that no solver can be handed yet.
     pub beyond: Vec<&'static str>,
 }
@@ -79,13 +101,12 @@ impl Capabilities {
             ("columns", &self.columns, &column),
         ] {
             let missing = wanted.iter().filter(|name| !has.iter().any(|known| known == *name));
-            lacking.extend(missing.map(|name| format!("{capability}: {name}")));
+            lacking.extend(missing.map(|name| match names::misspelt(capability, name, has) {
+                Some(stated) => format!("{capability}: {name} (stated as `{stated}`)"),
+                None => format!("{capability}: {name}"),
+            }));
         }
-        for (capability, has, wanted) in [
-            ("manufactured", self.manufactured, needs.manufactured),
-            ("initial_deformation", self.initial_deformation, needs.initial_deformation),
-            ("several_bodies", self.several_bodies, needs.several_bodies),
-        ] {
+        for ((capability, wanted), has) in needs.flags().into_iter().zip(self.flags()) {
             if wanted && !has {
                 lacking.push(capability.to_owned());
             }
@@ -93,6 +114,55 @@ impl Capabilities {
         let beyond = needs.beyond.iter();
         lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not hand over")));
         lacking
+    }
+}
+
+impl Capabilities {
+    /// Abilities that are there or not, in the order of [`ProblemNeeds::flags`].
+    fn flags(&self) -> [bool; 8] {
+        [
+            self.manufactured,
+            self.initial_deformation,
+            self.several_bodies,
+            self.contact,
+            self.plane_stress,
+            self.axisymmetric,
+            self.initial_stress,
+            self.displacement_force,
+        ]
+    }
+}
+
+impl ProblemNeeds {
+    /// Needs that are there or not, with the names of the abilities.
+    fn flags(&self) -> [(&'static str, bool); 8] {
+        [
+            ("manufactured", self.manufactured),
+            ("initial_deformation", self.initial_deformation),
+            ("several_bodies", self.several_bodies),
+            ("contact", self.contact),
+            ("plane_stress", self.plane_stress),
+            ("axisymmetric", self.axisymmetric),
+            ("initial_stress", self.initial_stress),
+            ("displacement_force", self.displacement_force),
+        ]
+    }
+
+    /// Needs that version 1 of the protocol does not hand over as numbers, each as the entry of the
+    /// capabilities that stands for it.
+    pub(crate) fn beyond_version_1(&self) -> Vec<String> {
+        let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {
+            let missing = names.iter().filter(|name| !handed.contains(*name));
+            missing.map(|name| format!("{capability}: {name}")).collect::<Vec<_>>()
+        };
+        let mut all = by_name("loads", &self.loads, &["gravity", "body_force"]);
+        let plain = ["free", "fixed", "roller", "periodic"];
+        all.extend(by_name("conditions", &self.conditions, &plain));
+        let old = ["manufactured", "initial_deformation", "several_bodies"];
+        let flags =
+            self.flags().into_iter().filter(|(name, wanted)| *wanted && !old.contains(name));
+        all.extend(flags.map(|(name, _)| name.to_owned()));
+        all
     }
 }
 
@@ -111,6 +181,11 @@ mod tests {
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
+            contact: true,
+            plane_stress: true,
+            axisymmetric: true,
+            initial_stress: true,
+            displacement_force: true,
             beyond: vec!["heat"],
         };
         let all = [
@@ -123,6 +198,11 @@ mod tests {
             "manufactured",
             "initial_deformation",
             "several_bodies",
+            "contact",
+            "plane_stress",
+            "axisymmetric",
+            "initial_stress",
+            "displacement_force",
             "heat, which the protocol does not hand over",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
@@ -132,8 +212,13 @@ mod tests {
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
+            contact: true,
+            plane_stress: true,
+            axisymmetric: true,
+            initial_stress: true,
+            displacement_force: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[9..]);
+        assert_eq!(able.lacking(&needs), all[13..]);
     }
 }

@@ -1,10 +1,11 @@
 //! A problem, ready to be stepped by any solver.
 
-use serde::{Serialize, Serializer};
-#[cfg(feature = "external-programs")]
+use super::fields::{BodyForceField, HandedValues, ProblemFields, as_map};
+use super::particles::ProblemParticles;
+use crate::subject::PlaneState;
+use serde::Serialize;
+#[cfg(feature = "schemas")]
 use std::collections::BTreeMap;
-use std::fmt;
-use std::sync::Arc;
 
 /// Initial state of one level of a study, with all that its motion depends on.
 #[derive(Debug, Clone, Serialize)]
@@ -21,6 +22,12 @@ pub struct LevelProblem {
     pub faces: Vec<ProblemFace>,
     /// One material for each body.
     pub materials: Vec<ProblemMaterial>,
+    /// Shapes of the bodies in the reference configuration, in the order of `materials`.
+    pub bodies: Vec<ProblemBody>,
+    /// State of the bodies across the plane of two dimensions; plane strain in one and three.
+    pub plane: PlaneState,
+    /// Contact between the bodies; without it, bodies that touch move together.
+    pub contact: Option<ProblemContact>,
     /// Loads and effects, in the order in which they are applied.
     pub loads: Vec<ProblemLoad>,
     /// Particles per cell.
@@ -39,6 +46,9 @@ pub struct LevelProblem {
     /// Body force, stated and manufactured; none where no force acts.
     #[serde(skip)]
     pub body_force: Option<BodyForceField>,
+    /// Initial state, loads and conditions on faces at any place of the bodies.
+    #[serde(skip)]
+    pub fields: Option<ProblemFields>,
     /// Body force (m/s2), D numbers, where it is the same at every place and time.
     #[serde(rename = "body_force_value", skip_serializing_if = "Option::is_none")]
     pub constant_body_force: Option<Vec<f64>>,
@@ -74,6 +84,42 @@ pub struct ProblemFace {
     pub at: f64,
     /// Condition on the motion there, as suites write it.
     pub condition: &'static str,
+    /// Numbers of the condition: `coefficient` (friction) or `velocity` (m/s).
+    #[serde(flatten)]
+    pub numbers: HandedValues,
+}
+
+/// Shape of one body in the reference configuration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct ProblemBody {
+    /// `box`, `disk`, `annulus`, `ball`, `polygon` or `quadrilateral`.
+    pub shape: &'static str,
+    /// Lowest corner of the box around the body (m), D numbers.
+    pub from: Vec<f64>,
+    /// Highest corner of the box around the body (m), D numbers.
+    pub to: Vec<f64>,
+    /// Centre (m) of a disk, an annulus or a ball.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre: Option<Vec<f64>>,
+    /// Inner and outer radius (m) of a disk, an annulus or a ball.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radii: Option<[f64; 2]>,
+    /// Corners (m) of a polygon or a quadrilateral, counter-clockwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corners: Option<Vec<[f64; 2]>>,
+}
+
+/// Contact between bodies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct ProblemContact {
+    /// The law of contact: `coulomb`, no penetration, no tension, and Coulomb friction.
+    pub law: &'static str,
+    /// Coefficient of friction.
+    pub coefficient: f64,
 }
 
 /// The material of one body.
@@ -99,10 +145,6 @@ impl ProblemMaterial {
     }
 }
 
-fn as_map<S: Serializer>(all: &[(&'static str, f64)], to: S) -> Result<S::Ok, S::Error> {
-    to.collect_map(all.iter().copied())
-}
-
 /// A load or effect of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
@@ -110,107 +152,29 @@ fn as_map<S: Serializer>(all: &[(&'static str, f64)], to: S) -> Result<S::Ok, S:
 pub struct ProblemLoad {
     /// Its name, as suites write it.
     pub load: &'static str,
-    /// Its values in the suite, as rows of name and value.
+    /// Its values in the suite, as rows of name and text for reports.
     pub rows: Vec<(String, String)>,
+    /// Name of the face that it acts on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face: Option<&'static str>,
+    /// Part of the bodies that it acts on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub region: Option<ProblemRegion>,
+    /// Numbers of the load.
+    #[serde(flatten)]
+    pub numbers: HandedValues,
 }
 
-/// Particles at the start: n of them, one after the other.
-#[derive(Debug, Clone, Default, PartialEq)]
+/// A box; the material points with a reference position inside, or on its faces, belong to the
+/// region.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
-pub struct ProblemParticles {
-    /// Reference positions X (m), n D numbers.
-    pub reference_position: Vec<f64>,
-    /// Positions (m), n D numbers.
-    pub position: Vec<f64>,
-    /// Velocities (m/s), n D numbers.
-    pub velocity: Vec<f64>,
-    /// Masses (kg), n numbers.
-    pub mass: Vec<f64>,
-    /// Reference volumes (m^D), n numbers.
-    pub reference_volume: Vec<f64>,
-    /// Volumes (m^D), n numbers.
-    pub volume: Vec<f64>,
-    /// Deformation gradients F, n D^2 numbers, row after row.
-    pub deformation_gradient: Vec<f64>,
-    /// Cauchy stresses (Pa), n D^2 numbers, row after row.
-    pub stress: Vec<f64>,
-    /// Number of the body that each belongs to.
-    pub body: Vec<f64>,
-}
-
-impl ProblemParticles {
-    /// Number of particles.
-    pub fn len(&self) -> usize {
-        self.mass.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.mass.is_empty()
-    }
-
-    /// Every column with its name, in the order of the protocol.
-    pub fn columns(&self) -> [(&'static str, &[f64]); 9] {
-        [
-            ("reference_position", &self.reference_position),
-            ("position", &self.position),
-            ("velocity", &self.velocity),
-            ("mass", &self.mass),
-            ("reference_volume", &self.reference_volume),
-            ("volume", &self.volume),
-            ("deformation_gradient", &self.deformation_gradient),
-            ("stress", &self.stress),
-            ("body", &self.body),
-        ]
-    }
-}
-
-/// A body force of a scene.
-pub(crate) trait ForceSource: Send + Sync {
-    /// [`BodyForceField::at`].
-    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
-
-    /// [`BodyForceField::at_places`], where that is cheaper than one place after another.
-    fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
-        None
-    }
-}
-
-/// A body force at its places: fills in the components (m/s2) at each, at a time (s).
-pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
-
-/// A body force per unit of mass, as a function of the reference position and time.
-#[derive(Clone)]
-pub struct BodyForceField(pub(crate) Arc<dyn ForceSource>);
-
-impl BodyForceField {
-    /// The force (m/s2) at a reference position `label` (m, D numbers) of the body with a number,
-    /// and a time (s); components beyond the dimension are zero.
-    pub fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
-        self.0.at(body, label, t)
-    }
-
-    /// The force at places that are given once, with the body of each: much cheaper where the times
-    /// are many.
-    pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
-        self.0.at_places(bodies, labels).unwrap_or_else(|| {
-            let (force, places) = (self.clone(), owned(bodies, labels));
-            Box::new(move |t, into| {
-                for (into, (body, label)) in into.iter_mut().zip(&places) {
-                    *into = force.at(*body, label, t);
-                }
-            })
-        })
-    }
-}
-
-/// Places with their bodies, to be kept.
-pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
-    bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
-}
-
-impl fmt::Debug for BodyForceField {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("BodyForceField")
-    }
+pub struct ProblemRegion {
+    /// Name of the set in the suite.
+    pub name: String,
+    /// Lowest corner (m), D numbers.
+    pub from: Vec<f64>,
+    /// Highest corner (m), D numbers.
+    pub to: Vec<f64>,
 }

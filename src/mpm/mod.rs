@@ -72,6 +72,7 @@ pub use seeding::quadrilateral::Quadrilateral;
 pub use setup::Setup;
 pub use solver::Solver;
 pub use stage::Stage;
+pub use state::initial::complete_start;
 pub use transfer::{
     Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
     TransferName, TransferParameter, WithParameter, Xpic, g2p, transfer,

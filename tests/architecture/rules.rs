@@ -37,7 +37,7 @@ pub(crate) const WALLS: &[Wall] = &[
     Wall { around: "vtk", may: &["subject"], why: "a file shows fields, whoever computed them" },
     Wall {
         around: "external",
-        may: &["subject", "named", "vtk"],
+        may: &["subject", "named", "nearest", "members", "vtk"],
         why: "a solver of another program is handed a problem, and must not see how it is judged",
     },
     Wall {

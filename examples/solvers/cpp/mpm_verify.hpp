@@ -1,4 +1,4 @@
-// The protocol of mpm-verify for a solver in C++17: see docs/protocol.md. No dependencies.
+// Version 2 of the solver protocol of mpm-verify in C++17: see docs/protocol.md. No dependencies.
 //
 // An adapter derives from mpm_verify::Solver, and its main() ends with
 // `return mpm_verify::serve(about, make);`. Columns go as bytes, in the order of the machine, which
@@ -138,6 +138,13 @@ inline std::string quoted(const std::string& text) {
     return result + '"';
 }
 
+// A number in JSON with all its digits.
+inline std::string decimal(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", number);
+    return text;
+}
+
 using Column = std::vector<double>;
 
 struct Message {
@@ -205,10 +212,25 @@ struct Problem {
             for (std::size_t i = 0; i < none.size(); ++i) none[i] = value.at(i % value.size());
             return none;
         }
-        char time[32];
-        std::snprintf(time, sizeof time, "%.17g", t);
-        channel.write(std::string("{\"type\":\"body_force\",\"t\":") + time + "}");
+        return values("body_force", t);
+    }
+    // Values of a field at time t (s): `of` is body_force, displacement, velocity,
+    // deformation_gradient, stress, initial_stress, load:INDEX or face:NAME. Fields of the initial
+    // state take t = 0. Without places (reference positions in m, one place after the other), the
+    // values are those at the particles, or of a quantity that is the same everywhere.
+    Column values(const std::string& of, double t, const Column& places = {}) const {
+        std::string request =
+            "{\"type\":\"values\",\"of\":" + quoted(of) + ",\"t\":" + decimal(t);
+        if (!places.empty()) {
+            request += ",\"reference_position\":[";
+            for (std::size_t i = 0; i < places.size(); ++i)
+                request += (i > 0 ? "," : "") + decimal(places[i]);
+            request += "]";
+        }
+        channel.write(request + "}");
         Message answer = channel.read();
+        if (const Json* error = answer.json.find("error"))
+            throw std::runtime_error("no values of " + of + ": " + error->text);
         return answer.column(answer.json["values"]);
     }
 };
@@ -245,12 +267,11 @@ inline void write(Channel& channel, const State& state) {
                 std::to_string(bytes.size()) + "," + std::to_string(column.size()) + "]}";
         bytes.append(reinterpret_cast<const char*>(column.data()), 8 * column.size());
     }
-    char least[32];
-    std::snprintf(least, sizeof least, "%.17g", state.min_j);
     channel.write("{\"type\":\"state\",\"bytes\":" + std::to_string(bytes.size()) +
                       ",\"columns\":{" + json + "},\"crossings\":" +
                       std::to_string(state.crossings) + ",\"left_domain\":" +
-                      std::to_string(state.left_domain) + ",\"min_j\":" + least + "}", bytes);
+                      std::to_string(state.left_domain) + ",\"min_j\":" +
+                      decimal(state.min_j) + "}", bytes);
 }
 
 // Answers the harness until it says goodbye. `make` makes a solver in the initial state.
@@ -262,7 +283,7 @@ inline int serve(const About& about,
     auto answer = [&](Message request) {
         std::string type = request.json["type"].text;
         if (type == "hello") {
-            channel.write("{\"type\":\"hello\",\"protocol\":1,\"name\":" + quoted(about.name) +
+            channel.write("{\"type\":\"hello\",\"protocol\":2,\"name\":" + quoted(about.name) +
                           ",\"version\":" + quoted(about.version) + ",\"formal_order\":" +
                           std::to_string(about.formal_order) +
                           ",\"capabilities\":" + about.capabilities + "}");

@@ -7,7 +7,7 @@
 program bar
   use mpm_verify
   implicit none
-  character(*), parameter :: hello = '{"type":"hello","protocol":1,"name":"fortran-bar",' // &
+  character(*), parameter :: hello = '{"type":"hello","protocol":2,"name":"fortran-bar",' // &
     '"version":"1.0","formal_order":2,"capabilities":{"dimensions":[1],' // &
     '"laws":["linear_elastic"],"conditions":["free","fixed","roller","periodic"],' // &
     '"loads":["gravity","body_force"],"columns":["stress"],"manufactured":true,' // &

@@ -1,4 +1,4 @@
-!> The protocol of mpm-verify for a solver in Fortran 2008: see docs/protocol.md.
+!> Version 2 of the solver protocol of mpm-verify in Fortran 2008: see docs/protocol.md.
 !>
 !> Columns go as bytes, which are those of the machine if it is little-endian. A solver must print to
 !> `error_unit` only: what it prints to the standard output gets between the messages.
@@ -6,7 +6,7 @@ module mpm_verify
   use, intrinsic :: iso_fortran_env, only: real64, int64, error_unit
   implicit none
   private
-  public :: open_channel, receive, send, say, text_of, number_of, has, column, body_force, append
+  public :: open_channel, receive, send, say, text_of, number_of, has, column, body_force, values, append
 
   integer, parameter, public :: dp = real64
 
@@ -208,8 +208,6 @@ contains
     type(message_t), intent(in) :: problem
     real(dp), intent(in) :: t
     real(dp), allocatable :: b(:)
-    type(message_t) :: answer
-    character(64) :: request
     integer :: axis, d
     b = 0 * column(problem, 'particles.position')
     select case (text_of(problem, 'body_force'))
@@ -219,10 +217,38 @@ contains
         b(axis::d) = number_of(problem, 'body_force_value.' // achar(iachar('0') + axis - 1))
       end do
     case ('asked')
-      write (request, '(a,es24.16e3,a)') '{"type":"body_force","t":', t, '}'
-      call say(trim(request))
-      call receive(answer)
-      b = column(answer, 'values')
+      b = values('body_force', t)
     end select
+  end function
+
+  !> Values of a field at time `t` (s): `of` is body_force, displacement, velocity,
+  !> deformation_gradient, stress, initial_stress, load:INDEX or face:NAME. Fields of the initial
+  !> state take t = 0. Without `places` (reference positions in m, one place after the other), the
+  !> values are those at the particles, or of a quantity that is the same everywhere.
+  function values(of, t, places) result(numbers)
+    character(*), intent(in) :: of
+    real(dp), intent(in) :: t
+    real(dp), intent(in), optional :: places(:)
+    real(dp), allocatable :: numbers(:)
+    type(message_t) :: answer
+    character(64) :: text
+    integer :: bytes
+    character(:), allocatable :: request
+    write (text, '(es24.16e3)') t
+    request = '{"type":"values","of":"' // of // '","t":' // trim(adjustl(text))
+    if (present(places)) then
+      bytes = 8 * size(places)
+      write (text, '(a,i0,a,i0,a)') '{"f64":[0,', size(places), ']},"bytes":', bytes, '}'
+      write (output) request // ',"reference_position":' // trim(text) // new_line('a'), places
+      flush (output)
+    else
+      call say(request // '}')
+    end if
+    call receive(answer)
+    if (has(answer, 'error')) then
+      write (error_unit, '(a)') 'no values of ' // of // ': ' // text_of(answer, 'error')
+      stop 1
+    end if
+    numbers = column(answer, 'values')
   end function
 end module

@@ -45,6 +45,11 @@ pub trait Outline: Debug + Send + Sync {
         None
     }
 
+    /// Radius (m) of the hole in the middle of a body that is round, 0 without a hole.
+    fn hole(&self) -> f64 {
+        0.0
+    }
+
     /// The part of a share of a lattice, a box of half-lengths `half` (m) about `centre`, that is a
     /// particle of the body, or several.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;

@@ -86,6 +86,10 @@ impl Outline for Round {
         Some((&self.centre, self.outer))
     }
 
+    fn hole(&self) -> f64 {
+        self.inner
+    }
+
     /// The whole share, if its centre lies inside: the rim is a stair, and volume and mass differ
     /// from those of the body by a part that falls with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {

@@ -11,10 +11,10 @@ impl LevelProblem {
 
 /// Whether a column has one number for each particle.
 pub(super) fn is_scalar(column: &str) -> bool {
-    ["mass", "reference_volume", "volume", "body"].contains(&column)
+    ["mass", "reference_volume", "volume", "body", "hoop_stress"].contains(&column)
 }
 
 /// Whether it has a tensor for each particle, and not a vector.
 pub(super) fn is_tensor(column: &str) -> bool {
-    ["deformation_gradient", "stress"].contains(&column)
+    ["deformation_gradient", "stress", "initial_stress"].contains(&column)
 }

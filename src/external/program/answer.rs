@@ -1,11 +1,14 @@
 //! Answers of a solver.
 
 use super::frame::MessageFrame;
+use super::inquiry::Question;
 use super::printable::printable;
 use crate::external::capabilities::Capabilities;
 use crate::subject::Precision;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// An answer of a solver.
@@ -37,6 +40,30 @@ pub(super) enum Answer {
         /// Reference positions (m), D numbers each; the particles or points, if there are none.
         #[serde(default)]
         reference_position: Option<ColumnText>,
+        /// Displacements (m) there, D numbers each, for a force that depends on them.
+        #[serde(default)]
+        displacement: Option<ColumnText>,
+        /// Index of the body that all places belong to.
+        #[serde(default)]
+        body: Option<usize>,
+    },
+    /// Not an answer: a request for values of a field.
+    Values {
+        /// The field: `body_force`, `displacement`, `velocity`, `deformation_gradient`, `stress`,
+        /// `initial_stress`, `load:INDEX` or `face:NAME`.
+        of: String,
+        /// Time (s); fields of the initial state need none.
+        #[serde(default)]
+        t: Option<f64>,
+        /// Reference positions (m), D numbers each; the particles or points, if there are none.
+        #[serde(default)]
+        reference_position: Option<ColumnText>,
+        /// Displacements (m) there, D numbers each, for a force that depends on them.
+        #[serde(default)]
+        displacement: Option<ColumnText>,
+        /// Index of the body that all places belong to.
+        #[serde(default)]
+        body: Option<usize>,
     },
 }
 
@@ -59,7 +86,25 @@ pub(super) struct Hello {
     pub(super) precision: Precision,
     /// Abilities; what is not named is lacking.
     #[serde(default)]
-    pub(super) capabilities: Capabilities,
+    #[schemars(with = "Capabilities")]
+    pub(super) capabilities: StatedCapabilities,
+}
+
+/// Abilities as a solver states them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct StatedCapabilities {
+    pub(super) known: Capabilities,
+    /// All keys, those that mean nothing included.
+    pub(super) keys: Vec<String>,
+}
+
+impl<'de> Deserialize<'de> for StatedCapabilities {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let all = Value::deserialize(from)?;
+        let keys = all.as_object().map_or(Vec::new(), |all| all.keys().cloned().collect());
+        let known = Capabilities::deserialize(all).map_err(D::Error::custom)?;
+        Ok(Self { known, keys })
+    }
 }
 
 fn precisions(_: &mut SchemaGenerator) -> Schema {
@@ -138,10 +183,30 @@ impl Answer {
                 ("weight".to_owned(), points.weight),
             ],
             Self::State(state) => state.columns.into_iter().collect(),
-            Self::BodyForce { reference_position: Some(places), .. } => {
-                vec![("reference_position".to_owned(), places)]
+            Self::BodyForce { reference_position, displacement, .. }
+            | Self::Values { reference_position, displacement, .. } => {
+                let places = reference_position.map(|column| ("reference_position", column));
+                let moved = displacement.map(|column| ("displacement", column));
+                let all = places.into_iter().chain(moved);
+                all.map(|(name, column)| (name.to_owned(), column)).collect()
             }
             _ => Vec::new(),
+        }
+    }
+
+    /// The request for values, if it is one.
+    ///
+    /// # Errors
+    /// The answer itself.
+    pub(super) fn question(self) -> Result<Question, Self> {
+        match self {
+            Self::BodyForce { t, reference_position, displacement, body } => {
+                Ok(Question { of: None, t: Some(t), reference_position, displacement, body })
+            }
+            Self::Values { of, t, reference_position, displacement, body } => {
+                Ok(Question { of: Some(of), t, reference_position, displacement, body })
+            }
+            other => Err(other),
         }
     }
 
@@ -154,6 +219,7 @@ impl Answer {
             Self::State(_) => "state",
             Self::Failed { .. } => "failed",
             Self::BodyForce { .. } => "body_force",
+            Self::Values { .. } => "values",
         }
     }
 }

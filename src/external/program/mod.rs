@@ -6,6 +6,7 @@
 //! reader       answers, as they come
 //! frame        one message: a line of JSON, and a block of bytes
 //! answer       what a solver may say
+//! inquiry      values that a solver requests
 //! subject      a level on its way
 //! schema       all messages as a JSON Schema
 //! ```
@@ -13,6 +14,7 @@
 mod answer;
 mod connection;
 mod frame;
+mod inquiry;
 mod limits;
 mod printable;
 mod reader;

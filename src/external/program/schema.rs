@@ -1,8 +1,9 @@
 //! The protocol as a JSON Schema (draft 2020-12), made from the types that read and write it.
 
 use super::answer::{Answer, ColumnText};
-use super::solver::PROTOCOL;
-use crate::external::problem::{LevelProblem, ProblemParticles};
+use super::solver::{PROTOCOL, VERSIONS};
+use crate::external::particles::ProblemParticles;
+use crate::external::problem::LevelProblem;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
@@ -45,20 +46,29 @@ fn request(definitions: &mut SchemaGenerator) -> Value {
     let column = definitions.subschema_for::<ColumnText>().to_value();
     let count = json!({"type": "integer", "minimum": 0});
     let number = json!({"type": "number"});
-    let names = ProblemParticles::default().columns().map(|(name, _)| name);
-    let columns: Map<String, Value> =
-        names.iter().map(|name| ((*name).to_owned(), column.clone())).collect();
+    let particles = ProblemParticles::default();
+    let names: Vec<&str> = particles.columns().into_iter().map(|(name, _)| name).collect();
+    let all = names.iter().copied().chain(ProblemParticles::OPTIONAL);
+    let columns: Map<String, Value> = all.map(|name| (name.to_owned(), column.clone())).collect();
     let particles = json!({"type": "object", "properties": columns, "required": names});
     let problem = with_bytes(LevelProblem::json_schema(definitions));
     let forces = json!({"enum": ["none", "constant", "asked"]});
     json!({"oneOf": [
-        message("hello", json!({"protocol": {"const": PROTOCOL}, "harness": {"type": "string"}})),
+        message("hello", json!({
+            "protocol": {"const": PROTOCOL},
+            "versions": {"const": VERSIONS},
+            "harness": {"type": "string"},
+        })),
         {"allOf": [
             problem,
             message("problem", json!({"particles": particles, "body_force": forces})),
         ]},
         message("advance", json!({"steps": count, "dt": number, "from": number})),
         message("body_force", json!({"values": column})),
+        {"oneOf": [
+            message("values", json!({"of": {"type": "string"}, "values": column})),
+            message("values", json!({"of": {"type": "string"}, "error": {"type": "string"}})),
+        ]},
         message("bye", json!({})),
     ]})
 }

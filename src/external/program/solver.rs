@@ -3,11 +3,13 @@
 use super::answer::{Answer, Hello};
 use super::connection::Connection;
 use super::frame::Outgoing;
+use super::inquiry::Inquiry;
 use super::limits::ProgramLimits;
 use super::printable::printable;
-use super::subject::{ProgramSubject, longest_answer};
+use super::subject::{ProgramSubject, conclude, longest_answer};
 use crate::external::capabilities::ProblemNeeds;
 use crate::external::factory::SolverFactory;
+use crate::external::names;
 use crate::external::problem::LevelProblem;
 use crate::subject::{
     Failure, HIGHEST_ORDER, LONGEST_NAME, Precision, RunCounters, Samples, Subject, is_solver_name,
@@ -17,7 +19,13 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Version of the protocol.
-pub(super) const PROTOCOL: u64 = 1;
+pub(super) const PROTOCOL: u64 = 2;
+
+/// Versions that a solver may speak.
+pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
+
+/// Maximum number of requests for values before a solver is ready.
+const SETUP_QUESTIONS: u64 = 10_000;
 
 /// A solver behind a command.
 #[derive(Debug, Clone)]
@@ -42,13 +50,19 @@ impl SolverProgram {
         Ok(Self { command, limits, hello, identity })
     }
 
+    /// One line for each name in the solver's capabilities that has no meaning.
+    pub fn warnings(&self) -> Vec<String> {
+        names::unknown(&self.hello.capabilities.known, &self.hello.capabilities.keys)
+    }
+
     fn start(&self, problem: &LevelProblem) -> Result<Result<ProgramSubject, String>, String> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
             return Err("said another hello than the first time".to_owned());
         }
         connection.expect_up_to(longest_answer(problem));
-        let mut message = Outgoing::new("problem", json!(problem), hello.capabilities.binary);
+        let binary = hello.capabilities.known.binary;
+        let mut message = Outgoing::new("problem", json!(problem), binary);
         let forced = match (&problem.constant_body_force, &problem.body_force) {
             (Some(_), _) => "constant",
             (None, Some(_)) => "asked",
@@ -59,9 +73,11 @@ impl SolverProgram {
             message.column("particles", name, column);
         }
         connection.send(message);
-        Ok(match connection.answer()? {
+        let mut inquiry = Inquiry::new(problem, hello.protocol, binary);
+        inquiry.allow(SETUP_QUESTIONS);
+        Ok(match conclude(&mut connection, &mut inquiry)? {
             (Answer::Ready { points }, bytes) => {
-                Ok(ProgramSubject::new(connection, problem, points, &bytes, &hello)?)
+                Ok(ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)?)
             }
             (Answer::Cannot { reason }, _) => Err(printable(&reason)),
             (Answer::Failed { reason }, _) => return Err(format!("says: {}", printable(&reason))),
@@ -86,15 +102,17 @@ fn identity(command: &[String], hello: &Hello) -> u64 {
 fn connected(command: &[String], limits: ProgramLimits) -> Result<(Connection, Hello), String> {
     let mut connection = Connection::start(command, limits)?;
     let harness = concat!("mpm-verify ", env!("CARGO_PKG_VERSION"));
-    let message = json!({"protocol": PROTOCOL, "harness": harness});
+    let message = json!({"protocol": PROTOCOL, "versions": VERSIONS, "harness": harness});
     connection.send(Outgoing::new("hello", message, false));
     let (answer, _) = connection.answer()?;
     let Answer::Hello(hello) = answer else {
         return Err(format!("answered `hello` with `{}`", answer.name()));
     };
-    if hello.protocol != PROTOCOL {
-        let theirs = hello.protocol;
-        return Err(format!("speaks version {theirs} of the protocol; this is version {PROTOCOL}"));
+    if !VERSIONS.contains(&hello.protocol) {
+        let (theirs, [oldest, newest]) = (hello.protocol, VERSIONS);
+        return Err(format!(
+            "speaks version {theirs} of the protocol; expected version {oldest} or {newest}"
+        ));
     }
     let name = &hello.name;
     if !is_solver_name(name) {
@@ -141,7 +159,17 @@ impl SolverFactory for SolverProgram {
     }
 
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
-        self.hello.capabilities.lacking(needs)
+        let mut lacking = self.hello.capabilities.known.lacking(needs);
+        if self.hello.protocol == 1 {
+            // What is lacking for another reason too is reported once.
+            let stated = needs.beyond_version_1().into_iter();
+            let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
+            let new: Vec<String> = stated
+                .map(|need| format!("{need} (handed over in version 2 of the protocol only)"))
+                .collect();
+            lacking.extend(new);
+        }
+        lacking
     }
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {

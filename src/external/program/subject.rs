@@ -1,14 +1,16 @@
 //! A level on its way in another process.
 
-use super::answer::{Answer, ColumnText, Hello, Points, State};
+use super::answer::{Answer, Hello, Points, State};
 use super::connection::Connection;
 use super::frame::Outgoing;
+use super::inquiry::Inquiry;
 use super::printable::printable;
-use crate::external::problem::{BodyForceField, LevelProblem, PlacedBodyForce};
+use crate::external::fields::FieldName;
+use crate::external::problem::LevelProblem;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
-/// Most questions for the body force between two instants, for each step.
+/// Maximum number of requests for values between two instants, for each step.
 const QUESTIONS_PER_STEP: u64 = 1000;
 
 /// Longest answer (bytes) that a solver of `problem` can have to give: every column of three times
@@ -16,6 +18,20 @@ const QUESTIONS_PER_STEP: u64 = 1000;
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
+}
+
+/// The next answer that is no request for values; such requests are answered until it comes.
+pub(super) fn conclude(
+    connection: &mut Connection,
+    inquiry: &mut Inquiry,
+) -> Result<(Answer, Vec<u8>), String> {
+    loop {
+        let (answer, bytes) = connection.answer()?;
+        match answer.question() {
+            Ok(question) => connection.send(inquiry.answer(question, &bytes)?),
+            Err(answer) => return Ok((answer, bytes)),
+        }
+    }
 }
 
 /// A subject behind a connection. Steps are asked for in one message up to each instant, since the
@@ -30,14 +46,9 @@ pub(super) struct ProgramSubject {
     /// Steps that were called for, and those that were asked of the process.
     called: u64,
     taken: u64,
-    body_force: Option<BodyForceField>,
-    /// The same at the points, once it has been asked for there.
-    placed: Option<PlacedBodyForce>,
-    /// Bodies of the particles, where these are the points.
-    bodies: Option<Vec<usize>>,
+    inquiry: Inquiry,
     /// Masses of the particles (kg), where these are the points.
-    mass: Vec<f64>,
-    binary: bool,
+    mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
 }
@@ -49,6 +60,7 @@ impl ProgramSubject {
     /// One line that says what is wrong with the points.
     pub(super) fn new(
         connection: Connection,
+        mut inquiry: Inquiry,
         problem: &LevelProblem,
         points: Option<Points>,
         bytes: &[u8],
@@ -56,16 +68,22 @@ impl ProgramSubject {
     ) -> Result<Self, String> {
         let (d, particles) = (problem.dimension, &problem.particles);
         let mut samples = Samples { dimension: d, ..Samples::default() };
-        let (mut bodies, mut mass) = (None, Vec::new());
+        let has_stress = hello.capabilities.known.columns.iter().any(|column| column == "stress");
+        let mut mass = None;
         if let Some(points) = points {
             let count = points.weight.count();
             samples.weight = points.weight.numbers("weight", count, bytes)?;
             let places = points.reference_position;
             samples.label = places.numbers("reference_position", count * d, bytes)?;
-            samples.displacement = vec![0.0; count * d];
-            samples.velocity = vec![0.0; count * d];
             if count == 0 {
                 return Err("has no points".to_owned());
+            }
+            inquiry.set_points(&samples.label)?;
+            let start = |of| inquiry.start(of).unwrap_or_else(|| vec![0.0; count * d]);
+            samples.displacement = start(FieldName::Displacement);
+            samples.velocity = start(FieldName::Velocity);
+            if has_stress {
+                samples.stress = inquiry.start(FieldName::Stress).unwrap_or_default();
             }
         } else {
             let displaced = particles.position.iter().zip(&particles.reference_position);
@@ -73,14 +91,13 @@ impl ProgramSubject {
             samples.label.clone_from(&particles.reference_position);
             samples.velocity.clone_from(&particles.velocity);
             samples.weight.clone_from(&particles.reference_volume);
-            if hello.capabilities.columns.iter().any(|column| column == "stress") {
+            if has_stress {
                 samples.stress.clone_from(&particles.stress);
             }
-            mass.clone_from(&particles.mass);
-            bodies = Some(particles.body.iter().map(|body| *body as usize).collect());
+            mass = Some(particles.mass.clone());
         }
         let counters = RunCounters {
-            particles: bodies.is_some().then_some(particles.len() as u64),
+            particles: mass.is_some().then_some(particles.len() as u64),
             ..RunCounters::new(0)
         };
         let mut instants = problem.instants.clone().into_iter();
@@ -92,11 +109,8 @@ impl ProgramSubject {
             instants,
             called: 0,
             taken: 0,
-            body_force: problem.body_force.clone(),
-            placed: None,
-            bodies,
+            inquiry,
             mass,
-            binary: hello.capabilities.binary,
             samples,
             counters,
         })
@@ -108,65 +122,16 @@ impl ProgramSubject {
         let from = self.taken as f64 * self.dt;
         let content = json!({"steps": steps, "dt": self.dt, "from": from});
         self.connection.send(Outgoing::new("advance", content, false));
-        let mut questions = 0;
-        loop {
-            match self.connection.answer()? {
-                (Answer::State(state), bytes) => {
-                    self.taken = self.called;
-                    return self.look(*state, &bytes);
-                }
-                (Answer::Failed { reason }, _) => {
-                    return Err(format!("says: {}", printable(&reason)));
-                }
-                (Answer::BodyForce { t, reference_position }, bytes) => {
-                    questions += 1;
-                    if questions > steps.saturating_mul(QUESTIONS_PER_STEP) {
-                        return Err(format!("asked for the body force {questions} times"));
-                    }
-                    self.tell_body_force(t, reference_position, &bytes)?;
-                }
-                (other, _) => return Err(format!("answered `advance` with `{}`", other.name())),
+        self.inquiry.allow(steps.saturating_mul(QUESTIONS_PER_STEP));
+        let (answer, bytes) = conclude(&mut self.connection, &mut self.inquiry)?;
+        match answer {
+            Answer::State(state) => {
+                self.taken = self.called;
+                self.look(*state, &bytes)
             }
+            Answer::Failed { reason } => Err(format!("says: {}", printable(&reason))),
+            other => Err(format!("answered `advance` with `{}`", other.name())),
         }
-    }
-
-    fn tell_body_force(
-        &mut self,
-        t: f64,
-        places: Option<ColumnText>,
-        bytes: &[u8],
-    ) -> Result<(), String> {
-        let d = self.dimension;
-        if !t.is_finite() {
-            return Err(format!("asked for the body force at t = {t}"));
-        }
-        let own = places.map(|places| {
-            let count = places.count();
-            let whole = if count % d == 0 { count } else { d * (count / d + 1) };
-            places.numbers("reference_position", whole, bytes)
-        });
-        let values: Vec<f64> = match (&self.body_force, own.transpose()?) {
-            (None, own) => vec![0.0; own.map_or(self.samples.label.len(), |own| own.len())],
-            (Some(force), Some(own)) => own
-                .chunks_exact(d)
-                .flat_map(|label| force.at(0, label, t).into_iter().take(d))
-                .collect(),
-            (Some(force), None) => {
-                let Self { samples, bodies, placed, .. } = self;
-                let placed = placed.get_or_insert_with(|| {
-                    let labels: Vec<&[f64]> = samples.label.chunks_exact(d).collect();
-                    let none = || vec![0; labels.len()];
-                    force.at_places(&bodies.clone().unwrap_or_else(none), &labels)
-                });
-                let mut forces = vec![[0.0; 3]; samples.label.len() / d];
-                placed(t, &mut forces);
-                forces.into_iter().flat_map(|force| force.into_iter().take(d)).collect()
-            }
-        };
-        let mut message = Outgoing::new("body_force", json!({}), self.binary);
-        message.set_numbers("values", &values);
-        self.connection.send(message);
-        Ok(())
     }
 
     /// Takes over a state.
@@ -185,9 +150,6 @@ impl ProgramSubject {
         samples.deformation_gradient =
             column("deformation_gradient", n * d * d)?.unwrap_or_default();
         samples.temperature = column("temperature", n)?.unwrap_or_default();
-        if let Some((name, _)) = columns.first_key_value() {
-            return Err(format!("gave a column `{}`, which there is not", printable(name)));
-        }
         self.counters.crossings = crossings;
         self.counters.left_domain = left_domain;
         self.counters.min_j = min_j.unwrap_or(f64::NAN);
@@ -219,10 +181,10 @@ impl Subject for ProgramSubject {
 
     /// Sums over the particles; none of a solver with places of its own.
     fn totals(&self) -> Option<Totals> {
-        self.bodies.as_ref()?;
+        let masses = self.mass.as_ref()?;
         let d = self.dimension;
         let mut totals = Totals::default();
-        for (p, mass) in self.mass.iter().enumerate() {
+        for (p, mass) in masses.iter().enumerate() {
             let at = |column: &[f64], i: usize| if i < d { column[p * d + i] } else { 0.0 };
             let v: [f64; 3] = std::array::from_fn(|i| at(&self.samples.velocity, i));
             let x: [f64; 3] = std::array::from_fn(|i| {

@@ -47,6 +47,20 @@ pub(in crate::mpm) fn complete<const D: usize>(
     Ok(if particles.is_empty() { 1.0 } else { min_j })
 }
 
+/// Completes the state of `particles` at the start of a run as a solver does, for a basis that
+/// reads no domains.
+///
+/// # Errors
+/// [`Failure::NotOfDeformation`] if F gives a deformed body no stress,
+/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
+pub fn complete_start<const D: usize>(
+    particles: &mut Particles<D>,
+    material: &mut dyn Material<D>,
+) -> Result<(), Failure> {
+    complete(particles, Domain::Point, material)?;
+    particles.stressed_finite()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

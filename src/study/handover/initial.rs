@@ -1,14 +1,18 @@
 //! Initial state of a level.
 
+use super::fields::SceneFields;
 use super::particles::particles;
 use crate::exact::{Forcing, Problem, Term};
 use crate::external::{
-    BodyForceField, ForceSource, LevelProblem, PlacedBodyForce, ProblemFace, ProblemGrid,
-    ProblemLoad, ProblemMaterial, ProblemParticles, owned,
+    BodyForceField, ForceSource, HandedNumber, HandedValues, LevelProblem, PlacedBodyForce,
+    ProblemBody, ProblemContact, ProblemFace, ProblemFields, ProblemGrid, ProblemLoad,
+    ProblemMaterial, ProblemParticles, ProblemRegion, owned,
 };
 use crate::study::build::conditions::periodic;
+use crate::study::build::initial_state::Initial;
 use crate::suite::model::grid_size::{cell_size, grid_axis};
 use crate::suite::model::load::{EffectName, ListedLoad, LoadTarget};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace};
 use std::sync::Arc;
@@ -35,6 +39,8 @@ pub fn level_problem(
             until: clock.until,
             instants: (1..=clock.steps).filter(|step| clock.is_instant(*step)).collect(),
             particles: particles(plan, level)?,
+            initial: plan.scene.each().iter().map(|body| Initial::of_body(plan, body)).collect(),
+            is_perturbed: false,
         },
     ))
 }
@@ -49,6 +55,10 @@ pub(crate) struct HandedRun {
     /// Numbers of the steps after which the state is compared.
     pub(crate) instants: Vec<u64>,
     pub(crate) particles: ProblemParticles,
+    /// States in which the bodies start.
+    pub(crate) initial: Vec<Initial>,
+    /// Whether random numbers were added to the state of the particles.
+    pub(crate) is_perturbed: bool,
 }
 
 /// The problem of a run on the cells of `level`, with the force that the motion of `made` needs.
@@ -59,7 +69,7 @@ pub(crate) fn problem(
     level: LevelPlan,
     run: HandedRun,
 ) -> LevelProblem {
-    let HandedRun { steps, dt, until, instants, particles } = run;
+    let HandedRun { steps, dt, until, instants, particles, initial, is_perturbed } = run;
     let force = SceneForce { terms: forces(scene), made: made.cloned() };
     LevelProblem {
         suite: suite.to_owned(),
@@ -67,20 +77,74 @@ pub(crate) fn problem(
         grid: grid(scene, level),
         faces: faces(scene),
         materials: scene.each().iter().map(material).collect(),
-        loads: scene.loads.iter().map(load).collect(),
+        bodies: scene.each().iter().map(body).collect(),
+        plane: scene.plane,
+        contact: scene.contact.map(|coefficient| ProblemContact { law: "coulomb", coefficient }),
+        loads: scene.loads.iter().map(|listed| load(scene, listed)).collect(),
         particles_per_cell: level.ppc,
         steps,
         dt,
         until,
         instants,
         particles,
+        fields: Some(ProblemFields(Arc::new(SceneFields::new(scene, initial, is_perturbed)))),
         constant_body_force: force.constant(scene.dimension()),
         body_force: (!force.is_none()).then(|| BodyForceField(Arc::new(force))),
     }
 }
 
-fn load(load: &ListedLoad) -> ProblemLoad {
-    ProblemLoad { load: load.effect.name(), rows: load.rows() }
+fn load(scene: &Scene, load: &ListedLoad) -> ProblemLoad {
+    let numbers = load.numbers();
+    let region = numbers.region.as_ref().map(|region| ProblemRegion {
+        name: region.name.clone(),
+        from: region.from.clone(),
+        to: region.to.clone(),
+    });
+    ProblemLoad {
+        load: load.effect.name(),
+        rows: load.rows(),
+        face: load.target().face().map(|face| scene.faces[face].name),
+        region,
+        numbers: handed(&numbers, scene.dimension()),
+    }
+}
+
+fn handed(numbers: &LoadNumbers, d: usize) -> HandedValues {
+    let constant = |(key, value): &(&'static str, f64)| (*key, HandedNumber::Scalar(*value));
+    let mut handed = HandedValues {
+        values: numbers.constants.iter().map(constant).collect(),
+        ..HandedValues::default()
+    };
+    let Some(field) = &numbers.field else { return handed };
+    match field.constant() {
+        Some(value) if field.is_vector => {
+            handed.values.push((field.key, HandedNumber::Vector(value)));
+        }
+        Some(value) => handed
+            .values
+            .extend(value.first().map(|value| (field.key, HandedNumber::Scalar(*value)))),
+        None => {
+            let keys = ["reference_position", "t", "displacement"].into_iter();
+            let keys =
+                keys.zip(field.depends_on(d)).filter_map(|(key, is_read)| is_read.then_some(key));
+            handed.asked.push((field.key, keys.collect()));
+        }
+    }
+    handed
+}
+
+fn body(scene: &Scene) -> ProblemBody {
+    let outline = scene.outline.as_deref();
+    let ball = outline.and_then(|outline| Some((outline.ball()?, outline.hole())));
+    let corners = |trace: Vec<(f64, f64)>| trace.into_iter().map(|(x, y)| [x, y]).collect();
+    ProblemBody {
+        shape: outline.map_or("box", |outline| outline.kind()),
+        from: scene.from.clone(),
+        to: scene.to.clone(),
+        centre: ball.map(|((centre, _), _)| centre.to_vec()),
+        radii: ball.map(|((_, outer), hole)| [hole, outer]),
+        corners: outline.filter(|_| ball.is_none()).map(|outline| corners(outline.trace())),
+    }
 }
 
 fn grid(scene: &Scene, level: LevelPlan) -> ProblemGrid {
@@ -101,6 +165,7 @@ fn faces(scene: &Scene) -> Vec<ProblemFace> {
         high: face.high,
         at: if face.high { scene.to[face.axis] } else { scene.from[face.axis] },
         condition: face.condition(),
+        numbers: handed(&face.hold.numbers(), scene.dimension()),
     };
     scene.faces.iter().map(face).collect()
 }
@@ -147,19 +212,33 @@ impl SceneForce {
         is_constant.then(|| (0..dimension).map(component).collect())
     }
 
-    /// The stated forces on a body, added to `made`.
-    fn whole(&self, made: [f64; 3], body: usize, label: &[f64], t: f64) -> [f64; 3] {
+    /// The stated forces on a body where the displacement is `u` (m), added to `made`.
+    fn whole(
+        &self,
+        made: [f64; 3],
+        body: usize,
+        (label, t): (&[f64], f64),
+        u: &[f64; 3],
+    ) -> [f64; 3] {
         let terms = self.terms.get(body).map_or(&[][..], Vec::as_slice);
         std::array::from_fn(|i| {
-            terms.iter().fold(made[i], |sum, term| sum + term.stated(i, label, t, &[0.0; 3]))
+            terms.iter().fold(made[i], |sum, term| sum + term.stated(i, label, t, u))
         })
     }
 }
 
 impl ForceSource for SceneForce {
     fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
+        self.at_displaced(body, label, t, &[0.0; 3])
+    }
+
+    fn depends_on_displacement(&self) -> bool {
+        self.terms.iter().flatten().any(|term| term.depends_on_displacement())
+    }
+
+    fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         let made = self.made.as_ref().map_or([0.0; 3], |made| made.manufactured_force(label, t));
-        self.whole(made, body, label, t)
+        self.whole(made, body, (label, t), u)
     }
 
     fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> Option<PlacedBodyForce> {
@@ -168,7 +247,7 @@ impl ForceSource for SceneForce {
         Some(Box::new(move |t, into| {
             forcing.at(t, into, |made| made);
             for (into, (body, label)) in into.iter_mut().zip(&places) {
-                *into = force.whole(*into, *body, label, t);
+                *into = force.whole(*into, *body, (label, t), &[0.0; 3]);
             }
         }))
     }

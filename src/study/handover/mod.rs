@@ -3,12 +3,14 @@
 //! ```text
 //! initial   grid, faces, materials, forces and steps of a level
 //! particles the particles at its start
+//! fields    initial state, loads and conditions on faces at places that a solver chooses
 //! exact     the exact state at a later time
 //! needs     what a solver must be able to do
 //! under     a suite with a solver in place of its methods
 //! ```
 
 mod exact;
+mod fields;
 mod initial;
 mod needs;
 mod particles;

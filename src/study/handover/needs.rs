@@ -4,6 +4,7 @@ use super::particles::starts_deformed;
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::kind::study;
 use crate::subject::PlaneState;
+use crate::suite::model::load::ListedLoad;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 use crate::verify::{Quantity, SumNeed};
 
@@ -30,28 +31,20 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
         conditions: scene.faces.iter().map(SceneFace::condition).collect(),
         loads: scene.loads.iter().map(|load| load.effect.name()).collect(),
         several_bodies: !scene.bodies.is_empty(),
+        contact: scene.contact.is_some(),
+        plane_stress: scene.plane == PlaneState::Stress,
+        axisymmetric: scene.plane == PlaneState::Axisymmetric,
+        initial_stress: scene.each().iter().any(|body| !body.initial_stress.is_none()),
+        displacement_force: scene.terms().iter().any(|term| term.depends_on_displacement()),
         ..ProblemNeeds::default()
     };
     for names in [&mut needs.laws, &mut needs.conditions, &mut needs.loads] {
         names.sort_unstable();
         names.dedup();
     }
-    for (is_needed, what) in [
-        (scene.contact.is_some(), "contact of bodies"),
-        (scene.plane == PlaneState::Stress, "plane stress"),
-        (scene.plane == PlaneState::Axisymmetric, "axisymmetry"),
-        (scene.each().iter().any(|body| !body.initial_stress.is_none()), "an initial stress"),
-        (scene.heat().is_some(), "heat"),
-        (
-            scene.terms().iter().any(|term| term.depends_on_displacement()),
-            "a body force of the displacement",
-        ),
-        (scene.loads.iter().any(|load| load.driven().is_some()), "driven sets"),
-    ] {
-        if is_needed {
-            needs.beyond.push(what);
-        }
-    }
+    let is_not_handed_over = |load: &&ListedLoad| load.numbers().is_empty();
+    let beyond = scene.loads.iter().filter(is_not_handed_over);
+    needs.beyond.extend(beyond.map(|load| load.effect.name()));
     needs
 }
 

@@ -53,6 +53,7 @@ fn started<const D: usize>(
         mass: MassName::Lumped,
         frame: FrameName::Updated,
     };
+    let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
     let mut all = ProblemParticles::default();
     for (number, body) in bodies.iter().enumerate() {
         let solver = Solver::<D>::new(setup(body, method, level)?);
@@ -76,6 +77,15 @@ fn started<const D: usize>(
             into.extend(tensors.iter().flat_map(|tensor| tensor.transpose().data.0).flatten());
         }
         all.body.extend(vec![number as f64; particles.x0.len()]);
+        all.hoop_stress.extend(&particles.stress_across);
+        if is_stressed {
+            let stress = |x0: &Vector<D>| body.own.initial_stress.at(x0.as_slice());
+            let rows = |x0| {
+                let stress = stress(x0);
+                (0..D * D).map(move |k| stress[k / D][k % D])
+            };
+            all.initial_stress.extend(particles.x0.iter().flat_map(rows));
+        }
     }
     Ok(all)
 }

@@ -3,6 +3,7 @@
 use super::start::{bodies, perturb};
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use crate::study::handover::{HandedRun, is_deformed, of_scene, problem, start, unloaded};
+use crate::study::build::initial_state::Initial;
 use crate::subject::{Perturbable, Samples, Subject};
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::verify::is_looked_at;
@@ -61,6 +62,14 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, String> {
     let particles = start(&bodies(setup, &bare), setup.level, &mut disturb)?;
     let steps = setup.steps;
     let instants = (1..=steps).filter(|step| is_looked_at(*step, steps)).collect();
-    let run = HandedRun { steps, dt, until: steps as f64 * dt, instants, particles };
+    let run = HandedRun {
+        steps,
+        dt,
+        until: steps as f64 * dt,
+        instants,
+        particles,
+        initial: setup.scene.each().iter().map(Initial::stated).collect(),
+        is_perturbed: setup.perturb > 0.0,
+    };
     Ok(problem(suite, &setup.scene, None, setup.level, run))
 }

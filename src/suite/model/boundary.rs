@@ -1,6 +1,7 @@
 //! Boundary conditions of a scene: the contract of the family, whose members stand in
 //! `suite/compile/boundary`.
 
+use super::numbers::LoadNumbers;
 use crate::dimension::in_every_dimension;
 use crate::exact::Condition;
 use crate::mpm::{BasisName, Boundary, Grid, Side};
@@ -31,6 +32,11 @@ in_every_dimension! {
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
     /// Its name, as suites write it.
     fn name(&self) -> &'static str;
+
+    /// Numbers for solvers of other programs; empty for a condition that its name describes.
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::default()
+    }
 
     /// In words that follow "the left face".
     fn verb(&self) -> &'static str;

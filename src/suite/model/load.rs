@@ -1,6 +1,7 @@
 //! Loads of a scene: the contract of the family, whose members stand in `suite/compile/load`.
 
 use super::heat::SceneHeat;
+use super::numbers::LoadNumbers;
 use crate::dimension::in_every_dimension;
 use crate::exact::heat::Conduction;
 use crate::exact::{Condition, Term};
@@ -67,6 +68,16 @@ pub(crate) enum LoadTarget {
     Set(usize),
 }
 
+impl LoadTarget {
+    /// The number of the face, if the load acts on one.
+    pub(crate) fn face(self) -> Option<usize> {
+        match self {
+            Self::Face(number) => Some(number),
+            Self::Body | Self::Set(_) => None,
+        }
+    }
+}
+
 /// A body in D dimensions that gets its effects.
 pub(crate) struct BodySite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
@@ -95,6 +106,11 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     /// Where it acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
+    }
+
+    /// Numbers for solvers of other programs; empty for a load that they cannot be handed.
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::default()
     }
 
     /// Rows of name and value for reports.

@@ -12,6 +12,7 @@ pub(crate) mod internal_force;
 pub(crate) mod lattice;
 pub(crate) mod load;
 pub(crate) mod method;
+pub(crate) mod numbers;
 pub(crate) mod refine_plan;
 pub(crate) mod same_method;
 pub(crate) mod scene;

@@ -5,6 +5,7 @@ use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Friction};
 use crate::suite::compile::wording::shown;
 use crate::suite::model::boundary::{BoundaryCondition, BuildBoundary, FaceSite};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -39,6 +40,10 @@ impl Condition for FrictionFace {
 impl BoundaryCondition for FrictionFace {
     fn name(&self) -> &'static str {
         "friction"
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::constants(&[("coefficient", self.0)])
     }
 
     fn verb(&self) -> &'static str {

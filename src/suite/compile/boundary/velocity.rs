@@ -6,6 +6,7 @@ use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Prescribed};
 use crate::suite::compile::load::fields::{of_place_and_time, sources};
 use crate::suite::model::boundary::{BoundaryCondition, BuildBoundary, FaceSite};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -35,6 +36,10 @@ impl Condition for MovingFace {
 impl BoundaryCondition for MovingFace {
     fn name(&self) -> &'static str {
         "velocity"
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("velocity", &self.0)
     }
 
     fn verb(&self) -> &'static str {

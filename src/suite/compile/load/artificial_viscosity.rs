@@ -6,6 +6,7 @@ use crate::mpm::{ArtificialViscosity, Effect};
 use crate::subject::PlaneState;
 use crate::suite::compile::wording::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -66,6 +67,15 @@ struct ViscosityLoad {
 impl Term for ViscosityLoad {}
 
 impl SceneLoad for ViscosityLoad {
+    fn numbers(&self) -> LoadNumbers {
+        let Self { linear, quadratic, speed } = *self;
+        LoadNumbers::constants(&[
+            ("linear", linear),
+            ("quadratic", quadratic),
+            ("wave_speed", speed),
+        ])
+    }
+
     fn rows(&self) -> Vec<(String, String)> {
         let Self { linear, quadratic, .. } = self;
         let text = format!("artificial, linear {linear}, quadratic {quadratic}");

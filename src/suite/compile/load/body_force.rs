@@ -6,6 +6,7 @@ use crate::exact::Term;
 use crate::exact::formula::{Formula, Hoisted, Jet};
 use crate::mpm::{BodyForce, Effect, Particles, Vector};
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -91,6 +92,10 @@ impl Term for BodyForceLoad {
 }
 
 impl SceneLoad for BodyForceLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("acceleration", &self.0)
+    }
+
     fn rows(&self) -> Vec<(String, String)> {
         vec![("body force".to_owned(), format!("{} m/s2", sources(&self.0)))]
     }

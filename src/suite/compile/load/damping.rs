@@ -6,6 +6,7 @@ use crate::exact::formula::Formula;
 use crate::mpm::{Damping, Effect};
 use crate::suite::compile::wording::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -62,6 +63,10 @@ impl Term for DampingLoad {
 }
 
 impl SceneLoad for DampingLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::scalar("rate", &self.0)
+    }
+
     fn rows(&self) -> Vec<(String, String)> {
         vec![("damping".to_owned(), format!("{} 1/s", self.0.source()))]
     }

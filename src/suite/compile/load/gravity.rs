@@ -6,6 +6,7 @@ use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Effect, Gravity};
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -45,6 +46,10 @@ impl Term for GravityLoad {
 }
 
 impl SceneLoad for GravityLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("acceleration", &self.0)
+    }
+
     fn rows(&self) -> Vec<(String, String)> {
         vec![("gravity".to_owned(), format!("{} m/s2", sources(&self.0)))]
     }

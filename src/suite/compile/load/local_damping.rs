@@ -6,6 +6,7 @@ use crate::mpm::{Effect, LocalDamping};
 use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -63,6 +64,10 @@ impl Term for LocalDampingLoad {
 }
 
 impl SceneLoad for LocalDampingLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::constants(&[("share", self.0)])
+    }
+
     fn rows(&self) -> Vec<(String, String)> {
         let text = format!("{} of the force out of balance", shown(self.0));
         vec![("local damping".to_owned(), text)]

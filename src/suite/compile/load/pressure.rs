@@ -9,6 +9,7 @@ use crate::mpm::{Effect, Placement, Pressure, Side};
 #[cfg(feature = "schemas")]
 use crate::suite::model::face_schema::face_name;
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -66,6 +67,10 @@ impl Condition for PressureLoad {
 impl SceneLoad for PressureLoad {
     fn target(&self) -> LoadTarget {
         LoadTarget::Face(self.face.number)
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::scalar("pressure", &self.value)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

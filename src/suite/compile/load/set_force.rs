@@ -7,6 +7,7 @@ use crate::exact::formula::Formula;
 use crate::mpm::{Effect, SetForce};
 use crate::subject::PlaneState;
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -69,6 +70,11 @@ impl Term for SetForceLoad {
 impl SceneLoad for SetForceLoad {
     fn target(&self) -> LoadTarget {
         LoadTarget::Set(self.set.number)
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        let numbers = LoadNumbers::vector("force", &self.value).on(&self.set.region);
+        LoadNumbers { constants: vec![("volume", self.volume)], ..numbers }
     }
 
     fn rows(&self) -> Vec<(String, String)> {

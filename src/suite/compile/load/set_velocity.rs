@@ -6,6 +6,7 @@ use crate::exact::formula::Formula;
 use crate::exact::{Region, Term};
 use crate::mpm::{Effect, PrescribedVelocity};
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -49,6 +50,10 @@ impl Term for SetVelocityLoad {
 impl SceneLoad for SetVelocityLoad {
     fn target(&self) -> LoadTarget {
         LoadTarget::Set(self.set.number)
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("velocity", &self.value).on(&self.set.region)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

@@ -9,6 +9,7 @@ use crate::mpm::{Effect, Placement, Traction};
 #[cfg(feature = "schemas")]
 use crate::suite::model::face_schema::face_name;
 use crate::suite::model::load::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -65,6 +66,10 @@ impl Condition for TractionLoad {
 impl SceneLoad for TractionLoad {
     fn target(&self) -> LoadTarget {
         LoadTarget::Face(self.face.number)
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("traction", &self.value)
     }
 
     fn rows(&self) -> Vec<(String, String)> {

@@ -1,0 +1,252 @@
+//! Quantities of a problem as numbers, or as functions of place and time.
+
+use serde::{Serialize, Serializer};
+#[cfg(feature = "schemas")]
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+/// A constant: one number, or the components of a vector.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum HandedNumber {
+    /// One number (SI units).
+    Scalar(f64),
+    /// D numbers (SI units).
+    Vector(Vec<f64>),
+}
+
+/// The numbers of a load or of a condition on a face: constants by their keys, and the quantities
+/// that depend on place, time or displacement.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct HandedValues {
+    /// Constants by their keys, in SI units.
+    #[serde(serialize_with = "as_map")]
+    #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, HandedNumber>"))]
+    pub values: Vec<(&'static str, HandedNumber)>,
+    /// Quantities that are not constant, with the keys of the request `values` that they depend
+    /// on: `reference_position`, `t`, `displacement`.
+    #[serde(serialize_with = "as_map")]
+    #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, Vec<String>>"))]
+    pub asked: Vec<(&'static str, Vec<&'static str>)>,
+}
+
+/// Serializes pairs of key and value as an object.
+pub(super) fn as_map<V: Serialize, S: Serializer>(
+    all: &[(&'static str, V)],
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.collect_map(all.iter().map(|(key, value)| (key, value)))
+}
+
+/// A quantity of a problem that has a value at every place of a body or a face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FieldName {
+    /// Body force (m/s2), stated and manufactured.
+    BodyForce,
+    /// Displacement at t = 0 (m).
+    Displacement,
+    /// Velocity at t = 0 (m/s).
+    Velocity,
+    /// Deformation gradient at t = 0.
+    DeformationGradient,
+    /// Cauchy stress at t = 0 (Pa).
+    Stress,
+    /// Stress of the reference configuration (Pa).
+    InitialStress,
+    /// The quantity of the load with this index.
+    Load(usize),
+    /// The quantity of the condition on the face with this index.
+    Face(usize),
+}
+
+/// Names of the fields of a body, as requests spell them.
+pub(crate) const BODY_FIELDS: [(&str, FieldName); 6] = [
+    ("body_force", FieldName::BodyForce),
+    ("displacement", FieldName::Displacement),
+    ("velocity", FieldName::Velocity),
+    ("deformation_gradient", FieldName::DeformationGradient),
+    ("stress", FieldName::Stress),
+    ("initial_stress", FieldName::InitialStress),
+];
+
+impl FieldName {
+    /// Whether the field belongs to the initial state.
+    pub fn is_initial(self) -> bool {
+        !matches!(self, Self::BodyForce | Self::Load(_) | Self::Face(_))
+    }
+}
+
+/// Places at which values are requested, all of the same problem.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct FieldPlaces<'a> {
+    /// Reference positions (m), D numbers each.
+    pub labels: &'a [f64],
+    /// Index of the body of each place.
+    pub bodies: &'a [usize],
+    /// Displacements (m), D numbers each, if the request has them.
+    pub displacement: Option<&'a [f64]>,
+}
+
+impl<'a> FieldPlaces<'a> {
+    /// Places by their reference positions (m, D numbers each), with the body of each.
+    pub fn new(labels: &'a [f64], bodies: &'a [usize]) -> Self {
+        Self { labels, bodies, displacement: None }
+    }
+}
+
+/// Why there are no values.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FieldError {
+    /// The request is wrong: one line.
+    Request(String),
+    /// The problem does not define the values that are requested: one line.
+    Undefined(String),
+}
+
+impl fmt::Display for FieldError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Request(reason) | Self::Undefined(reason)) = self;
+        f.write_str(reason)
+    }
+}
+
+/// Evaluates the fields of a scene.
+pub(crate) trait FieldSource: Send + Sync {
+    /// [`ProblemFields::bodies`].
+    fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError>;
+
+    /// [`ProblemFields::nearest_body`].
+    fn nearest_body(&self, label: &[f64]) -> usize;
+
+    /// [`ProblemFields::check_places`].
+    fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
+
+    /// [`ProblemFields::values`], of all fields but the body force.
+    fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
+}
+
+/// The initial state, loads and conditions on faces of a problem, at places and times that a solver
+/// chooses.
+#[derive(Clone)]
+pub struct ProblemFields(pub(crate) Arc<dyn FieldSource>);
+
+impl ProblemFields {
+    /// Index of the body that contains each of the reference positions (m, D numbers each).
+    ///
+    /// # Errors
+    /// [`FieldError::Request`] for a place that is outside every body, and for one on the common
+    /// boundary of two.
+    pub fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
+        self.0.bodies(labels)
+    }
+
+    /// Index of a body that contains the reference position `label` (m), or of the first one.
+    pub fn nearest_body(&self, label: &[f64]) -> usize {
+        self.0.nearest_body(label)
+    }
+
+    /// Checks that each place is in the body that is given for it, up to rounding.
+    ///
+    /// # Errors
+    /// [`FieldError::Request`] for the first place that is not.
+    pub fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        self.0.check_places(places)
+    }
+
+    /// Values at places of a body, place after place; vectors have D numbers and tensors D^2, row
+    /// after row. The body force is [`LevelProblem::body_force`](super::LevelProblem::body_force).
+    ///
+    /// # Errors
+    /// [`FieldError::Request`] for a place outside its body, and [`FieldError::Undefined`] where the
+    /// problem has no such value.
+    pub fn values(
+        &self,
+        of: FieldName,
+        t: f64,
+        at: &FieldPlaces<'_>,
+    ) -> Result<Vec<f64>, FieldError> {
+        self.0.values(of, t, at)
+    }
+}
+
+impl fmt::Debug for ProblemFields {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("ProblemFields")
+    }
+}
+
+/// A body force of a scene.
+pub(crate) trait ForceSource: Send + Sync {
+    /// [`BodyForceField::at`].
+    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
+
+    /// Whether the force depends on the displacement.
+    fn depends_on_displacement(&self) -> bool {
+        false
+    }
+
+    /// [`BodyForceField::at_displaced`].
+    fn at_displaced(&self, body: usize, label: &[f64], t: f64, _u: &[f64; 3]) -> [f64; 3] {
+        self.at(body, label, t)
+    }
+
+    /// [`BodyForceField::at_places`], where that is cheaper than one place after another.
+    fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
+        None
+    }
+}
+
+/// A body force at its places: fills in the components (m/s2) at each, at a time (s).
+pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
+
+/// A body force per unit of mass, as a function of the reference position and time.
+#[derive(Clone)]
+pub struct BodyForceField(pub(crate) Arc<dyn ForceSource>);
+
+impl BodyForceField {
+    /// The force (m/s2) at a reference position `label` (m, D numbers) of the body with a number,
+    /// and a time (s); components beyond the dimension are zero.
+    pub fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
+        self.0.at(body, label, t)
+    }
+
+    /// Whether the force depends on the displacement.
+    pub fn depends_on_displacement(&self) -> bool {
+        self.0.depends_on_displacement()
+    }
+
+    /// The force (m/s2) as [`at`](Self::at), where the displacement is `u` (m).
+    pub fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
+        self.0.at_displaced(body, label, t, u)
+    }
+
+    /// The force at places that are given once, with the body of each: much cheaper where the times
+    /// are many.
+    pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
+        self.0.at_places(bodies, labels).unwrap_or_else(|| {
+            let (force, places) = (self.clone(), owned(bodies, labels));
+            Box::new(move |t, into| {
+                for (into, (body, label)) in into.iter_mut().zip(&places) {
+                    *into = force.at(*body, label, t);
+                }
+            })
+        })
+    }
+}
+
+/// Places with their bodies, to be kept.
+pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
+    bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
+}
+
+impl fmt::Debug for BodyForceField {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("BodyForceField")
+    }
+}

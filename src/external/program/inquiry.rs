@@ -1,0 +1,302 @@
+//! Values that a solver requests at places and times: body forces, the initial state, loads and
+//! conditions on faces.
+
+use super::answer::ColumnText;
+use super::frame::Outgoing;
+use super::printable::printable;
+use crate::external::fields::{
+    BODY_FIELDS, BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
+};
+use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
+use crate::nearest::nearest;
+use serde_json::json;
+
+/// A request for values.
+pub(super) struct Question {
+    /// The field that is requested; absent in a request `body_force`.
+    pub(super) of: Option<String>,
+    /// Time (s).
+    pub(super) t: Option<f64>,
+    pub(super) reference_position: Option<ColumnText>,
+    pub(super) displacement: Option<ColumnText>,
+    pub(super) body: Option<usize>,
+}
+
+/// Answers requests for values of one problem.
+pub(super) struct Inquiry {
+    dimension: usize,
+    body_force: Option<BodyForceField>,
+    fields: Option<ProblemFields>,
+    faces: Vec<ProblemFace>,
+    loads: Vec<ProblemLoad>,
+    /// Reference positions (m) and bodies of the particles, or of the solver's own points.
+    labels: Vec<f64>,
+    bodies: Vec<usize>,
+    /// The body force at `labels`, once it has been requested there.
+    placed: Option<PlacedBodyForce>,
+    /// Version of the protocol that the solver speaks.
+    version: u64,
+    binary: bool,
+    /// Requests so far, and the largest number of them.
+    asked: u64,
+    most: u64,
+}
+
+/// Places of a request, in numbers.
+struct Places {
+    labels: Vec<f64>,
+    bodies: Vec<usize>,
+    displacement: Option<Vec<f64>>,
+    /// Whether they are the particles or the points.
+    are_own: bool,
+}
+
+impl Inquiry {
+    /// The answers to a solver of `problem` that speaks a `version` of the protocol. Places that a
+    /// request does not give are the particles.
+    pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
+        Self {
+            dimension: problem.dimension,
+            body_force: problem.body_force.clone(),
+            fields: problem.fields.clone(),
+            faces: problem.faces.clone(),
+            loads: problem.loads.clone(),
+            labels: problem.particles.reference_position.clone(),
+            bodies: problem.particles.body.iter().map(|body| *body as usize).collect(),
+            placed: None,
+            version,
+            binary,
+            asked: 0,
+            most: 0,
+        }
+    }
+
+    /// Sets the places that a request without places means to the points of the solver (m, D
+    /// numbers each).
+    ///
+    /// # Errors
+    /// A point that is outside the body; a solver of version 1 is not checked.
+    pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), String> {
+        self.bodies = self.bodies_of(labels).map_err(|reason| format!("gave points: {reason}"))?;
+        self.labels = labels.to_vec();
+        Ok(())
+    }
+
+    /// A field of the initial state at the particles or points, if it is known there.
+    pub(super) fn start(&self, of: FieldName) -> Option<Vec<f64>> {
+        let at = FieldPlaces::new(&self.labels, &self.bodies);
+        self.fields.as_ref()?.values(of, 0.0, &at).ok()
+    }
+
+    /// Allows so many requests from now on.
+    pub(super) fn allow(&mut self, requests: u64) {
+        (self.asked, self.most) = (0, requests);
+    }
+
+    /// The answer to a request that came with a block of `bytes`.
+    ///
+    /// # Errors
+    /// One line about a request that has no answer.
+    pub(super) fn answer(&mut self, question: Question, bytes: &[u8]) -> Result<Outgoing, String> {
+        self.asked += 1;
+        if self.asked > self.most {
+            return Err(format!("asked for values {} times", self.asked));
+        }
+        let Question { of, t, reference_position, displacement, body } = question;
+        let name = of.as_deref().unwrap_or("body_force");
+        let what = format!("asked for values of `{}`", printable(name));
+        let field = self.field(name).map_err(|reason| format!("{what}: {reason}"))?;
+        let refused = |reason: String| format!("{what}: {reason}");
+        let t = time(field, t).map_err(refused)?;
+        let numbers = |name: &str, column: ColumnText| {
+            let (count, d) = (column.count(), self.dimension);
+            column.numbers(name, count.next_multiple_of(d), bytes)
+        };
+        let own = reference_position.map(|column| numbers("reference_position", column));
+        let displacement = displacement.map(|column| numbers("displacement", column));
+        let (own, displacement) = (own.transpose()?, displacement.transpose()?);
+        let places = self.places(field, own, displacement, body).map_err(refused)?;
+        let values = match field {
+            FieldName::BodyForce => self.forces(t, &places),
+            _ => self.values(field, t, &places),
+        };
+        let kind = if of.is_some() { "values" } else { "body_force" };
+        let mut message = Outgoing::new(kind, json!({}), self.binary);
+        if of.is_some() {
+            message.set("of", json!(name));
+        }
+        match values {
+            Ok(values) => message.set_numbers("values", &values),
+            Err(FieldError::Undefined(reason)) if of.is_some() => {
+                message.set("error", json!(reason));
+            }
+            Err(error) => return Err(refused(error.to_string())),
+        }
+        Ok(message)
+    }
+
+    /// The field that a request names.
+    fn field(&self, name: &str) -> Result<FieldName, String> {
+        if let Some((_, field)) = BODY_FIELDS.iter().find(|(known, _)| *known == name) {
+            return Ok(*field);
+        }
+        let loads =
+            (0..self.loads.len()).map(|load| (format!("load:{load}"), FieldName::Load(load)));
+        let faces = self.faces.iter().enumerate();
+        let faces = faces.map(|(i, face)| (format!("face:{}", face.name), FieldName::Face(i)));
+        let known: Vec<(String, FieldName)> = loads.chain(faces).collect();
+        if let Some((_, field)) = known.iter().find(|(known, _)| known == name) {
+            return Ok(*field);
+        }
+        let names = BODY_FIELDS.iter().map(|(known, _)| *known);
+        let names: Vec<&str> = names.chain(known.iter().map(|(known, _)| known.as_str())).collect();
+        Err(match nearest(name, names.iter().copied()) {
+            Some(known) => format!("unknown field; did you mean `{known}`?"),
+            None => format!("unknown field; known: {}", names.join(", ")),
+        })
+    }
+
+    /// The places of a request.
+    fn places(
+        &self,
+        field: FieldName,
+        own: Option<Vec<f64>>,
+        displacement: Option<Vec<f64>>,
+        body: Option<usize>,
+    ) -> Result<Places, String> {
+        let are_own = own.is_none();
+        let labels = match own {
+            Some(labels) => labels,
+            None => self.default_places(field)?,
+        };
+        let count = labels.len() / self.dimension;
+        let bodies = match (field, body) {
+            (FieldName::Face(_), _) => vec![0; count],
+            // A quantity that is the same at all places has one value.
+            (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
+                vec![0; count]
+            }
+            (_, None) if are_own => self.bodies.clone(),
+            (_, None) => self.bodies_of(&labels)?,
+            (_, Some(body)) => {
+                let bodies = vec![body; count];
+                if let Some(fields) = &self.fields {
+                    let at = FieldPlaces::new(&labels, &bodies);
+                    fields.check_places(&at).map_err(|error| error.to_string())?;
+                }
+                bodies
+            }
+        };
+        if let Some(displacement) = &displacement
+            && displacement.len() != labels.len()
+        {
+            let (found, wanted) = (displacement.len(), labels.len());
+            return Err(format!("gave {found} numbers as `displacement`, expected {wanted}"));
+        }
+        Ok(Places { labels, bodies, displacement, are_own })
+    }
+
+    /// The places of a request that gives none.
+    fn default_places(&self, field: FieldName) -> Result<Vec<f64>, String> {
+        let (numbers, face) = match field {
+            FieldName::Load(load) => {
+                let load = &self.loads[load];
+                (&load.numbers, self.faces.iter().find(|face| Some(face.name) == load.face))
+            }
+            FieldName::Face(face) => (&self.faces[face].numbers, Some(&self.faces[face])),
+            _ => return Ok(self.labels.clone()),
+        };
+        if numbers.asked.iter().any(|(_, keys)| keys.contains(&"displacement")) {
+            return Ok(self.labels.clone());
+        }
+        if numbers.asked.iter().any(|(_, keys)| keys.contains(&"reference_position")) {
+            return match face {
+                Some(_) => {
+                    Err("it depends on the place, and the request has no `reference_position`"
+                        .to_owned())
+                }
+                None => Ok(self.labels.clone()),
+            };
+        }
+        let mut place = vec![0.0; self.dimension];
+        if let Some(face) = face {
+            place[face.axis] = face.at;
+        }
+        Ok(place)
+    }
+
+    /// The body of each place.
+    fn bodies_of(&self, labels: &[f64]) -> Result<Vec<usize>, String> {
+        let places = labels.chunks_exact(self.dimension);
+        match &self.fields {
+            Some(fields) if self.version > 1 => {
+                fields.bodies(labels).map_err(|error| error.to_string())
+            }
+            Some(fields) => Ok(places.map(|label| fields.nearest_body(label)).collect()),
+            None => Ok(vec![0; places.len()]),
+        }
+    }
+
+    /// Body forces (m/s2).
+    fn forces(&mut self, t: f64, places: &Places) -> Result<Vec<f64>, FieldError> {
+        let d = self.dimension;
+        let Places { labels, bodies, displacement, are_own } = places;
+        let Some(force) = &self.body_force else { return Ok(vec![0.0; labels.len()]) };
+        let mut forces = vec![[0.0; 3]; bodies.len()];
+        let each = labels.chunks_exact(d).zip(bodies);
+        match displacement {
+            None if force.depends_on_displacement() => {
+                let reason =
+                    "it depends on the displacement, and the request has no `displacement`";
+                return Err(FieldError::Request(reason.to_owned()));
+            }
+            None if *are_own => {
+                let placed = self.placed.get_or_insert_with(|| {
+                    force.at_places(bodies, &labels.chunks_exact(d).collect::<Vec<_>>())
+                });
+                placed(t, &mut forces);
+            }
+            None => {
+                for (into, (label, body)) in forces.iter_mut().zip(each) {
+                    *into = force.at(*body, label, t);
+                }
+            }
+            Some(displacement) => {
+                let all = forces.iter_mut().zip(each.zip(displacement.chunks_exact(d)));
+                for (into, ((label, body), u)) in all {
+                    let u = std::array::from_fn(|i| u.get(i).copied().unwrap_or(0.0));
+                    *into = force.at_displaced(*body, label, t, &u);
+                }
+            }
+        }
+        let values: Vec<f64> = forces.iter().flat_map(|force| &force[..d]).copied().collect();
+        if values.iter().all(|value| value.is_finite()) {
+            return Ok(values);
+        }
+        Err(FieldError::Undefined(format!("a value at t = {t} s is not finite")))
+    }
+
+    /// Values of all other fields.
+    fn values(&self, of: FieldName, t: f64, places: &Places) -> Result<Vec<f64>, FieldError> {
+        let Some(fields) = &self.fields else {
+            let reason = "the problem has no fields besides its particles";
+            return Err(FieldError::Undefined(reason.to_owned()));
+        };
+        let mut at = FieldPlaces::new(&places.labels, &places.bodies);
+        at.displacement = places.displacement.as_deref();
+        fields.values(of, t, &at)
+    }
+}
+
+/// The time (s) that a request means.
+fn time(field: FieldName, t: Option<f64>) -> Result<f64, String> {
+    match t {
+        None if field.is_initial() => Ok(0.0),
+        None => Err("the request has no time `t`".to_owned()),
+        Some(t) if field.is_initial() && t != 0.0 => {
+            Err(format!("it is known at t = 0 only, not at t = {t}"))
+        }
+        Some(t) if !t.is_finite() => Err(format!("the time is {t}")),
+        Some(t) => Ok(t),
+    }
+}

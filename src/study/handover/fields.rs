@@ -1,0 +1,260 @@
+//! Initial state, loads and conditions on faces at places that a solver chooses.
+
+use crate::dimension::with_dimension;
+use crate::external::{FieldError, FieldName, FieldPlaces, FieldSource};
+use crate::mpm::{Matrix, Particles, Vector, complete_start};
+use crate::study::build::initial_state::Initial;
+use crate::subject::PlaneState;
+use crate::suite::model::Scene;
+use crate::suite::model::numbers::LoadNumbers;
+
+/// Largest distance of a place from its body or face that counts as rounding, relative to the size
+/// of the body.
+const ROUNDING: f64 = 1e-9;
+
+/// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
+/// of the body: the hoop stretch r/R has no value at R = 0.
+const NEAR_AXIS: f64 = 1e-8;
+
+/// The fields of a scene.
+pub(super) struct SceneFields {
+    scene: Scene,
+    bodies: Vec<FieldBody>,
+    /// Whether random numbers were added to the velocities, stresses and F of the particles.
+    is_perturbed: bool,
+}
+
+/// One body of the scene.
+struct FieldBody {
+    scene: Scene,
+    initial: Initial,
+}
+
+impl SceneFields {
+    /// The fields of `scene`, whose bodies start in the states `initial`.
+    pub(super) fn new(scene: &Scene, initial: Vec<Initial>, is_perturbed: bool) -> Self {
+        let scenes = scene.each().iter().cloned().zip(initial);
+        let bodies = scenes.map(|(scene, initial)| FieldBody { scene, initial }).collect();
+        Self { scene: scene.clone(), bodies, is_perturbed }
+    }
+
+    fn body(&self, number: usize) -> Result<&FieldBody, FieldError> {
+        self.bodies.get(number).ok_or_else(|| {
+            FieldError::Request(format!("there is no body {number}, but {}", self.bodies.len()))
+        })
+    }
+
+    /// One field of the initial state, place by place.
+    fn initial(&self, of: FieldName, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
+        let d = self.scene.dimension();
+        let mut values = Vec::new();
+        for (label, body) in at.labels.chunks_exact(d).zip(at.bodies) {
+            let FieldBody { scene, initial } = self.body(*body)?;
+            let now = initial.at(label);
+            let mut tensor = |component: &dyn Fn(usize, usize) -> f64| {
+                values.extend((0..d * d).map(|k| component(k / d, k % d)));
+            };
+            match of {
+                FieldName::Velocity => values.extend(&now.velocity[..d]),
+                FieldName::DeformationGradient => {
+                    tensor(&|i, j| now.grad[i][j] + f64::from(u8::from(i == j)));
+                }
+                FieldName::InitialStress => {
+                    let stress = scene.initial_stress.at(label);
+                    tensor(&|i, j| stress[i][j]);
+                }
+                _ => values.extend(&now.u[..d]),
+            }
+        }
+        Ok(values)
+    }
+
+    /// The Cauchy stress at the start, as the law of each body gives it to particles.
+    fn stress(&self, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
+        let d = self.scene.dimension();
+        let mut values = vec![0.0; at.bodies.len() * d * d];
+        for number in 0..self.bodies.len() {
+            let places: Vec<usize> =
+                (0..at.bodies.len()).filter(|place| at.bodies[*place] == number).collect();
+            let labels: Vec<&[f64]> =
+                places.iter().map(|place| &at.labels[place * d..(place + 1) * d]).collect();
+            let stress = with_dimension!(d, D => self.stress_of::<D>(number, &labels))?;
+            for (place, stress) in places.iter().zip(stress.chunks_exact(d * d)) {
+                values[place * d * d..(place + 1) * d * d].copy_from_slice(stress);
+            }
+        }
+        Ok(values)
+    }
+
+    fn stress_of<const D: usize>(
+        &self,
+        number: usize,
+        labels: &[&[f64]],
+    ) -> Result<Vec<f64>, FieldError> {
+        let FieldBody { scene, initial } = self.body(number)?;
+        let undefined = |reason: String| {
+            FieldError::Undefined(format!("the stress at the start is not known there: {reason}"))
+        };
+        let is_revolved = self.scene.plane == PlaneState::Axisymmetric;
+        let axis = NEAR_AXIS * size(scene);
+        let place = |label: &&[f64]| {
+            let mut place = Vector::<D>::from_fn(|i, _| label[i]);
+            if is_revolved && !(place[0] >= axis) {
+                place[0] = axis;
+            }
+            place
+        };
+        let mut particles = Particles::at_places(labels.iter().map(place).collect());
+        if is_revolved {
+            particles.revolve();
+        }
+        initial.put(&mut particles);
+        let law = scene.material.in_plane(self.scene.plane);
+        let law = law.ok_or_else(|| undefined("a law unknown in its plane".to_owned()))?;
+        let mut law = initial.stressed(law, &mut particles);
+        complete_start(&mut particles, law.as_mut())
+            .map_err(|failure| undefined(failure.to_string()))?;
+        // Algebra stores columns.
+        let rows = |sigma: &Matrix<D>| sigma.transpose().data.0;
+        Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
+    }
+
+    /// The values of the numbers called `what`.
+    fn numbers(
+        &self,
+        (what, numbers): (&str, &LoadNumbers),
+        t: f64,
+        at: &FieldPlaces<'_>,
+    ) -> Result<Vec<f64>, FieldError> {
+        let d = self.scene.dimension();
+        let Some(field) = &numbers.field else {
+            let reason = format!("`{what}` has no values at places; its constants are in `values`");
+            return Err(FieldError::Request(reason));
+        };
+        if field.depends_on(d)[2] && at.displacement.is_none() {
+            let reason = format!("`{what}` depends on the displacement, which the request lacks");
+            return Err(FieldError::Request(reason));
+        }
+        let places = at.labels.chunks_exact(d).enumerate();
+        let value = |(place, label): (usize, &[f64])| {
+            let u = at.displacement.map_or(&[][..], |all| &all[place * d..(place + 1) * d]);
+            field.at(label, t, u)
+        };
+        Ok(places.flat_map(value).collect())
+    }
+
+    /// Fails if a place is not on the face.
+    fn check_on_face(&self, number: usize, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        let d = self.scene.dimension();
+        let Some(face) = self.scene.faces.get(number) else {
+            return Err(FieldError::Request("there is no such face".to_owned()));
+        };
+        let ends = if face.high { &self.scene.to } else { &self.scene.from };
+        let (end, near) = (ends[face.axis], ROUNDING * size(&self.scene));
+        let is_off = |label: &[f64]| !((label[face.axis] - end).abs() <= near);
+        match at.labels.chunks_exact(d).position(is_off) {
+            None => Ok(()),
+            Some(place) => Err(FieldError::Request(format!(
+                "place {place}, {}, is not on the face `{}`, whose coordinate is {end} m",
+                shown(&at.labels[place * d..(place + 1) * d]),
+                face.name
+            ))),
+        }
+    }
+}
+
+impl FieldSource for SceneFields {
+    fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
+        let body_of = |(place, label): (usize, &[f64])| {
+            let mut holding =
+                (0..self.bodies.len()).filter(|body| holds(&self.bodies[*body].scene, label));
+            match (holding.next(), holding.next()) {
+                (Some(body), None) => Ok(body),
+                (None, _) => Err(FieldError::Request(format!(
+                    "place {place}, {}, is outside the body",
+                    shown(label)
+                ))),
+                (Some(one), Some(other)) => Err(FieldError::Request(format!(
+                    "place {place}, {}, belongs to the bodies {one} and {other}: name one of them \
+                     as `body`",
+                    shown(label)
+                ))),
+            }
+        };
+        labels.chunks_exact(self.scene.dimension()).enumerate().map(body_of).collect()
+    }
+
+    fn nearest_body(&self, label: &[f64]) -> usize {
+        self.bodies.iter().position(|body| holds(&body.scene, label)).unwrap_or(0)
+    }
+
+    fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        let labels = places.labels.chunks_exact(self.scene.dimension());
+        for (place, (label, body)) in labels.zip(places.bodies).enumerate() {
+            if !holds(&self.body(*body)?.scene, label) {
+                let reason = format!("place {place}, {}, is outside body {body}", shown(label));
+                return Err(FieldError::Request(reason));
+            }
+        }
+        Ok(())
+    }
+
+    fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
+        let has_noise =
+            matches!(of, FieldName::Velocity | FieldName::DeformationGradient | FieldName::Stress);
+        if self.is_perturbed && has_noise {
+            let reason = "this run starts with random perturbations, which are known at the \
+                          particles only: the columns of `particles` have them";
+            return Err(FieldError::Undefined(reason.to_owned()));
+        }
+        let values = match of {
+            FieldName::Stress => self.stress(at)?,
+            FieldName::Load(number) => {
+                let load = self.scene.loads.get(number);
+                let load =
+                    load.ok_or_else(|| FieldError::Request(format!("there is no load {number}")))?;
+                if let Some(face) = load.target().face() {
+                    self.check_on_face(face, at)?;
+                }
+                self.numbers((load.effect.name(), &load.numbers()), t, at)?
+            }
+            FieldName::Face(number) => {
+                self.check_on_face(number, at)?;
+                let face = &self.scene.faces[number];
+                self.numbers((face.condition(), &face.hold.numbers()), t, at)?
+            }
+            _ => self.initial(of, at)?,
+        };
+        if values.iter().all(|value| value.is_finite()) {
+            return Ok(values);
+        }
+        Err(FieldError::Undefined(format!("a value at t = {t} s is not finite")))
+    }
+}
+
+/// Length of the longest side of the box around a body (m).
+fn size(scene: &Scene) -> f64 {
+    scene.from.iter().zip(&scene.to).map(|(from, to)| to - from).fold(0.0, f64::max)
+}
+
+/// Whether a place belongs to a body, up to rounding.
+fn holds(scene: &Scene, label: &[f64]) -> bool {
+    let near = ROUNDING * size(scene);
+    let mut ends = scene.from.iter().zip(&scene.to).zip(label);
+    if !ends.all(|((from, to), x)| from - near <= *x && *x <= to + near) {
+        return false;
+    }
+    let Some(outline) = &scene.outline else { return true };
+    // A place beside a rim is inside once it is moved across the rim.
+    let moved = |k: usize| {
+        let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
+        label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
+    };
+    outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
+}
+
+/// A place in a message.
+fn shown(label: &[f64]) -> String {
+    let all: Vec<String> = label.iter().map(ToString::to_string).collect();
+    format!("({}) m", all.join(", "))
+}
