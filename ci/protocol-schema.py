@@ -31,6 +31,10 @@ WRONG = [
     {"type": "state", "columns": {"displacement": [0]}, "crossings": 0.5},
     {"type": "body_force"},
     {"type": "body_force", "t": "0"},
+    {"type": "values"},
+    {"type": "values", "of": 3},
+    {"type": "values", "of": "velocity", "t": "0"},
+    {"type": "values", "of": "velocity", "body": -1},
     {"type": "advance", "steps": -1, "dt": 0.1, "from": 0},
     {"type": "problem", "suite": "a"},
 ]

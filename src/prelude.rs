@@ -1,8 +1,8 @@
 //! Names that the author of a solver in Rust needs: `use mpm_verify::prelude::*`.
 
 pub use crate::external::{
-    BodyForceField, Capabilities, LevelProblem, ProblemMaterial, ProblemNeeds, ProblemParticles,
-    SolverFactory,
+    BodyForceField, Capabilities, FieldName, FieldPlaces, LevelProblem, ProblemFields,
+    ProblemMaterial, ProblemNeeds, ProblemParticles, SolverFactory,
 };
 pub use crate::study::{Runner, under};
 pub use crate::subject::{Checkpoint, Failure, Memory, RunCounters, Samples, Subject, Totals};

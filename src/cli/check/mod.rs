@@ -36,6 +36,11 @@ fn all(args: &CheckArgs) -> u8 {
         let mut lacks = Vec::new();
         if let Some(solver) = &solver {
             match study::under(&suite, solver, false) {
+                Some(under_solver) if under_solver.case_names().is_empty() => {
+                    lacks.push(
+                        "the methods of this crate, to which all its solutions belong".to_owned(),
+                    );
+                }
                 Some(under_solver) => suite = under_solver,
                 None => lacks.push("what a study of this kind asks for".to_owned()),
             }

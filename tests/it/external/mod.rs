@@ -7,6 +7,8 @@ mod misbehaving;
 #[cfg(unix)]
 mod program;
 mod stated;
+#[cfg(unix)]
+mod values;
 
 /// A suite of four levels in one dimension, with steps that follow the cells.
 fn bar() -> String {

@@ -8,7 +8,7 @@ use mpm_verify::external::protocol_schema;
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
 
 /// The exact solution with an error of h^2: a solver of order 2 that needs no steps.
-const SECOND_ORDER: &str = r#"
+pub(super) const SECOND_ORDER: &str = r#"
 read -r m; echo 'HELLO'
 read -r problem || exit 0
 case "$problem" in *'"bye"'*) exit 0;; esac
@@ -150,6 +150,19 @@ fn what_its_accuracy_costs_is_timed() {
     let found: serde_json::Value = serde_json::from_str(&found.out).expect("JSON");
     let text = found.to_string();
     assert!(text.contains("\"odd\"") && text.contains("\"seconds\""), "{text}");
+}
+
+#[test]
+fn unknown_columns_of_a_state_are_ignored() {
+    let folder = folder();
+    let more = folder
+        .read("solver.sh")
+        .replace("\\\"velocity\\\":[%s]", "\\\"velocity\\\":[%s],\\\"spin\\\":[1]");
+    assert!(more.contains("spin"));
+    folder.write("solver.sh", more);
+    let found = folder.call(&["run", "bar.yaml", "--solver", SOLVER, "--brief"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("converging  2.00 [2.00, 2.00]"), "{}", found.out);
 }
 
 #[test]
