@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+from typing import Any
 
 import numpy as np
 
@@ -113,7 +114,7 @@ class Mpm:
             axes.append(problem.origin[a] + problem.h * knots.mean(axis=1))
         return np.stack([x.ravel() for x in np.meshgrid(*axes, indexing="ij")], axis=1)
 
-    def surface(self, name: str) -> tuple[Array, Array, Array, Array]:
+    def surface(self, name: str) -> tuple[Any, Array, Array, Array]:
         """The layer of particles at a face: their numbers, the middles X of their shares of the
         face (m), the vectors from the particles to these (m), and the areas of the shares."""
         [face] = [face for face in self.problem.faces if face["name"] == name]

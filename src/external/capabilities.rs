@@ -133,6 +133,35 @@ impl Capabilities {
     }
 }
 
+impl Capabilities {
+    /// One line for each name in the lists, and for each of the `keys` of the capabilities, that
+    /// has no meaning.
+    #[cfg_attr(not(feature = "external-programs"), expect(dead_code))]
+    pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for key in keys.iter().filter(|key| !names::KEYS.contains(&key.as_str())) {
+            let hint = names::hint(key, names::KEYS);
+            warnings.push(format!("unknown capability `{key}`; {hint}"));
+        }
+        for (capability, stated) in [
+            ("laws", &self.laws),
+            ("conditions", &self.conditions),
+            ("loads", &self.loads),
+            ("columns", &self.columns),
+        ] {
+            let known = names::known(capability);
+            for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
+                let hint = names::hint(name, known);
+                warnings.push(format!("`{name}` is not one of the {capability}; {hint}"));
+            }
+        }
+        for dimension in self.dimensions.iter().filter(|d| !(1..=3).contains(*d)) {
+            warnings.push(format!("there are no suites in {dimension} dimensions"));
+        }
+        warnings
+    }
+}
+
 impl ProblemNeeds {
     /// Needs that are there or not, with the names of the abilities.
     fn flags(&self) -> [(&'static str, bool); 8] {
@@ -220,5 +249,39 @@ mod tests {
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
         assert_eq!(able.lacking(&needs), all[13..]);
+    }
+
+    #[test]
+    fn known_keys_are_the_fields_of_the_capabilities() {
+        let all = serde_json::to_value(Capabilities::default()).unwrap();
+        let mut fields: Vec<&str> = all.as_object().unwrap().keys().map(String::as_str).collect();
+        let mut keys = names::KEYS.to_vec();
+        fields.sort_unstable();
+        keys.sort_unstable();
+        assert_eq!(keys, fields);
+    }
+
+    #[test]
+    fn unknown_names_have_hints() {
+        let laws = ["linear-elastic", "hencky"];
+        let stated = Capabilities::of(&[2, 4], &laws, &["clamped", "Roller"], &["bodyforce"]);
+        let keys = ["periodic_axes", "contacts", "laws"].map(str::to_owned);
+        let warnings = stated.unknown_names(&keys);
+        let expected = [
+            "unknown capability `periodic_axes`; known: dimensions, ",
+            "unknown capability `contacts`; did you mean `contact`?",
+            "`linear-elastic` is not one of the laws; did you mean `linear_elastic`?",
+            "`clamped` is not one of the conditions; known: free, fixed, ",
+            "`Roller` is not one of the conditions; did you mean `roller`?",
+            "`bodyforce` is not one of the loads; did you mean `body_force`?",
+            "there are no suites in 4 dimensions",
+        ];
+        assert_eq!(warnings.len(), expected.len(), "{warnings:#?}");
+        for (warning, expected) in warnings.iter().zip(expected) {
+            assert!(warning.starts_with(expected), "{warning}");
+        }
+        let misspelt = |name| names::misspelt("laws", name, &stated.laws);
+        assert_eq!(misspelt("linear_elastic"), Some("linear-elastic"));
+        assert_eq!(misspelt("hencky"), None);
     }
 }

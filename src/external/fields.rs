@@ -163,8 +163,8 @@ impl ProblemFields {
     /// after row. The body force is [`LevelProblem::body_force`](super::LevelProblem::body_force).
     ///
     /// # Errors
-    /// [`FieldError::Request`] for a place outside its body, and [`FieldError::Undefined`] where the
-    /// problem has no such value.
+    /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] where
+    /// the problem has no such value.
     pub fn values(
         &self,
         of: FieldName,

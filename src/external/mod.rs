@@ -17,7 +17,6 @@ mod factory;
 mod fields;
 #[cfg(feature = "external-programs")]
 mod format;
-#[cfg_attr(not(feature = "external-programs"), expect(dead_code))]
 mod names;
 mod particles;
 mod problem;

@@ -1,6 +1,5 @@
 //! Names that capabilities may contain, and what a misspelt one stands for.
 
-use super::capabilities::Capabilities;
 use crate::members::{each_effect, each_material};
 use crate::nearest::nearest;
 
@@ -54,7 +53,7 @@ pub(super) const KEYS: &[&str] = &[
 ];
 
 /// The names that the list called `capability` may contain.
-fn known(capability: &str) -> &'static [&'static str] {
+pub(super) fn known(capability: &str) -> &'static [&'static str] {
     match capability {
         "laws" => LAWS,
         "conditions" => CONDITIONS,
@@ -70,72 +69,10 @@ pub(super) fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -
     unknown.into_iter().find(|stated| nearest(stated, known.iter().copied()) == Some(name))
 }
 
-/// One line for each name in `capabilities`, and for each key among `keys`, that means nothing.
-pub(super) fn unknown(capabilities: &Capabilities, keys: &[String]) -> Vec<String> {
-    let hint = |name: &str, known: &[&'static str]| match nearest(name, known.iter().copied()) {
+/// The known name that a misspelt one most likely means, or all of them.
+pub(super) fn hint(name: &str, known: &[&'static str]) -> String {
+    match nearest(name, known.iter().copied()) {
         Some(known) => format!("did you mean `{known}`?"),
         None => format!("known: {}", known.join(", ")),
-    };
-    let mut warnings = Vec::new();
-    for key in keys.iter().filter(|key| !KEYS.contains(&key.as_str())) {
-        warnings.push(format!("unknown capability `{key}`; {}", hint(key, KEYS)));
-    }
-    for (capability, stated) in [
-        ("laws", &capabilities.laws),
-        ("conditions", &capabilities.conditions),
-        ("loads", &capabilities.loads),
-        ("columns", &capabilities.columns),
-    ] {
-        let known = known(capability);
-        for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
-            let hint = hint(name, known);
-            warnings.push(format!("`{name}` is not one of the {capability}; {hint}"));
-        }
-    }
-    for dimension in capabilities.dimensions.iter().filter(|d| !(1..=3).contains(*d)) {
-        warnings.push(format!("there are no suites in {dimension} dimensions"));
-    }
-    warnings
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_are_the_fields_of_the_capabilities() {
-        let all = serde_json::to_value(Capabilities::default()).unwrap();
-        let mut fields: Vec<&str> = all.as_object().unwrap().keys().map(String::as_str).collect();
-        let mut keys = KEYS.to_vec();
-        fields.sort_unstable();
-        keys.sort_unstable();
-        assert_eq!(keys, fields);
-    }
-
-    #[test]
-    fn unknown_names_have_hints() {
-        let stated = Capabilities::of(
-            &[2, 4],
-            &["linear-elastic", "hencky"],
-            &["clamped", "Roller"],
-            &["bodyforce"],
-        );
-        let keys = ["periodic_axes", "contacts", "laws"].map(str::to_owned);
-        let warnings = unknown(&stated, &keys);
-        let expected = [
-            "unknown capability `periodic_axes`; known: dimensions, ",
-            "unknown capability `contacts`; did you mean `contact`?",
-            "`linear-elastic` is not one of the laws; did you mean `linear_elastic`?",
-            "`clamped` is not one of the conditions; known: free, fixed, ",
-            "`Roller` is not one of the conditions; did you mean `roller`?",
-            "`bodyforce` is not one of the loads; did you mean `body_force`?",
-            "there are no suites in 4 dimensions",
-        ];
-        assert_eq!(warnings.len(), expected.len(), "{warnings:#?}");
-        for (warning, expected) in warnings.iter().zip(expected) {
-            assert!(warning.starts_with(expected), "{warning}");
-        }
-        assert_eq!(misspelt("laws", "linear_elastic", &stated.laws), Some("linear-elastic"));
-        assert_eq!(misspelt("laws", "hencky", &stated.laws), None);
     }
 }

@@ -142,27 +142,6 @@ impl<const D: usize> Particles<D> {
         self.domain0.extend(self.domain0.first().copied());
     }
 
-    /// Particles at rest and free of stress at these places (m), each with the volume 1 (m^D): for
-    /// the state of a body at places that are no particles of a solver.
-    pub fn at_places(x0: Vec<Vector<D>>) -> Self {
-        let unit = Vector::from_element(1.0);
-        let block = Block { from: Vector::zeros(), to: unit, density: 1.0 };
-        let mut particles = Self::fill(&block, 1.0, 1);
-        for place in x0 {
-            particles.add(place);
-        }
-        // The first one gave its mass and volume to the others.
-        particles.x0.remove(0);
-        particles.x.remove(0);
-        particles.v.pop();
-        particles.mass.pop();
-        particles.vol0.pop();
-        particles.vol.pop();
-        particles.sigma.pop();
-        particles.grad_v.pop();
-        particles
-    }
-
     /// Adds the column of deformation gradients, F = I, if it is not there yet.
     pub fn track_deformation(&mut self) {
         self.def_grad.resize(self.len(), Matrix::identity());

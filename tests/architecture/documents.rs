@@ -13,6 +13,15 @@ const MADE_LATER: &[(&str, &str)] = &[
     ("tests/verification.rs", "a reader writes it, in a crate of their own"),
 ];
 
+/// Folders with the keys of JSON documents: reports, messages, and numbers of loads.
+const KEYS_IN: &[&str] = &[
+    "src/report/",
+    "src/verify/",
+    "src/external/",
+    "src/mpm/material/",
+    "src/suite/compile/load/",
+];
+
 /// The repository as documents may speak of it.
 pub(crate) struct Repository {
     /// Paths of all files.
@@ -34,7 +43,7 @@ impl Repository {
         Self {
             files: files.iter().cloned().collect(),
             words: words_of(&["src/", "tests/", "benches/"]),
-            keys: words_of(&["src/report/", "src/verify/", "src/external/", "src/mpm/material/"]),
+            keys: words_of(KEYS_IN),
             manifest: manifest.to_owned(),
         }
     }

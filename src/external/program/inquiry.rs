@@ -1,26 +1,15 @@
 //! Values that a solver requests at places and times: body forces, the initial state, loads and
 //! conditions on faces.
 
-use super::answer::ColumnText;
+use super::column::ColumnText;
 use super::frame::Outgoing;
 use super::printable::printable;
+use super::request::{RequestedPlaces, ValueRequest, field_named, time};
 use crate::external::fields::{
-    BODY_FIELDS, BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
+    BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
 };
 use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
-use crate::nearest::nearest;
 use serde_json::json;
-
-/// A request for values.
-pub(super) struct Question {
-    /// The field that is requested; absent in a request `body_force`.
-    pub(super) of: Option<String>,
-    /// Time (s).
-    pub(super) t: Option<f64>,
-    pub(super) reference_position: Option<ColumnText>,
-    pub(super) displacement: Option<ColumnText>,
-    pub(super) body: Option<usize>,
-}
 
 /// Answers requests for values of one problem.
 pub(super) struct Inquiry {
@@ -40,15 +29,6 @@ pub(super) struct Inquiry {
     /// Requests so far, and the largest number of them.
     asked: u64,
     most: u64,
-}
-
-/// Places of a request, in numbers.
-struct Places {
-    labels: Vec<f64>,
-    bodies: Vec<usize>,
-    displacement: Option<Vec<f64>>,
-    /// Whether they are the particles or the points.
-    are_own: bool,
 }
 
 impl Inquiry {
@@ -97,15 +77,20 @@ impl Inquiry {
     ///
     /// # Errors
     /// One line about a request that has no answer.
-    pub(super) fn answer(&mut self, question: Question, bytes: &[u8]) -> Result<Outgoing, String> {
+    pub(super) fn answer(
+        &mut self,
+        request: ValueRequest,
+        bytes: &[u8],
+    ) -> Result<Outgoing, String> {
         self.asked += 1;
         if self.asked > self.most {
             return Err(format!("asked for values {} times", self.asked));
         }
-        let Question { of, t, reference_position, displacement, body } = question;
+        let ValueRequest { of, t, reference_position, displacement, body } = request;
         let name = of.as_deref().unwrap_or("body_force");
         let what = format!("asked for values of `{}`", printable(name));
-        let field = self.field(name).map_err(|reason| format!("{what}: {reason}"))?;
+        let field = field_named(name, &self.loads, &self.faces)
+            .map_err(|reason| format!("{what}: {reason}"))?;
         let refused = |reason: String| format!("{what}: {reason}");
         let t = time(field, t).map_err(refused)?;
         let numbers = |name: &str, column: ColumnText| {
@@ -135,27 +120,6 @@ impl Inquiry {
         Ok(message)
     }
 
-    /// The field that a request names.
-    fn field(&self, name: &str) -> Result<FieldName, String> {
-        if let Some((_, field)) = BODY_FIELDS.iter().find(|(known, _)| *known == name) {
-            return Ok(*field);
-        }
-        let loads =
-            (0..self.loads.len()).map(|load| (format!("load:{load}"), FieldName::Load(load)));
-        let faces = self.faces.iter().enumerate();
-        let faces = faces.map(|(i, face)| (format!("face:{}", face.name), FieldName::Face(i)));
-        let known: Vec<(String, FieldName)> = loads.chain(faces).collect();
-        if let Some((_, field)) = known.iter().find(|(known, _)| known == name) {
-            return Ok(*field);
-        }
-        let names = BODY_FIELDS.iter().map(|(known, _)| *known);
-        let names: Vec<&str> = names.chain(known.iter().map(|(known, _)| known.as_str())).collect();
-        Err(match nearest(name, names.iter().copied()) {
-            Some(known) => format!("unknown field; did you mean `{known}`?"),
-            None => format!("unknown field; known: {}", names.join(", ")),
-        })
-    }
-
     /// The places of a request.
     fn places(
         &self,
@@ -163,7 +127,7 @@ impl Inquiry {
         own: Option<Vec<f64>>,
         displacement: Option<Vec<f64>>,
         body: Option<usize>,
-    ) -> Result<Places, String> {
+    ) -> Result<RequestedPlaces, String> {
         let are_own = own.is_none();
         let labels = match own {
             Some(labels) => labels,
@@ -193,7 +157,7 @@ impl Inquiry {
             let (found, wanted) = (displacement.len(), labels.len());
             return Err(format!("gave {found} numbers as `displacement`, expected {wanted}"));
         }
-        Ok(Places { labels, bodies, displacement, are_own })
+        Ok(RequestedPlaces { labels, bodies, displacement, are_own })
     }
 
     /// The places of a request that gives none.
@@ -238,9 +202,9 @@ impl Inquiry {
     }
 
     /// Body forces (m/s2).
-    fn forces(&mut self, t: f64, places: &Places) -> Result<Vec<f64>, FieldError> {
+    fn forces(&mut self, t: f64, places: &RequestedPlaces) -> Result<Vec<f64>, FieldError> {
         let d = self.dimension;
-        let Places { labels, bodies, displacement, are_own } = places;
+        let RequestedPlaces { labels, bodies, displacement, are_own } = places;
         let Some(force) = &self.body_force else { return Ok(vec![0.0; labels.len()]) };
         let mut forces = vec![[0.0; 3]; bodies.len()];
         let each = labels.chunks_exact(d).zip(bodies);
@@ -277,7 +241,12 @@ impl Inquiry {
     }
 
     /// Values of all other fields.
-    fn values(&self, of: FieldName, t: f64, places: &Places) -> Result<Vec<f64>, FieldError> {
+    fn values(
+        &self,
+        of: FieldName,
+        t: f64,
+        places: &RequestedPlaces,
+    ) -> Result<Vec<f64>, FieldError> {
         let Some(fields) = &self.fields else {
             let reason = "the problem has no fields besides its particles";
             return Err(FieldError::Undefined(reason.to_owned()));
@@ -285,18 +254,5 @@ impl Inquiry {
         let mut at = FieldPlaces::new(&places.labels, &places.bodies);
         at.displacement = places.displacement.as_deref();
         fields.values(of, t, &at)
-    }
-}
-
-/// The time (s) that a request means.
-fn time(field: FieldName, t: Option<f64>) -> Result<f64, String> {
-    match t {
-        None if field.is_initial() => Ok(0.0),
-        None => Err("the request has no time `t`".to_owned()),
-        Some(t) if field.is_initial() && t != 0.0 => {
-            Err(format!("it is known at t = 0 only, not at t = {t}"))
-        }
-        Some(t) if !t.is_finite() => Err(format!("the time is {t}")),
-        Some(t) => Ok(t),
     }
 }

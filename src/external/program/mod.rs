@@ -6,18 +6,24 @@
 //! reader       answers, as they come
 //! frame        one message: a line of JSON, and a block of bytes
 //! answer       what a solver may say
-//! inquiry      values that a solver requests
+//! hello        the first answer of a solver
+//! column       columns of numbers
+//! request      requests of a solver for values
+//! inquiry      the answers to these
 //! subject      a level on its way
 //! schema       all messages as a JSON Schema
 //! ```
 
 mod answer;
+mod column;
 mod connection;
 mod frame;
+mod hello;
 mod inquiry;
 mod limits;
 mod printable;
 mod reader;
+mod request;
 mod schema;
 mod solver;
 mod subject;

@@ -1,15 +1,15 @@
 //! A solver behind a command, as a maker of subjects.
 
-use super::answer::{Answer, Hello};
+use super::answer::Answer;
 use super::connection::Connection;
 use super::frame::Outgoing;
+use super::hello::Hello;
 use super::inquiry::Inquiry;
 use super::limits::ProgramLimits;
 use super::printable::printable;
 use super::subject::{ProgramSubject, conclude, longest_answer};
 use crate::external::capabilities::ProblemNeeds;
 use crate::external::factory::SolverFactory;
-use crate::external::names;
 use crate::external::problem::LevelProblem;
 use crate::subject::{
     Failure, HIGHEST_ORDER, LONGEST_NAME, Precision, RunCounters, Samples, Subject, is_solver_name,
@@ -52,7 +52,7 @@ impl SolverProgram {
 
     /// One line for each name in the solver's capabilities that has no meaning.
     pub fn warnings(&self) -> Vec<String> {
-        names::unknown(&self.hello.capabilities.known, &self.hello.capabilities.keys)
+        self.hello.capabilities.known.unknown_names(&self.hello.capabilities.keys)
     }
 
     fn start(&self, problem: &LevelProblem) -> Result<Result<ProgramSubject, String>, String> {

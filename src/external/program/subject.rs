@@ -1,8 +1,9 @@
 //! A level on its way in another process.
 
-use super::answer::{Answer, Hello, Points, State};
+use super::answer::{Answer, Points, State};
 use super::connection::Connection;
 use super::frame::Outgoing;
+use super::hello::Hello;
 use super::inquiry::Inquiry;
 use super::printable::printable;
 use crate::external::fields::FieldName;
@@ -27,8 +28,8 @@ pub(super) fn conclude(
 ) -> Result<(Answer, Vec<u8>), String> {
     loop {
         let (answer, bytes) = connection.answer()?;
-        match answer.question() {
-            Ok(question) => connection.send(inquiry.answer(question, &bytes)?),
+        match answer.request() {
+            Ok(request) => connection.send(inquiry.answer(request, &bytes)?),
             Err(answer) => return Ok((answer, bytes)),
         }
     }

@@ -2,7 +2,7 @@
 //! and the meanings of the columns that write them; tests hold the rest to documents.
 
 use crate::report::columns::{TableColumn, cost, force, level, stability};
-use crate::verify::{Axis, FloorCause, Quantity, Ranking, StabilityStudy};
+use crate::verify::{Axis, FloorCause, Quantity, Ranking, StabilityStudy, Verdict};
 use serde_json::{Map, Value, json};
 
 /// The schema, as indented JSON.
@@ -45,12 +45,14 @@ fn case() -> Value {
     let levels = row(&level::json_columns());
     let forces = row(&force::columns());
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
+    // Other studies, and cases that are not applicable, have results of their own.
+    let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),
         ("subject", text(), "the solver: `mpm`, `fem`, or one of another program"),
         ("settings", list(list(text())), "its method, as rows of name and value"),
         ("because", text(), "the reason of the expectation"),
-        ("verdict", text(), "the verdict, in words"),
+        ("verdict", verdicts, "the verdict; suites write it with `_` for spaces and hyphens"),
         ("expected", or_null(text()), "the expectation; null where nothing is expected"),
         ("passed", flag(), "whether the case came as expected"),
         ("lacks", list(text()), "what the case needs and its solver lacks"),

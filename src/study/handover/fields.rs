@@ -2,15 +2,11 @@
 
 use crate::dimension::with_dimension;
 use crate::external::{FieldError, FieldName, FieldPlaces, FieldSource};
-use crate::mpm::{Matrix, Particles, Vector, complete_start};
+use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
 use crate::study::build::initial_state::Initial;
 use crate::subject::PlaneState;
 use crate::suite::model::Scene;
 use crate::suite::model::numbers::LoadNumbers;
-
-/// Largest distance of a place from its body or face that counts as rounding, relative to the size
-/// of the body.
-const ROUNDING: f64 = 1e-9;
 
 /// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
 /// of the body: the hoop stretch r/R has no value at R = 0.
@@ -96,15 +92,19 @@ impl SceneFields {
             FieldError::Undefined(format!("the stress at the start is not known there: {reason}"))
         };
         let is_revolved = self.scene.plane == PlaneState::Axisymmetric;
-        let axis = NEAR_AXIS * size(scene);
-        let place = |label: &&[f64]| {
+        let axis = NEAR_AXIS * scene.size();
+        let fragment = |label: &&[f64]| {
             let mut place = Vector::<D>::from_fn(|i, _| label[i]);
             if is_revolved && !(place[0] >= axis) {
                 place[0] = axis;
             }
-            place
+            Fragment { place, volume: 1.0, domain: Matrix::identity() }
         };
-        let mut particles = Particles::at_places(labels.iter().map(place).collect());
+        let fragments: Vec<Fragment<D>> = labels.iter().map(fragment).collect();
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let none = Block { from, to, density: scene.density };
+        let mut particles = Particles::fill_where(&none, 1.0, 1, |_| false);
+        particles.add_fragments(&fragments, scene.density);
         if is_revolved {
             particles.revolve();
         }
@@ -150,7 +150,7 @@ impl SceneFields {
             return Err(FieldError::Request("there is no such face".to_owned()));
         };
         let ends = if face.high { &self.scene.to } else { &self.scene.from };
-        let (end, near) = (ends[face.axis], ROUNDING * size(&self.scene));
+        let (end, near) = (ends[face.axis], self.scene.rounding());
         let is_off = |label: &[f64]| !((label[face.axis] - end).abs() <= near);
         match at.labels.chunks_exact(d).position(is_off) {
             None => Ok(()),
@@ -167,7 +167,7 @@ impl FieldSource for SceneFields {
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let body_of = |(place, label): (usize, &[f64])| {
             let mut holding =
-                (0..self.bodies.len()).filter(|body| holds(&self.bodies[*body].scene, label));
+                (0..self.bodies.len()).filter(|body| self.bodies[*body].scene.holds(label));
             match (holding.next(), holding.next()) {
                 (Some(body), None) => Ok(body),
                 (None, _) => Err(FieldError::Request(format!(
@@ -185,13 +185,13 @@ impl FieldSource for SceneFields {
     }
 
     fn nearest_body(&self, label: &[f64]) -> usize {
-        self.bodies.iter().position(|body| holds(&body.scene, label)).unwrap_or(0)
+        self.bodies.iter().position(|body| body.scene.holds(label)).unwrap_or(0)
     }
 
     fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let labels = places.labels.chunks_exact(self.scene.dimension());
         for (place, (label, body)) in labels.zip(places.bodies).enumerate() {
-            if !holds(&self.body(*body)?.scene, label) {
+            if !self.body(*body)?.scene.holds(label) {
                 let reason = format!("place {place}, {}, is outside body {body}", shown(label));
                 return Err(FieldError::Request(reason));
             }
@@ -230,27 +230,6 @@ impl FieldSource for SceneFields {
         }
         Err(FieldError::Undefined(format!("a value at t = {t} s is not finite")))
     }
-}
-
-/// Length of the longest side of the box around a body (m).
-fn size(scene: &Scene) -> f64 {
-    scene.from.iter().zip(&scene.to).map(|(from, to)| to - from).fold(0.0, f64::max)
-}
-
-/// Whether a place belongs to a body, up to rounding.
-fn holds(scene: &Scene, label: &[f64]) -> bool {
-    let near = ROUNDING * size(scene);
-    let mut ends = scene.from.iter().zip(&scene.to).zip(label);
-    if !ends.all(|((from, to), x)| from - near <= *x && *x <= to + near) {
-        return false;
-    }
-    let Some(outline) = &scene.outline else { return true };
-    // A place beside a rim is inside once it is moved across the rim.
-    let moved = |k: usize| {
-        let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
-        label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
-    };
-    outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
 }
 
 /// A place in a message.

@@ -69,6 +69,9 @@ impl SceneFace {
     }
 }
 
+/// Distance that counts as rounding, relative to the size of the body.
+const ROUNDING: f64 = 1e-9;
+
 /// Names of the faces: low and high, axis by axis.
 pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
 
@@ -76,6 +79,32 @@ impl Scene {
     /// The bodies: this one, or several.
     pub fn each(&self) -> &[Self] {
         if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
+    }
+
+    /// Length of the longest side of the box around the body (m).
+    pub(crate) fn size(&self) -> f64 {
+        self.from.iter().zip(&self.to).map(|(from, to)| to - from).fold(0.0, f64::max)
+    }
+
+    /// Largest distance of a place from the body or from a face that counts as rounding (m).
+    pub(crate) fn rounding(&self) -> f64 {
+        ROUNDING * self.size()
+    }
+
+    /// Whether the body contains a reference position, up to rounding.
+    pub(crate) fn holds(&self, label: &[f64]) -> bool {
+        let near = self.rounding();
+        let mut ends = self.from.iter().zip(&self.to).zip(label);
+        if !ends.all(|((from, to), x)| from - near <= *x && *x <= to + near) {
+            return false;
+        }
+        let Some(outline) = &self.outline else { return true };
+        // A place next to the rim is inside once it is moved across the rim.
+        let moved = |k: usize| {
+            let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
+            label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
+        };
+        outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
     }
 
     /// Whether the scene lists `effect`.
