@@ -136,7 +136,7 @@ impl Capabilities {
 impl Capabilities {
     /// One line for each name in the lists, and for each of the `keys` of the capabilities, that
     /// has no meaning.
-    #[cfg_attr(not(feature = "external-programs"), expect(dead_code))]
+    #[cfg(feature = "external-programs")]
     pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
         let mut warnings = Vec::new();
         for key in keys.iter().filter(|key| !names::KEYS.contains(&key.as_str())) {
@@ -179,6 +179,7 @@ impl ProblemNeeds {
 
     /// Needs that version 1 of the protocol does not hand over as numbers, each as the entry of the
     /// capabilities that stands for it.
+    #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
         let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {
             let missing = names.iter().filter(|name| !handed.contains(*name));
@@ -252,6 +253,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "external-programs")]
     fn known_keys_are_the_fields_of_the_capabilities() {
         let all = serde_json::to_value(Capabilities::default()).unwrap();
         let mut fields: Vec<&str> = all.as_object().unwrap().keys().map(String::as_str).collect();
@@ -262,6 +264,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "external-programs")]
     fn unknown_names_have_hints() {
         let laws = ["linear-elastic", "hencky"];
         let stated = Capabilities::of(&[2, 4], &laws, &["clamped", "Roller"], &["bodyforce"]);

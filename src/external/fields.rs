@@ -65,6 +65,7 @@ pub enum FieldName {
 }
 
 /// Names of the fields of a body, as requests spell them.
+#[cfg(feature = "external-programs")]
 pub(crate) const BODY_FIELDS: [(&str, FieldName); 6] = [
     ("body_force", FieldName::BodyForce),
     ("displacement", FieldName::Displacement),

@@ -28,13 +28,13 @@ macro_rules! loads {
 each_effect!(loads);
 
 /// Names of the conditions on faces.
-pub(crate) const CONDITIONS: &[&str] =
-    &["free", "fixed", "roller", "periodic", "friction", "velocity"];
+const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction", "velocity"];
 
 /// Names of the optional columns of a state.
 const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
 /// Keys of the capabilities.
+#[cfg(feature = "external-programs")]
 pub(super) const KEYS: &[&str] = &[
     "dimensions",
     "laws",
@@ -70,6 +70,7 @@ pub(super) fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -
 }
 
 /// The known name that a misspelt one most likely means, or all of them.
+#[cfg(feature = "external-programs")]
 pub(super) fn hint(name: &str, known: &[&'static str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(known) => format!("did you mean `{known}`?"),

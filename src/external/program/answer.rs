@@ -139,7 +139,7 @@ impl Answer {
     ///
     /// # Errors
     /// The answer itself.
-    pub(super) fn request(self) -> Result<ValueRequest, Self> {
+    pub(super) fn request(self) -> Result<ValueRequest, Box<Self>> {
         match self {
             Self::BodyForce { t, reference_position, displacement, body } => {
                 Ok(ValueRequest { of: None, t: Some(t), reference_position, displacement, body })
@@ -147,7 +147,7 @@ impl Answer {
             Self::Values { of, t, reference_position, displacement, body } => {
                 Ok(ValueRequest { of: Some(of), t, reference_position, displacement, body })
             }
-            other => Err(other),
+            other => Err(Box::new(other)),
         }
     }
 

@@ -30,7 +30,7 @@ pub(super) fn conclude(
         let (answer, bytes) = connection.answer()?;
         match answer.request() {
             Ok(request) => connection.send(inquiry.answer(request, &bytes)?),
-            Err(answer) => return Ok((answer, bytes)),
+            Err(answer) => return Ok((*answer, bytes)),
         }
     }
 }
