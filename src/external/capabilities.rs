@@ -249,7 +249,7 @@ mod tests {
             displacement_force: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[13..]);
+        assert_eq!(able.lacking(&needs), all[14..]);
     }
 
     #[test]

@@ -37,9 +37,8 @@ fn all(args: &CheckArgs) -> u8 {
         if let Some(solver) = &solver {
             match study::under(&suite, solver, false) {
                 Some(under_solver) if under_solver.case_names().is_empty() => {
-                    lacks.push(
-                        "the methods of this crate, to which all its solutions belong".to_owned(),
-                    );
+                    lacks
+                        .push("a case: each solution belongs to a method of this crate".to_owned());
                 }
                 Some(under_solver) => suite = under_solver,
                 None => lacks.push("what a study of this kind asks for".to_owned()),
