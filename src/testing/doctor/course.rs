@@ -1,6 +1,6 @@
 //! Runs as they were seen, and figures of them.
 
-use super::scene::AffineField;
+use super::vectors::{AffineField, minus, size};
 use crate::external::LevelProblem;
 use crate::subject::{Samples, Subject};
 
@@ -92,22 +92,6 @@ impl Course {
         };
         (0..samples.len()).map(move |p| (vector(&samples.label, p), vector(field(samples), p)))
     }
-}
-
-pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-pub(super) fn times(factor: f64, a: [f64; 3]) -> [f64; 3] {
-    a.map(|x| factor * x)
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(super) fn size(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// The line `y = a + b x` of least squares: a, b, and the largest distance from it.

@@ -4,6 +4,7 @@
 //! ```text
 //! finding       findings and reports
 //! scene         small scenes, handed over as suites are
+//! vectors       vectors and fields of them
 //! patient       what a solver can be given, and how it takes its steps
 //! question      one question to a solver
 //! course        runs as they were seen, and figures of them
@@ -20,6 +21,7 @@ mod page;
 mod patient;
 mod question;
 mod scene;
+mod vectors;
 
 pub use finding::{
     DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
@@ -93,7 +95,8 @@ fn broke(seen: String) -> SolverFinding {
         BROKE,
         seen,
         "the solver ended, failed or broke the protocol amid the run",
-        "its standard error, and the table of docs/protocol.md of what is held against a solver",
+        "its standard error, and the table of errors in docs/protocol.md; `grid.origin` and `grid.cells` of \
+         the problem, which differ between axes",
     )
 }
 

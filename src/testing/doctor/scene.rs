@@ -1,6 +1,7 @@
 //! Small scenes, written as suites and handed over like those.
 
-use super::course::{Course, minus};
+use super::course::Course;
+use super::vectors::AffineField;
 use crate::external::{LevelProblem, ProblemNeeds};
 use crate::study::{level_problem, needs, subject};
 use crate::suite::yaml::Source;
@@ -12,7 +13,8 @@ pub(super) type Kind = (usize, &'static str);
 /// Laws of finite elasticity, linear where strains are small, the simplest first.
 pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotated", "hencky"];
 
-/// Laws that are linear elasticity where strains are small; `j2` with a yield stress that no scene reaches.
+/// Laws that are linear elasticity where strains are small; `j2` with a yield stress that no scene
+/// reaches.
 pub(super) const ELASTIC: [&str; 5] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
 
@@ -28,57 +30,6 @@ pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the faces of a box: those with the lower and the higher coordinate of each axis.
 pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
-
-/// A vector field `value + gradient (X - centre)` of the reference position.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct AffineField {
-    pub(super) value: [f64; 3],
-    /// Row i has the derivatives of component i.
-    pub(super) gradient: [[f64; 3]; 3],
-    /// Place (m) where the field has `value`.
-    pub(super) centre: [f64; 3],
-}
-
-impl AffineField {
-    /// The same vector everywhere.
-    pub(super) fn uniform(value: [f64; 3]) -> Self {
-        Self { value, ..Self::default() }
-    }
-
-    /// The field at a place (m).
-    pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {
-        let from = minus(place, self.centre);
-        std::array::from_fn(|i| {
-            (0..3).fold(self.value[i], |sum, j| sum + self.gradient[i][j] * from[j])
-        })
-    }
-
-    fn is_zero(&self) -> bool {
-        *self == Self { centre: self.centre, ..Self::default() }
-    }
-
-    /// One formula of X, Y, Z for each component.
-    fn formulas(&self, dimension: usize) -> Vec<String> {
-        let term = |i: usize, j: usize| {
-            let (slope, axis, centre) = (self.gradient[i][j], ["X", "Y", "Z"][j], self.centre[j]);
-            (slope != 0.0).then(|| format!(" + ({slope:e})*({axis} - ({centre:e}))"))
-        };
-        let formula = |i: usize| {
-            let terms: String = (0..dimension).filter_map(|j| term(i, j)).collect();
-            format!("{:e}{terms}", self.value[i])
-        };
-        (0..dimension).map(formula).collect()
-    }
-
-    /// The field in units of length and value that are smaller by these factors.
-    fn scaled(&self, value: f64, length: f64) -> Self {
-        Self {
-            value: self.value.map(|x| x * value),
-            gradient: self.gradient.map(|row| row.map(|x| x * value / length)),
-            centre: self.centre.map(|x| x * length),
-        }
-    }
-}
 
 /// A box of particles on a grid. Vectors have as many numbers as the scene has dimensions.
 #[derive(Debug, Clone)]
@@ -112,7 +63,8 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
-    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `room` cells around it.
+    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `room` cells
+    /// around it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, room: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();

@@ -2,11 +2,13 @@
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
-use crate::testing::doctor::course::{Course, Field, displacement, minus, shown, size, velocity};
+use crate::testing::doctor::course::{Course, Field, displacement, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, Kind};
+use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
+use crate::testing::doctor::vectors::AffineField;
+use crate::testing::doctor::vectors::{minus, size};
 
 /// Steps of each run.
 const STEPS: u64 = 6;
@@ -86,9 +88,9 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
     })
 }
 
-/// Six steps in one message against six messages, under everything that the solver can take at once:
-/// stresses, and a body force that depends on time or gravity. What happens once for each message shows
-/// under acceleration only.
+/// Six steps in one message against six messages, under everything that the solver can take at
+/// once: stresses, and a body force that depends on time or gravity. What happens once for each
+/// message shows under acceleration only.
 fn grouped_under_acceleration(
     patient: &Patient<'_>,
     kind: Kind,
@@ -167,8 +169,8 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
         size(minus(mean(course.last()), mean(1)))
     };
     let ratio = distance(half) / distance(whole);
-    // A constant speed gives a half, a constant acceleration a quarter; no motion at all is left to
-    // `translation`.
+    // A constant speed gives a half, a constant acceleration a quarter; no motion at all is left
+    // to `translation`.
     if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }

@@ -5,7 +5,8 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, H};
+use crate::testing::doctor::scene::{ANY, BoxScene, H};
+use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",

@@ -6,7 +6,8 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, FACES, H, Kind};
+use crate::testing::doctor::scene::{ANY, BoxScene, FACES, H, Kind};
+use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",

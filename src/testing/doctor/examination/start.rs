@@ -1,16 +1,18 @@
 //! A body that starts deformed and under stress, and is let go.
 //!
-//! Its displacement is that of a simple shear, so that F and the stress are uniform. In one half of it, momentum
-//! grows by the first Piola stress of the start: `dP_j/dt = -P_ji A` through the reference plane with
-//! normal i, until waves come in from the free faces.
+//! Its displacement is that of a simple shear, so that F and the stress are uniform. In one half
+//! of it, momentum grows by the first Piola stress of the start: `dP_j/dt = -P_ji A` through the
+//! reference plane with normal i, until waves come in from the free faces.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::{Course, displacement, minus, shown, size, times};
+use crate::testing::doctor::course::{Course, displacement, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{AffineField, BoxScene, FINITE, H, Kind};
+use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
+use crate::testing::doctor::vectors::AffineField;
+use crate::testing::doctor::vectors::{minus, size, times};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "start",
@@ -20,8 +22,9 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Shear at the start: one, so that a square lattice of particles becomes one again. Other deformations
-/// leave a lattice that cells sample unevenly, which costs a tenth of the force with linear functions.
+/// Shear at the start: one, so that a square lattice of particles becomes one again. Other
+/// deformations leave a lattice that cells sample unevenly, which costs a tenth of the force with
+/// linear functions.
 const SHEAR: f64 = 1.0;
 
 /// Stretch at the start, in one dimension.
@@ -34,7 +37,11 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &FINITE, &scene)?;
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
-    let scenes: Vec<BoxScene> = laws.collect();
+    let mut scenes: Vec<BoxScene> = laws.collect();
+    // A shear keeps volumes: masses and volumes show in a stretch.
+    if first.dimension > 1 {
+        scenes.push(stretched((first.dimension, first.law)));
+    }
     let courses = patient.run_all(&scenes)?;
     let mut all = Examined::default();
     for (scene, course) in scenes.iter().zip(&courses) {
@@ -72,6 +79,14 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
+/// A body that starts stretched.
+fn stretched(kind: Kind) -> BoxScene {
+    let mut scene = scene(kind);
+    scene.displacement.gradient = [[0.0; 3]; 3];
+    scene.displacement.gradient[0][0] = 0.5;
+    scene
+}
+
 /// The force through the plane across the first axis.
 struct Forces {
     /// Part along the expected force, over its size.
@@ -87,7 +102,8 @@ impl Forces {
         let d = scene.dimension;
         let particles = &course.problem.particles;
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
-        // P = J sigma F^-T: its first column is sigma times the first column of the cofactors of F.
+        // P = J sigma F^-T: its first column is sigma times the first column of the cofactors of
+        // F.
         let cofactor: Vec<f64> = (0..d)
             .map(|k| {
                 let mut replaced = f.to_vec();
@@ -151,6 +167,15 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
         shown(forces.ratio),
         shown(forces.late)
     );
+    let turned: Vec<f64> = (0..d * d).map(|k| f[(k % d) * d + k / d]).collect();
+    if mean.as_ref().is_some_and(|mean| f_is_lost && largest(mean, &turned) <= 0.2 * size_of_f) {
+        return Some(SolverFinding::defect(
+            "initial-deformation-transposed",
+            format!("{force}; after one step F is the transpose of that of the start"),
+            "the initial F is read as its transpose",
+            "`particles.deformation_gradient` of the problem: row after row",
+        ));
+    }
     if f_is_lost {
         let mean =
             mean.unwrap_or_default().iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", ");

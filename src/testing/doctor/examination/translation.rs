@@ -3,7 +3,8 @@
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{ANY, AffineField, BoxScene, H};
+use crate::testing::doctor::scene::{ANY, BoxScene, H};
+use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
@@ -17,8 +18,8 @@ pub(super) const VELOCITY: [f64; 3] = [0.25, -0.15625, 0.125];
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
-        // Particles pass faces of cells at a distance, also if they are half a step ahead: nodes of
-        // almost no mass are for `faces`.
+        // Particles pass faces of cells at a distance, also if they are half a step ahead: nodes
+        // of almost no mass are for `faces`.
         let from = [0.375 + 0.1125 * H, 0.125 + 0.101_562_5 * H, 0.5 + 0.106_25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 7.0);
         let mut velocity = VELOCITY;

@@ -1,11 +1,10 @@
 //! A body without stress whose parts do not move alike.
 
 use super::seen::UniformMotion;
-use crate::testing::doctor::course::{
-    displacement, dot, minus, shown, shown_vector, size, times, velocity,
-};
+use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
+use crate::testing::doctor::vectors::{dot, minus, size, times};
 use std::f64::consts::SQRT_2;
 
 /// Distance from the rim (cells) up to which functions see nodes beyond it.

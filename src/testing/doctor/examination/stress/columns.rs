@@ -8,8 +8,8 @@ use crate::testing::doctor::scene::BoxScene;
 /// Share by which a column may be off: it may be that of a step before, and waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
-/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None` if the
-/// column is not given.
+/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None` if
+/// the column is not given.
 pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let (lambda, mu) = scene.lame();

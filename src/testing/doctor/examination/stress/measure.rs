@@ -1,7 +1,8 @@
 //! Stresses by the momentum that flows through the middle of a body.
 
 use crate::testing::doctor::course::{Course, velocity};
-use crate::testing::doctor::scene::{AffineField, BoxScene, H, Kind};
+use crate::testing::doctor::scene::{BoxScene, H, Kind};
+use crate::testing::doctor::vectors::AffineField;
 
 /// Rates of stretch along the first axis and of shear (1/s): strains stay below 1e-3. The body is
 /// compressed, as artificial viscosities act in compression only.
@@ -11,15 +12,15 @@ pub(super) const SHEAR: f64 = 4e-3;
 /// Half the width (cells) of the tube whose momentum is counted.
 const TUBE: f64 = 2.0;
 
-/// Distance (cells) that waves travel during the run: they reach neither the side of the tube nor its
-/// middle.
+/// Distance (cells) that waves travel during the run: they reach neither the side of the tube nor
+/// its middle.
 pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 
 /// Steps of the run: few, since averaging (PIC) spreads momentum in each.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
-/// Moduli (Pa) by which stresses grow: sigma_xx and sigma_yy over the stretch, sigma_xy (force along y)
-/// and sigma_yx over the shear. In one dimension there is the first one only.
+/// Moduli (Pa) by which stresses grow: sigma_xx and sigma_yy over the stretch, sigma_xy (force
+/// along y) and sigma_yx over the shear. In one dimension there is the first one only.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeasuredModuli {
     pub(super) along: f64,
@@ -50,8 +51,8 @@ pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Moduli by the momentum of the two halves of tubes along the axes. A run without stiffness (`soft`) is
-/// subtracted, so that momentum that is moved by averaging does not count as stress.
+/// Moduli by the momentum of the two halves of tubes along the axes. A run without stiffness
+/// (`soft`) is subtracted, so that momentum that is moved by averaging does not count as stress.
 pub(super) fn moduli_by_momentum(
     course: &Course,
     soft: Option<&Course>,
@@ -87,8 +88,8 @@ pub(super) fn moduli_by_momentum(
     measured
 }
 
-/// The constant part (Pa) and the rate (Pa/s) of a stress, by its impulses (Pa s) at times (s): the least
-/// squares of `constant t + rate t^2/2` from the end of the first step on.
+/// The constant part (Pa) and the rate (Pa/s) of a stress, by its impulses (Pa s) at times (s):
+/// the least squares of `constant t + rate t^2/2` from the end of the first step on.
 pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
     for k in 2..impulse.len() {
@@ -105,9 +106,9 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Impulse (Pa s) of the stress with normal i and force j at each time: the momentum that has left the
-/// upper half of a tube along axis i for the lower one, over the area of the tube. Only velocities
-/// enter, at reference places.
+/// Impulse (Pa s) of the stress with normal i and force j at each time: the momentum that has left
+/// the upper half of a tube along axis i for the lower one, over the area of the tube. Only
+/// velocities enter, at reference places.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,

@@ -1,9 +1,10 @@
-//! A body that stretches and shears: the stress in it, by the momentum that flows through its middle.
+//! A body that stretches and shears: the stress in it, by the momentum that flows through its
+//! middle.
 //!
-//! With an initial velocity `v = L (X - C)` the strain is uniform, L t, until waves come in from the free
-//! faces, and no force acts inside. Momentum goes from one half to the other as `dP_j/dt = -sigma_ij A`
-//! through the middle plane with normal i. In a tube of points about the axis i it can be counted exactly,
-//! for any functions, from velocities alone.
+//! With an initial velocity `v = L (X - C)` the strain is uniform, L t, until waves come in from
+//! the free faces, and no force acts inside. Momentum goes from one half to the other as `dP_j/dt
+//! = -sigma_ij A` through the middle plane with normal i. In a tube of points about the axis i it
+//! can be counted exactly, for any functions, from velocities alone.
 //!
 //! ```text
 //! measure   the scene, and stresses by momentum
@@ -19,11 +20,12 @@ pub(super) use columns::inside;
 pub(super) use measure::{STEPS, TRAVEL, constant_and_rate, impulses, spreading};
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{Course, shown, size, velocity};
+use crate::testing::doctor::course::{Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::{BoxScene, ELASTIC};
+use crate::testing::doctor::vectors::size;
 use measure::{MeasuredModuli, STRETCH, moduli_by_momentum};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -79,7 +81,8 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
     }))
 }
 
-/// The run of `scene`, the moduli, and, if the solver `averages` velocities, a run without stiffness.
+/// The run of `scene`, the moduli, and, if the solver `averages` velocities, a run without
+/// stiffness.
 fn measure(
     patient: &Patient<'_>,
     scene: &BoxScene,

@@ -6,8 +6,8 @@ use crate::testing::doctor::course::{Course, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Share of the largest modulus by which one may differ, and by which it may differ in addition where
-/// averaging moves as much momentum as stress.
+/// Share of the largest modulus by which one may differ, and by which it may differ in addition
+/// where averaging moves as much momentum as stress.
 const NEAR: f64 = 0.03;
 const AVERAGED: f64 = 0.04;
 
@@ -144,8 +144,8 @@ fn mistakes(young: f64, poisson: f64, lambda: f64, mu: f64) -> Vec<Mistake> {
     ]
 }
 
-/// All moduli have the same factor: the modulus, the mass, the volume or the gradients are wrong. The
-/// column `stress` shows whether it is the modulus.
+/// All moduli have the same factor: the modulus, the mass, the volume or the gradients are wrong.
+/// The column `stress` shows whether it is the modulus.
 fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> SolverFinding {
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if is(-1.0) {
