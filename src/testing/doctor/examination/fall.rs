@@ -1,7 +1,9 @@
 //! A body in free fall.
 
+use crate::subject::Precision;
 use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
 use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
+use crate::testing::doctor::motion::single;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::{ANY, BoxScene};
@@ -62,6 +64,9 @@ fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     let most = (1..=last).map(off).fold(0.0, f64::max) / (GRAVITY * end);
     if most <= patient.rounding() {
         return None;
+    }
+    if patient.solver.precision() == Precision::Double && most <= 1e-5 {
+        return Some(single(0.0, most));
     }
     let v = course.mean(velocity, last);
     let spread = course.farthest(velocity, last, v) / (GRAVITY * end);

@@ -29,6 +29,7 @@ pub(super) const ALL: &[Examination] = &[
     stress::EXAMINATION,
     laws::EXAMINATION,
     start::EXAMINATION,
+    periodic::ENDS,
     walls::EXAMINATION,
     units::EXAMINATION,
 ];

@@ -1,12 +1,12 @@
 //! A rigid body that fills a periodic axis and moves along it.
 
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::displacement;
+use crate::testing::doctor::course::{displacement, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{ANY, BoxScene, FACES, H, Kind};
+use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, FACES, H, Kind};
 use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -16,8 +16,16 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Cells along the periodic axis.
+pub(super) const ENDS: Examination = Examination {
+    name: "periodic-ends",
+    expected: "two ends of a periodic axis that move towards each other stop each other",
+    after: &["conversation", "rest", "translation", "force", "transfer", "periodic", "stress"],
+    examine: examine_ends,
+};
+
+/// Cells along the periodic axis of a body that moves, and of one whose ends push each other.
 const CELLS: f64 = 4.0;
+const LONG: f64 = 12.0;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 1, 3], &ANY, &|kind| along(kind, 0))?;
@@ -46,6 +54,43 @@ fn along(kind: Kind, axis: usize) -> BoxScene {
     BoxScene { steps: 60, dt: 0.025, ..scene }
 }
 
+fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let first = patient.able(&[2, 1, 3], &ELASTIC, &|kind| along(kind, 0))?;
+    let mut all = Examined::default();
+    for axis in 0..first.dimension {
+        let lost = lost_at_ends(patient, (first.dimension, first.law), axis)?;
+        all.measured = format!("the ends exchange {} of the momentum of a half", shown(lost));
+        if !(lost >= 0.25) {
+            let seen = format!("{}, where about 0.5 was expected", all.measured);
+            all.findings.push(not_closed(axis, &seen));
+            break;
+        }
+    }
+    Ok(all)
+}
+
+/// Momentum that the upper half of a body loses across the ends of a periodic axis, as a share: the body
+/// is stretched at a constant rate, so that its ends move towards each other.
+fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
+    let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
+    scene.body.1[axis] = scene.body.0[axis] + LONG * H;
+    scene.grid.0[axis] = scene.body.0[axis];
+    scene.grid.1[axis] = scene.body.1[axis];
+    (scene.young, scene.poisson) = (3.1, 0.0);
+    scene.faces = FACES[axis].map(|face| (face, "periodic")).to_vec();
+    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
+    field.gradient[axis][axis] = 1e-3;
+    scene.velocity = field;
+    let scene = scene.with_waves(1.5, 6);
+    let course = patient.run(&scene)?;
+    let momentum = |k: usize| -> f64 {
+        let all = course.points(velocity, k).zip(&course.states[0].weight);
+        let upper = all.filter(|((label, _), _)| label[axis] > scene.centre()[axis]);
+        upper.map(|((_, v), weight)| weight * v[axis]).sum()
+    };
+    Ok(1.0 - momentum(course.last()) / momentum(0))
+}
+
 fn one_axis(patient: &Patient<'_>, scene: &BoxScene, axis: usize) -> Result<Examined, Hindrance> {
     let examined = uniform(patient, scene)?;
     let Some(first) = examined.findings.first() else { return Ok(examined) };
@@ -67,13 +112,17 @@ fn one_axis(patient: &Patient<'_>, scene: &BoxScene, axis: usize) -> Result<Exam
             "the answer to `advance`: displacements keep growing; store them separately, or count periods",
         )
     } else {
-        SolverFinding::defect(
-            "periodic-axis",
-            format!("along {name}: {}", first.seen),
-            "the two ends of a periodic axis are not treated as one place",
-            "node indices modulo the number of cells (not of nodes); node N is node 0, in every sum and \
-             for every function that reaches across the end",
-        )
+        not_closed(axis, &first.seen)
     };
     Ok(Examined::new(examined.measured, vec![finding]))
+}
+
+fn not_closed(axis: usize, seen: &str) -> SolverFinding {
+    SolverFinding::defect(
+        "periodic-axis",
+        format!("along {}: {seen}", ["x", "y", "z"][axis]),
+        "the two ends of a periodic axis are not treated as one place",
+        "node indices modulo the number of cells (not of nodes); node N is node 0, in every sum and \
+         for every function that reaches across the end",
+    )
 }

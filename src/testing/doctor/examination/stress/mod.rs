@@ -116,22 +116,31 @@ fn examine_scene(
     let mut examined = Examined::new(describe(&scene, &measured), Vec::new());
     let finding = lost_momentum(patient, &course, &scene);
     let finding = finding.or_else(|| moduli::cause(&course, &scene, &measured));
+    let is_scaled = finding.as_ref().is_some_and(|found| UNNAMED.contains(&found.name));
+    if is_scaled && measured.viscous_share > 0.1 {
+        examined.findings.push(viscosity(&measured));
+        return Ok((examined, measured.averaged_share));
+    }
     examined.findings.extend(finding);
     if examined.findings.is_empty() {
         examined.findings = columns::findings(&course, &scene);
     }
     if examined.findings.is_empty() && measured.viscous_share > 0.05 {
-        examined.findings.push(SolverFinding::remark(
-            "viscosity",
-            format!(
-                "stress has a part of {} m2/s times the rate of strain",
-                shown(measured.viscosity)
-            ),
-            "a viscosity acts that the problem does not have, and that vanishes with the stiffness",
-            "artificial viscosity, damping in proportion to the stiffness (Rayleigh's beta)",
-        ));
+        examined.findings.push(viscosity(&measured));
     }
     Ok((examined, measured.averaged_share))
+}
+
+/// Findings that a viscosity can cause.
+const UNNAMED: [&str; 2] = ["stress-scaled", "moduli-differ"];
+
+fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
+    SolverFinding::remark(
+        "viscosity",
+        format!("stress has a part of {} m2/s times the rate of strain", shown(measured.viscosity)),
+        "a viscosity acts that the problem does not have, and that vanishes with the stiffness",
+        "artificial viscosity, damping in proportion to the stiffness (Rayleigh's beta)",
+    )
 }
 
 fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {

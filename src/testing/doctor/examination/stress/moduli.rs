@@ -50,6 +50,11 @@ pub(super) fn cause(
     if are([whole, lambda, mu], whole) {
         return None;
     }
+    let factor = moduli[0] / whole;
+    let is_scaled = are([whole, lambda, mu].map(|modulus| factor * modulus), factor.abs() * whole);
+    if is_scaled && factor.abs() > 1e-4 && factor.abs() <= near {
+        return Some(scaled(course, scene, factor, seen));
+    }
     if are([0.0; 3], whole) {
         return report(
             "stress-missing",
@@ -61,8 +66,7 @@ pub(super) fn cause(
     if let Some((name, _, cause, look_at)) = mistakes.iter().find(|(_, m, ..)| are(*m, whole)) {
         return report(name, cause, look_at);
     }
-    let factor = moduli[0] / whole;
-    if are([whole, lambda, mu].map(|modulus| factor * modulus), factor.abs() * whole) {
+    if is_scaled {
         return Some(scaled(course, scene, factor, seen));
     }
     report(
@@ -223,8 +227,19 @@ fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
         (1e6, "a unit is MPa, or mm with t"),
         (1e-6, "a unit is MPa, or mm with t"),
     ];
-    if d > 1 {
+    if d == 2 {
+        factors.push((
+            cell,
+            "volumes are multiplied by that of a cell, or gradients are divided by h neither in strains nor \
+             in forces",
+        ));
+    } else {
+        factors.push((h * h, "gradients are divided by h neither in strains nor in forces"));
+    }
+    if d == 3 {
         factors.push((cell, "volumes are multiplied by that of a cell"));
+    }
+    if d > 1 {
         factors.push((1.0 / cell, "masses are multiplied by the volume of a cell"));
     }
     factors
