@@ -12,6 +12,7 @@
 //! linearised   a tolerance for a linearised solution that is larger than it needs
 //! alignment    interfaces and loaded faces inside a cell
 //! end_on_node  a box whose last particles start on nodes, with linear functions
+//! undamped     an equilibrium in which nothing removes energy
 //! cost         seconds and memory
 //! ```
 //!
@@ -30,6 +31,7 @@ pub(crate) mod reach;
 pub(crate) mod strain;
 pub(crate) mod subject;
 pub(crate) mod time_step;
+pub(crate) mod undamped;
 
 pub(crate) use cost::UNKNOWN;
 pub use cost::{Estimate, estimate, estimates, unit_seconds};
@@ -52,7 +54,7 @@ const RULES_OF_ORDER: [PreflightRule; 6] = [
 ];
 
 /// Every rule of all suites.
-const RULES: [PreflightRule; 2] = [linearised::check, end_on_node::check];
+const RULES: [PreflightRule; 3] = [linearised::check, end_on_node::check, undamped::check];
 
 /// Warnings and notes about `suite`, read from `source`; none about studies that refine nothing.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
