@@ -2,47 +2,90 @@
 
 use super::args::DiagnoseArgs;
 use super::status::{BAD_INPUT, PASSED};
-use super::{output, select};
+use super::{output, select, solver};
+use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
 use mpm_verify::study;
-use serde_json::json;
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use serde_json::{Value, json};
 
-/// Prints the finding on each case that is named.
+/// Prints the diagnosis of each case that is named.
 pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {
-    let (mut code, mut cases) = (PASSED, Vec::new());
+    let solver = match solver::greeted(&args.solver) {
+        Ok(solver) => solver,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
+    let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
+    let mut all = Diagnoses { args, solver, code: PASSED, diagnosed: 0, json: Vec::new() };
     for found in select::with_sources(&args.targets.targets) {
-        let (source, suite) = match found {
-            Ok(found) => found,
+        match found.map(|(source, suite)| (source, solver::in_place_of_methods(suite, solver))) {
+            Ok((source, Some(suite))) => all.suite(&source, &suite),
+            Ok((_, None)) => {}
             Err(diagnostic) => {
                 output::diagnose(&diagnostic);
-                code = BAD_INPUT;
-                continue;
-            }
-        };
-        for (index, case) in suite.case_names().into_iter().enumerate() {
-            if !case.contains(args.case.as_str()) {
-                continue;
-            }
-            let name = format!("{}::{case}", suite.name);
-            match study::diagnose(&suite, &source, index, args.budget) {
-                Ok(Some(found)) if args.format.is_json() => {
-                    let mut case = report::diagnosis_json(&found);
-                    case["suite"] = suite.name.clone().into();
-                    cases.push(case);
-                }
-                Ok(Some(found)) => {
-                    output::print(&format!("{}\n{}\n", suite.name, report::diagnosis(&found)));
-                }
-                Ok(None) => output::complain(&format!("note: {name} has no order to explain")),
-                Err(reason) => {
-                    output::complain(&format!("error: {name}: {reason}"));
-                    code = BAD_INPUT;
-                }
+                all.code = BAD_INPUT;
             }
         }
     }
     if args.format.is_json() {
-        output::print(&format!("{:#}\n", json!({"cases": cases})));
+        output::print(&format!("{:#}\n", json!({"cases": all.json})));
     }
-    code
+    if solver.is_some() && all.diagnosed == 0 && all.code == PASSED {
+        output::complain("error: no case is applicable to the solver");
+        return BAD_INPUT;
+    }
+    all.code
+}
+
+/// Diagnoses of all cases, as far as they are made.
+struct Diagnoses<'a> {
+    args: &'a DiagnoseArgs,
+    solver: Option<&'a dyn SolverFactory>,
+    code: u8,
+    /// Number of cases that were run.
+    diagnosed: usize,
+    json: Vec<Value>,
+}
+
+impl Diagnoses<'_> {
+    /// Adds the cases of a suite.
+    fn suite(&mut self, source: &Source, suite: &Suite) {
+        let names = suite.case_names().into_iter().enumerate();
+        for (index, case) in names.filter(|(_, case)| case.contains(self.args.case.as_str())) {
+            let name = format!("{}::{case}", suite.name);
+            let lacks = self.solver.map_or(Vec::new(), |solver| study::lacking(suite, solver));
+            if !lacks.is_empty() {
+                let lacks = lacks.join(", ");
+                output::complain(&format!(
+                    "note: {name} is not applicable: the solver lacks {lacks}"
+                ));
+                continue;
+            }
+            match study::diagnose(suite, source, index, self.args.budget, self.solver) {
+                Ok(Some(found)) => {
+                    self.diagnosed += 1;
+                    if self.args.format.is_json() {
+                        let mut case = report::diagnosis_json(&found);
+                        case["suite"] = suite.name.clone().into();
+                        self.json.push(case);
+                    } else {
+                        let page = report::diagnosis(&found);
+                        output::print(&format!("{}\n{page}\n", suite.name));
+                    }
+                }
+                Ok(None) => {
+                    self.diagnosed += 1;
+                    output::complain(&format!("note: {name} has no order to explain"));
+                }
+                Err(reason) => {
+                    output::complain(&format!("error: {name}: {reason}"));
+                    self.code = BAD_INPUT;
+                }
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::args::SolverArgs;
 use super::output;
-use mpm_verify::external::{ProgramLimits, SolverProgram};
+use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
 use mpm_verify::study::under;
 use mpm_verify::suite::Suite;
 use mpm_verify::verify::SuiteOutcome;
@@ -30,15 +30,26 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String
 /// The suites with the solver in place of their methods; those that look inside a method are left
 /// out.
 pub(super) fn judged(suites: Vec<Suite>, solver: &SolverProgram, gate: bool) -> Vec<Suite> {
-    let mut judged = Vec::new();
-    for suite in suites {
-        match under(&suite, solver, gate) {
-            Some(suite) => judged.push(suite),
-            None => output::complain(&format!(
-                "note: {}: left out, since it looks inside the methods of this crate",
-                suite.name
-            )),
-        }
+    suites.into_iter().filter_map(|suite| judged_suite(&suite, solver, gate)).collect()
+}
+
+/// The suite with the solver, if there is one, in place of its methods; `None` if the suite is left
+/// out, with a note.
+pub(super) fn in_place_of_methods(
+    suite: Suite,
+    solver: Option<&dyn SolverFactory>,
+) -> Option<Suite> {
+    match solver {
+        Some(solver) => judged_suite(&suite, solver, false),
+        None => Some(suite),
+    }
+}
+
+fn judged_suite(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
+    let judged = under(suite, solver, gate);
+    if judged.is_none() {
+        let why = "left out, since it looks inside the methods of this crate";
+        output::complain(&format!("note: {}: {why}", suite.name));
     }
     judged
 }

@@ -54,11 +54,11 @@ pub(super) enum Command {
     /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
     /// memory), and what is expected
     Explain(ExplainArgs),
-    /// Run suites and write the `expect` entries that theory gives and the runs support, each with
-    /// where it comes from; nothing is changed
+    /// Run suites and print the `expect` entries that theory gives and the runs support, each with
+    /// its origin; no file is changed
     Propose(ProposeArgs),
-    /// Find out why cases do not have the order of theory: the finest levels again, with one thing
-    /// changed at a time
+    /// Find the cause if a case does not have the order of theory: its finest levels run again with
+    /// one thing changed at a time
     Diagnose(DiagnoseArgs),
     /// Put a solver to small problems that each show one kind of mistake, and say what is wrong
     /// with it in the words that its author needs; exit status 1 if something is, 2 if it cannot
@@ -118,6 +118,8 @@ pub(super) struct DiagnoseArgs {
     pub(super) budget: f64,
     #[command(flatten)]
     pub(super) format: FormatArgs,
+    #[command(flatten)]
+    pub(super) solver: SolverArgs,
 }
 
 #[derive(Debug, Args)]
@@ -168,4 +170,6 @@ pub(super) struct ProposeArgs {
     pub(super) targets: Targets,
     #[command(flatten)]
     pub(super) format: FormatArgs,
+    #[command(flatten)]
+    pub(super) solver: SolverArgs,
 }

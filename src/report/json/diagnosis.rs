@@ -2,11 +2,13 @@
 
 use super::number::{interval, number};
 use crate::report::text::diagnosis::paragraph;
-use crate::verify::{ChangedRun, Diagnosis};
+use crate::verify::{Cause, ChangedRun, Diagnosis};
 use serde_json::{Value, json};
 
-/// The finding on one case: the paragraph of the text, and the runs behind it.
+/// The diagnosis of one case: the paragraph of the text, and the runs behind it.
 pub fn diagnosis_json(found: &Diagnosis) -> Value {
+    // There is no ratio to an error that is not finite.
+    let finite = |ratio: f64| Some(ratio).filter(|ratio| ratio.is_finite());
     let run = |run: &ChangedRun| {
         json!({
             "change": run.change,
@@ -14,17 +16,22 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
             "remedy": run.remedy,
             "verdict": run.verdict.name(),
             "order": run.order.map(interval),
-            "ratio": number(run.ratio),
+            "error": number(run.error),
+            "ratio": finite(run.ratio),
+            "relative_ratio": finite(run.relative_ratio),
         })
     };
+    let causes = found.causes();
+    let cause = |cause: &Cause<'_>| json!({"cause": cause.cause(), "remedy": cause.remedy()});
     json!({
         "case": found.case,
         "formal_order": number(found.formal_order),
         "verdict": found.judgement.verdict.name(),
         "sound": found.is_sound(),
         "finding": paragraph(found),
-        "cause": found.found().map(|(run, _)| run.cause),
-        "remedy": found.found().map(|(run, _)| run.remedy),
+        "cause": causes.first().map(Cause::cause),
+        "remedy": causes.first().and_then(Cause::remedy),
+        "causes": causes.iter().map(cause).collect::<Vec<_>>(),
         "levels": found.levels,
         "runs": found.runs.iter().map(run).collect::<Vec<_>>(),
         "beyond_budget": found.skipped,

@@ -1,12 +1,12 @@
-//! A diagnosis in words: the cause, the evidence, and what restores the order.
+//! A diagnosis as text: the causes, the evidence and the remedies.
 
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use crate::report::columns::TableColumn;
 
-use crate::verify::{ChangedRun, Diagnosis, Evidence, Interval, Verdict};
+use crate::verify::{Cause, ChangedRun, Diagnosis, Evidence, Interval, Verdict};
 
-/// The finding on one case: a paragraph, and a table of the runs behind it.
+/// The diagnosis of one case: a paragraph, and a table of the runs behind it.
 pub fn diagnosis(found: &Diagnosis) -> String {
     let mut lines = vec![format!("== {} ==", found.case)];
     paragraph_lines(&mut lines, &paragraph(found));
@@ -20,82 +20,138 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Verdict, cause, evidence and remedy.
+/// Verdict, causes, evidence and remedies.
 pub(crate) fn paragraph(found: &Diagnosis) -> String {
-    let p = found.formal_order;
     let judgement = &found.judgement;
     if found.is_sound() {
-        return format!("As theory says: {}.", judgement.reason);
+        return format!("The observed order agrees with theory: {}.", judgement.reason);
     }
-    let seen = format!("Theory gives the order {p}, and the case is {}", judgement.verdict);
-    let seen = format!("{seen}: {}.", judgement.reason);
-    if found.left_grid {
-        return format!(
-            "{seen} Cause: the grid ends where the body moves to. What restores it: a larger `grid` in \
-             `scene`, or a smaller motion."
+    let (p, verdict) = (found.formal_order, judgement.verdict);
+    let mut sentences = vec![format!(
+        "Theory gives order {p}, and the verdict is {verdict}: {}.",
+        judgement.reason
+    )];
+    let causes = found.causes();
+    for (k, cause) in causes.iter().enumerate() {
+        let lead = match (k, cause) {
+            (0, Cause::Run(_, Evidence::Lowered)) => "Largest contribution",
+            (0, _) => "Cause",
+            _ => "Also possible",
+        };
+        sentences.push(format!("{lead}: {}.", cause.cause()));
+        sentences.push(match cause {
+            Cause::Finding(finding) => finding.evidence.clone(),
+            Cause::Run(run, evidence) => evidence_of_run(found, run, *evidence),
+        });
+        sentences.extend(remedy(cause));
+    }
+    if causes.is_empty() {
+        sentences.push(unknown_cause(found));
+    }
+    if found.is_external && !found.is_known() {
+        sentences.push(
+            "Settings of the method (start, scheme, basis, transfer, mass matrix, frame) are not \
+             changed, because the solver is external."
+                .to_owned(),
         );
     }
-    let levels = match (found.levels.first(), found.levels.last()) {
+    sentences.join(" ")
+}
+
+/// Levels that are run again, from the coarsest to the finest.
+fn range(found: &Diagnosis) -> String {
+    match (found.levels.first(), found.levels.last()) {
         (Some(first), Some(last)) => format!("{first} to {last}"),
         _ => String::new(),
-    };
-    let order = |order: Option<Interval>| order.map_or("none".to_owned(), |order| order.shown());
-    let of_case = order(found.finest.order);
-    let kink = found.kink.map_or(String::new(), |function| {
-        format!(
-            " The exact solution calls `{function}`: where it has a kink, the order of theory, which \
-             is that of a smooth solution, is not to be had."
-        )
-    });
-    let Some((run, evidence)) = found.found() else {
-        return if found.finest.verdict == Verdict::Converging {
-            format!(
-                "{seen} From {levels} the order is {of_case}: coarser levels are not asymptotic, or \
-                 are too few to tell."
-            )
-        } else {
-            format!(
-                "{seen} No change of one thing brings the order back on the levels from {levels}, or \
-                 takes a quarter off the finest error: the cause is not among those that are \
-                 tried.{kink}"
-            )
-        };
-    };
-    let ChangedRun { change, cause, remedy, order: with, ratio, .. } = run;
-    let (with, ratio) = (order(*with), times(*ratio));
+    }
+}
+
+fn order(order: Option<Interval>) -> String {
+    order.map_or("not determined".to_owned(), |order| order.shown())
+}
+
+/// Effect of the run that shows the cause.
+fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> String {
+    let (change, with, before) = (&run.change, order(run.order), order(found.finest.order));
+    let (range, error) = (range(found), error_of_run(found, run));
     match evidence {
         Evidence::Restored => format!(
-            "{seen} Cause: {cause}. With {change} the order from {levels} is {with}, where it was \
-             {of_case}; the finest error is {ratio}. What restores it: {remedy}."
+            "With {change} the order from {range} is {with} (before: {before}), and {error}."
         ),
         Evidence::Raised => format!(
-            "{seen} Cause: {cause}. With {change} the order from {levels} is {with}, where it was \
-             {of_case}, which is not yet that of theory.{kink} What helps: {remedy}."
+            "With {change} the order from {range} is {with} (before: {before}), which is not yet \
+             that of theory."
         ),
         Evidence::Lowered => format!(
-            "{seen} Largest part: {cause}. With {change} the finest error is {ratio}; the order \
-             from {levels} is {with} then, so that this is not all.{kink} What \
-             helps: {remedy}."
+            "With {change} {error}. The order from {range} is then {with}, so there is another cause."
         ),
     }
 }
 
-/// A ratio to what was before.
-fn times(ratio: f64) -> String {
-    if !ratio.is_finite() {
-        "a number, which it was not".to_owned()
-    } else if ratio < 1e-4 {
-        format!("{ratio:.0e} of that")
-    } else if ratio < 0.1 {
-        format!("1/{:.0} of that", 1.0 / ratio)
-    } else {
-        format!("{ratio:.2} times that")
+/// The finest error of a changed run, compared with that of the case.
+fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
+    let (before, after) = (found.finest_error, run.error);
+    if !run.ratio.is_finite() {
+        return format!("the finest error is {after:.3e} (before: not finite)");
     }
+    let relative = if (run.relative_ratio / run.ratio - 1.0).abs() > 1e-9 {
+        let share = share(run.relative_ratio);
+        format!(", or {share} its share of the exact solution")
+    } else {
+        String::new()
+    };
+    let share = share(run.ratio);
+    format!("the finest error is {after:.3e}, {share} {before:.3e}{relative}")
+}
+
+/// A positive ratio, as what precedes the whole.
+fn share(ratio: f64) -> String {
+    if ratio < 1e-4 {
+        format!("{ratio:.0e} of")
+    } else if ratio < 0.15 {
+        format!("1/{:.0} of", 1.0 / ratio)
+    } else {
+        format!("{ratio:.2} times")
+    }
+}
+
+/// The remedy of a cause, or why there is none.
+fn remedy(cause: &Cause<'_>) -> Option<String> {
+    let label = match cause {
+        Cause::Run(_, Evidence::Raised | Evidence::Lowered) => "Partial remedy",
+        _ => "Remedy",
+    };
+    match (cause.remedy(), cause) {
+        (Some(remedy), _) => Some(format!("{label}: {remedy}.")),
+        (None, Cause::Run(run, _)) => {
+            let refusal = run.refusal.as_deref().unwrap_or_default();
+            Some(format!("`check` refuses {} in this suite: {refusal}.", run.remedy))
+        }
+        (None, Cause::Finding(_)) => None,
+    }
+}
+
+fn unknown_cause(found: &Diagnosis) -> String {
+    let range = range(found);
+    if found.runs.is_empty() && !found.skipped.is_empty() {
+        return "No change was tested within the budget.".to_owned();
+    }
+    if found.finest.verdict == Verdict::Converging {
+        let order = order(found.finest.order);
+        return format!(
+            "From {range} the order is {order}: coarser levels are not asymptotic, or the levels are \
+             too few."
+        );
+    }
+    format!(
+        "No change of one thing restores the order from {range}, or removes a quarter of the finest \
+         error. The cause is none of those that `diagnose` tests."
+    )
 }
 
 fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
     [
-        TableColumn::<&ChangedRun>::text("changed", "the one thing", |run| run.change.clone())
+        TableColumn::<&ChangedRun>::text("changed", "the change", |run| run.change.clone())
             .flush_left(),
         TableColumn::<&ChangedRun>::text("verdict", "verdict", |run| run.verdict.to_string())
             .flush_left(),
@@ -103,8 +159,8 @@ fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
             run.order.map(|order| order.shown())
         }),
         TableColumn::<&ChangedRun>::text("error/before", "finest error over that before", |run| {
-            let is_large = run.ratio >= 1e4;
-            if is_large { format!("{:.1e}", run.ratio) } else { format!("{:.3}", run.ratio) }
+            let ratio = Some(run.ratio).filter(|ratio| ratio.is_finite())?;
+            Some(if ratio >= 1e4 { format!("{ratio:.1e}") } else { format!("{ratio:.3}") })
         }),
     ]
 }

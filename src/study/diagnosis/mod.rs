@@ -1,41 +1,76 @@
-//! Why a case does not have the order of theory: its finest levels again, with one thing changed at
-//! a time.
+//! Why a case does not have the order of theory.
 //!
-//! A change is the cause if it restores the order; where none does, the one that takes most off the
-//! finest error is named, with what is left. Nothing is read of what the suite's author gives as a
-//! reason. (One factor at a time, as the isolating runs of Roy 2005, J. Comput. Phys. 205, 131.)
+//! ```text
+//! session        runs of one case, and their budget
+//! steps          steps longer than the stable step
+//! walls          particles outside the grid, and walls that move
+//! levels         levels that are too coarse; an equilibrium without damping
+//! regularity     an exact solution with kinks
+//! probes         changes of the problem, the levels or the method, one at a time
+//! remedy         the suite with a remedy in it, as `check` accepts or refuses it
+//! ```
+//!
+//! The finest levels run again with one thing changed at a time. A change is the cause if it
+//! restores the order; where none does, the change that takes most off the finest error is named.
+//! The `because` texts of the suite are not read. (One factor at a time, as the isolating runs of
+//! Roy 2005, J. Comput. Phys. 205, 131.)
 
-pub(crate) mod probes;
+mod levels;
+mod method_probes;
+mod probes;
+mod regularity;
+mod remedy;
+mod session;
+mod steps;
+mod walls;
 
-use self::probes::{Crossings, PROBES, ProbeKind};
-use crate::study::convergence::formal_order::formal_order;
-use crate::study::convergence::outcome::to_judge;
-use crate::study::kind::{RunContext, Storage, Study};
-use crate::study::preflight::cost::estimate_of;
-use crate::suite::compile::suite::with_amplitude;
-use crate::suite::model::refine_plan::{Extent, LevelPlan};
-use crate::suite::model::{Against, Case, ConvergencePlan, Suite};
-use crate::suite::yaml::Source;
-use crate::verify::{
-    Axis, ChangedRun, Convergence, Diagnosis, FEWEST_LEVELS, Judgement, Level, LevelOutcome,
-    OrderHypothesis, judge,
+use self::method_probes::{DOMAINS, FRAME, GRADIENTS, MASS, SCHEME, SMOOTH_BASIS, START};
+use self::probes::{
+    ALIGNMENT, AMPLITUDE, CELLS, Crossings, DURATION, FORMULA, PARTICLES, ProbeKind, REFERENCE,
+    STEP,
 };
+use self::session::{Known, Session, only};
+use crate::external::SolverFactory;
+use crate::study::convergence::formal_order::formal_order;
+use crate::suite::compile::suite::with_amplitude;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::{Against, ConvergencePlan, Suite};
+use crate::suite::yaml::Source;
+use crate::verify::{Axis, ChangedRun, Diagnosis, FEWEST_LEVELS, Finding, LevelOutcome, Quantity};
 
-/// Finest levels that are run again.
+/// Number of levels, the finest, that are run again.
 const LEVELS: usize = 5;
 
-/// An order that is restored is no further below that of theory.
-const NEAR: f64 = 0.2;
-
-/// And no further above: a case may be better than its theory.
-const ABOVE: f64 = 0.8;
-
 /// Factor of the amplitude in the probe that makes the motion smaller.
-pub(crate) const SMALLER: f64 = 0.1;
+const SMALLER: f64 = 0.1;
 
-/// The finding on the case number `index` of a suite, within a predicted time (s) for all runs.
-/// `None` for a case that has no order to explain: of another kind of study, without a truth, or
-/// with too few levels.
+/// Every change that a plan can carry out, the most specific first.
+const PROBES: [&ProbeKind; 14] = [
+    &REFERENCE,
+    &FORMULA,
+    &START,
+    &SCHEME,
+    &DOMAINS,
+    &ALIGNMENT,
+    &PARTICLES,
+    &GRADIENTS,
+    &MASS,
+    &FRAME,
+    &SMOOTH_BASIS,
+    &DURATION,
+    &STEP,
+    &CELLS,
+];
+
+/// Every search for a cause that needs no change of the method.
+const CHECKS: [fn(&Known<'_>) -> Option<Finding>; 5] =
+    [steps::check, walls::check, levels::undamped, levels::coarse, regularity::check];
+
+/// The diagnosis of case number `index` of a suite, within a predicted time (s) for all changed
+/// runs. With `solver`, `suite` is that of [`under`](crate::study::under). `None` for a case that
+/// has no order to explain: of another kind of study, without an exact solution, or with too few
+/// levels.
 ///
 /// # Errors
 /// One line that says why the case itself cannot be run.
@@ -44,6 +79,7 @@ pub fn diagnose(
     source: &Source,
     index: usize,
     budget: f64,
+    solver: Option<&dyn SolverFactory>,
 ) -> Result<Option<Diagnosis>, String> {
     let Some(exploring) = suite.without_expectations() else { return Ok(None) };
     let Some(plan) = exploring.plan::<ConvergencePlan>() else { return Ok(None) };
@@ -51,127 +87,129 @@ pub fn diagnose(
     if case.against == Against::Nothing || plan.refine.usual < FEWEST_LEVELS {
         return Ok(None);
     }
-    let context = Context { suite: &suite.name, case, formal_order: formal_order(plan, case) };
+    let formal_order = formal_order(plan, case);
+    let session = Session::new((&suite.name, source), case, formal_order, solver, budget);
     let all = only(plan, case, plan.refine.levels(Extent::Usual));
-    let found = context.run(&all)?;
-    // Levels that do not count show another error than the one that is judged.
+    let found = session.first(&all).map_err(|reason| refusal(&session, &all, reason))?;
+    // Levels that do not count have another error than the one that is judged.
     let end = found.levels.iter().rposition(|level| level.usable).map_or(0, |last| last + 1);
     let range = end.saturating_sub(LEVELS)..end;
     let levels = &found.levels[range.clone()];
+    let finest = session.judge(levels, plan.refine.axis);
     let mut diagnosis = Diagnosis {
         case: case.name.clone(),
-        formal_order: context.formal_order,
-        finest: context.judge(levels, plan.refine.axis),
-        levels: levels.iter().map(|level| level.name(found.axis)).collect(),
+        formal_order,
         judgement: found.judgement.clone(),
-        left_grid: levels.iter().any(|level| level.run.counters.left_domain > Some(0)),
-        kink: kink(suite, plan),
+        finest_error: finest_error(levels),
+        levels: levels.iter().map(|level| level.name(found.axis)).collect(),
+        is_external: matches!(case.method, Method::External { .. }),
+        finest: finest.clone(),
+        findings: Vec::new(),
         runs: Vec::new(),
         skipped: Vec::new(),
     };
-    if diagnosis.is_sound() || diagnosis.left_grid {
+    if diagnosis.is_sound() {
         return Ok(Some(diagnosis));
     }
-    let finest = only(plan, case, &plan.refine.levels(Extent::Usual)[range]);
-    context.try_all(source, &finest, levels, budget, &mut diagnosis);
+    let known = Known { session: &session, plan: &all, levels: &found.levels, finest: &finest };
+    for check in CHECKS {
+        diagnosis.findings.extend(check(&known));
+        // What such a step, grid or load does to other runs is no evidence.
+        if diagnosis.is_known() {
+            break;
+        }
+    }
+    if !diagnosis.is_known() {
+        let finest = only(plan, case, &all.refine.levels[range]);
+        diagnosis.runs = changed_runs(&session, &finest, levels);
+        check_remedy(&session, &finest, &mut diagnosis);
+    }
+    diagnosis.skipped = session.into_skipped();
     Ok(Some(diagnosis))
 }
 
-/// Functions with a kink or a jump.
-const KINKED: [&str; 7] = ["max", "min", "abs", "sign", "step", "floor", "where"];
-
-/// The first function with a kink that the exact motion calls.
-fn kink(suite: &Suite, plan: &ConvergencePlan) -> Option<&'static str> {
-    let bodies = suite.functions.iter().map(|(_, body)| body.clone());
-    let texts: Vec<String> =
-        plan.exact.iter().map(|problem| problem.motion.source()).chain(bodies).collect();
-    KINKED.into_iter().find(|name| texts.iter().any(|text| text.contains(&format!("{name}("))))
+/// Why a case cannot be run, with the cause where that is known.
+fn refusal(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
+    let lost = |level| walls::particle_on_wall(session, plan, level);
+    let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
+    let remedy = finding.remedy.map_or(String::new(), |remedy| format!("; remedy: {remedy}"));
+    format!("{reason}; cause: {}{remedy}", finding.cause)
 }
 
-/// The plan with one case and some levels.
-fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {
-    let mut plan = plan.clone();
-    plan.refine.levels = levels.to_vec();
-    plan.refine.usual = levels.len();
-    plan.cases = vec![case.clone()];
-    plan
+fn finest_error(levels: &[LevelOutcome]) -> f64 {
+    levels.last().map_or(f64::NAN, |level| level.error)
 }
 
-/// The parts that all runs of a case share.
-struct Context<'a> {
-    suite: &'a str,
-    case: &'a Case,
-    formal_order: f64,
+/// The runs of the levels of `finest` with one thing changed at a time, where they are `levels`
+/// without a change.
+fn changed_runs(
+    session: &Session<'_>,
+    finest: &ConvergencePlan,
+    levels: &[LevelOutcome],
+) -> Vec<ChangedRun> {
+    let crossed = |level: &LevelOutcome| level.run.counters.crossings != Some(0);
+    let crossings = if levels.iter().any(crossed) { Crossings::Some } else { Crossings::None };
+    let before = finest_error(levels);
+    let mut runs = Vec::new();
+    for (kind, plan, size) in changed_plans(session, finest) {
+        let h = |plan: &ConvergencePlan| plan.refine.levels.last().map_or(0.0, |level| level.h);
+        let Some(found) = session.changed(kind.change, &plan) else { continue };
+        let judgement = session.judge(&found.levels, found.axis);
+        let error = finest_error(&found.levels);
+        runs.push(ChangedRun {
+            change: kind.change.to_owned(),
+            cause: (kind.cause)(session.case, crossings),
+            remedy: kind.remedy,
+            refusal: None,
+            verdict: judgement.verdict,
+            order: judgement.order,
+            error,
+            ratio: error / before,
+            relative_ratio: error / before / size,
+            is_finer: plan.refine.axis == Axis::Space && h(&plan) < h(finest),
+        });
+    }
+    runs
 }
 
-impl Context<'_> {
-    fn run(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
-        let (suite, extent, storage) = (self.suite, Extent::Usual, Storage::Nowhere);
-        let context = RunContext { suite, fingerprint: 0, extent, storage, solver: None };
-        let outcome = plan.runner(context).case(0, &|| ());
-        outcome.convergence().cloned().ok_or(outcome.reason)
-    }
+/// Every change that means something, with the factor by which it changes the size of the judged
+/// quantity.
+fn changed_plans(
+    session: &Session<'_>,
+    finest: &ConvergencePlan,
+) -> Vec<(&'static ProbeKind, ConvergencePlan, f64)> {
+    let planned = |kind: &'static ProbeKind| Some((kind, (kind.apply)(finest)?, 1.0));
+    let mut changed: Vec<_> = PROBES.into_iter().filter_map(planned).collect();
+    let has_motion = finest.exact.is_some() && finest.refine.axis != Axis::Particles;
+    let smaller = has_motion.then(|| with_amplitude(session.source, SMALLER).ok()).flatten();
+    let plan = smaller.as_ref().and_then(Suite::plan::<ConvergencePlan>);
+    changed.extend(plan.map(|plan| {
+        let plan = only(plan, session.case, &finest.refine.levels);
+        let size = size_factor(finest, &plan);
+        (&AMPLITUDE, plan, size)
+    }));
+    changed
+}
 
-    fn judge(&self, levels: &[LevelOutcome], axis: Axis) -> Judgement {
-        let levels: Vec<Level> = levels.iter().map(to_judge).collect();
-        let p = self.formal_order;
-        judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
-    }
+/// Size of the judged quantity in the smaller motion of `smaller` over that in `plan`, both over
+/// the divisors of their errors.
+fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
+    let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
+    let sizes = match (&plan.sum, &smaller.sum, plan.of) {
+        (Some(before), Some(after), _) => after.size() / before.size(),
+        (_, _, Quantity::Temperature) => 1.0,
+        _ => SMALLER,
+    };
+    sizes * divisor(plan) / divisor(smaller)
+}
 
-    fn try_all(
-        &self,
-        source: &Source,
-        finest: &ConvergencePlan,
-        levels: &[LevelOutcome],
-        budget: f64,
-        into: &mut Diagnosis,
-    ) {
-        let error = |levels: &[LevelOutcome]| levels.last().map_or(f64::NAN, |level| level.error);
-        let crossed = |level: &LevelOutcome| level.run.counters.crossings != Some(0);
-        let crossings = if levels.iter().any(crossed) { Crossings::Some } else { Crossings::None };
-        let mut left = budget;
-        for (kind, plan, scale) in self.changed(source, finest) {
-            let h = |plan: &ConvergencePlan| plan.refine.levels.last().map_or(0.0, |level| level.h);
-            let finer = plan.refine.axis == Axis::Space && h(&plan) < h(finest);
-            let cost = estimate_of(&plan).seconds;
-            if cost > left {
-                into.skipped.push(kind.change.to_owned());
-                continue;
-            }
-            left -= cost;
-            // A change that cannot be set up is no evidence.
-            let Ok(found) = self.run(&plan) else { continue };
-            let judgement = self.judge(&found.levels, found.axis);
-            into.runs.push(ChangedRun {
-                change: kind.change.to_owned(),
-                cause: (kind.cause)(self.case, crossings),
-                remedy: kind.remedy,
-                verdict: judgement.verdict,
-                order: judgement.order,
-                ratio: error(&found.levels) / scale / error(levels),
-                is_finer: finer,
-            });
-        }
-    }
-
-    /// Every change that means something, with the factor of the amplitude that it brings.
-    fn changed(
-        &self,
-        source: &Source,
-        finest: &ConvergencePlan,
-    ) -> Vec<(&'static ProbeKind, ConvergencePlan, f64)> {
-        let mut changed = Vec::new();
-        for kind in PROBES {
-            let plan = (kind.apply)(finest).map(|plan| (kind, plan, 1.0));
-            changed.extend(plan);
-        }
-        let has_motion = finest.exact.is_some() && finest.refine.axis != Axis::Particles;
-        let smaller = has_motion.then(|| with_amplitude(source, SMALLER).ok()).flatten();
-        let plan = smaller.as_ref().and_then(Suite::plan::<ConvergencePlan>);
-        changed.extend(plan.map(|plan| {
-            let plan = only(plan, self.case, &finest.refine.levels);
-            (&probes::AMPLITUDE, plan, SMALLER)
-        }));
-        changed
+/// Loads the suite with the remedy that the diagnosis recommends.
+fn check_remedy(session: &Session<'_>, finest: &ConvergencePlan, diagnosis: &mut Diagnosis) {
+    let Some(change) = diagnosis.found().map(|(run, _)| run.change.clone()) else { return };
+    let kind = PROBES.into_iter().find(|kind| kind.change == change);
+    let Some(plan) = kind.and_then(|kind| (kind.apply)(finest)) else { return };
+    let refusal = remedy::refusal(session.source, finest, &plan);
+    if let Some(run) = diagnosis.runs.iter_mut().find(|run| run.change == change) {
+        run.refusal = refusal;
     }
 }

@@ -1,12 +1,7 @@
-//! Changes of one thing, the most specific first.
-//!
-//! A member is one entry of [`PROBES`].
+//! Changes of one thing in the problem or the levels, which any solver can run.
 
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, combine, combine_across};
 use crate::study::preflight::alignment::is_aligned;
-use crate::subject::Start;
 use crate::suite::compile::check::size;
-use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify::Axis;
@@ -16,7 +11,7 @@ use crate::verify::Axis;
 pub(crate) enum Crossings {
     /// None does.
     None,
-    /// Some do, or nobody says.
+    /// Some do, or the solver does not report it.
     Some,
 }
 
@@ -33,216 +28,122 @@ pub(crate) struct ProbeKind {
 }
 
 /// A smaller motion. The plan comes from the text of the suite, with its amplitude scaled.
-pub(crate) const AMPLITUDE: ProbeKind = ProbeKind {
+pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
-        "an error of the size of the strain, which no grid removes: of a truth of small strain, or of \
-         particles that a large motion carries out of their places"
+        "an error of the size of the strain, which no grid removes: of an exact solution of small \
+         strain, or of particles that a large motion carries out of their places"
     },
     remedy: "a smaller amplitude, or an exact solution of the finite-strain equations",
     apply: |_| None,
 };
 
-/// Every change that a plan can carry out.
-pub(crate) const PROBES: &[ProbeKind] = &[
-    ProbeKind {
-        change: "the reference in place of the formula",
-        cause: |_, _| "the exact formula solves another model than the method does",
-        remedy: "hold the method against a truth of its own model",
-        apply: |plan| {
-            let has_both = plan.reference.is_some() && plan.cases[0].against == Against::Exact;
-            has_both.then(|| with_case(plan, |case| case.against = Against::Reference))
-        },
+/// The reference as exact solution.
+pub(super) const REFERENCE: ProbeKind = ProbeKind {
+    change: "the reference in place of the formula",
+    cause: |_, _| "the exact formula solves another model than the method does",
+    remedy: "compare the method with a solution of its own model",
+    apply: |plan| {
+        let has_both = plan.reference.is_some() && plan.cases[0].against == Against::Exact;
+        has_both.then(|| compared_with(plan, Against::Reference))
     },
-    ProbeKind {
-        change: "the formula in place of the reference",
-        cause: |_, _| "the reference solves another model than the method does",
-        remedy: "hold the method against a truth of its own model",
-        apply: |plan| {
-            let has_both = plan.has_formulas() && plan.cases[0].against == Against::Reference;
-            has_both.then(|| with_case(plan, |case| case.against = Against::Exact))
-        },
-    },
-    ProbeKind {
-        change: "`start: half_step_back`",
-        cause: |_, _| "the start: v(0) stands in for v(-dt/2), an error of first order in time",
-        remedy: "`start: half_step_back`",
-        apply: |plan| match plan.cases[0].method {
-            Method::Mpm { start: Start::AtZero, .. } | Method::Fem { start: Start::AtZero, .. } => {
-                with_method(plan, |method| match method {
-                    Method::Mpm { start, .. } | Method::Fem { start, .. } => {
-                        *start = Start::HalfStepBack;
-                    }
-                    Method::Heat { .. } | Method::External { .. } => {}
-                })
-            }
-            _ => None,
-        },
-    },
-    ProbeKind {
-        change: "`scheme: musl`",
-        cause: |_, _| "the scheme: USF updates the stress half a step late, first order in time",
-        remedy: "`scheme: musl` or `usl`, or shorter steps",
-        apply: |plan| match plan.cases[0].method {
-            Method::Mpm { scheme: SchemeName::Usf, .. } => with_method(plan, |method| {
-                if let Method::Mpm { scheme, .. } = method {
-                    *scheme = SchemeName::Musl;
-                }
-            }),
-            _ => None,
-        },
-    },
-    ProbeKind {
-        change: "`basis: cpgimp`",
-        cause: |_, _| {
-            "domains of fixed width: they part and overlap where the body is stretched and \
-             compressed, an error of the order of the strain"
-        },
-        remedy: "`basis: cpgimp`, whose domains follow the deformation",
-        apply: |plan| match plan.cases[0].method {
-            Method::Mpm { basis: BasisName::UniformGimp, .. } => with_method(plan, |method| {
-                if let Method::Mpm { basis, .. } = method {
-                    *basis = BasisName::ContiguousGimp;
-                }
-            }),
-            _ => None,
-        },
-    },
-    ProbeKind {
-        change: "cells whose lines meet every interface and loaded face",
-        cause: |_, _| "an interface or a loaded face inside a cell, which smears what happens there",
-        remedy: "numbers of cells of which whole ones fit up to the interface or the loaded face",
-        apply: |plan| {
-            let aligned = |h: f64| is_aligned(&plan.scene, h);
-            let levels = &plan.refine.levels;
-            (!levels.iter().all(|level| aligned(level.h))).then_some(())?;
-            changed_levels(plan, |level| {
-                let with = |cells: u64| {
-                    let share = level.cells as f64 / cells as f64;
-                    LevelPlan { cells, h: share * level.h, dt: share * level.dt, ..level }
-                };
-                (level.cells..3 * level.cells).map(with).find(|level| aligned(level.h))
-            })
-        },
-    },
-    ProbeKind {
-        change: "twice as many particles along each axis of a cell",
-        cause: |_, _| "too few particles per cell: the integrals are those of the particles",
-        remedy: "more particles per cell",
-        apply: |plan| {
-            let dimension = plan.scene.dimension();
-            (plan.refine.axis != Axis::Particles).then_some(())?;
-            changed_levels(plan, |level| level.halved(Axis::Particles, dimension))
-        },
-    },
-    ProbeKind {
-        change: "the consistent mass matrix",
-        cause: |_, _| "lumping: row sums are not the mass that a smooth acceleration sees",
-        remedy: "`mass: consistent`",
-        apply: |plan| {
-            let walls = plan.scene.faces.iter();
-            let mut refuses = walls.filter_map(|face| face.hold.against_consistent_mass());
-            (refuses.next().is_none()).then_some(())?;
-            with_method(plan, |method| {
-                if let Method::Mpm { mass, .. } = method {
-                    *mass = MassName::Consistent;
-                }
-            })
-        },
-    },
-    ProbeKind {
-        change: "`frame: total_lagrangian`",
-        cause: |case, crossings| match case.method {
-            _ if crossings == Crossings::None => {
-                "the motion itself, though no particle changes its cell: the grid does not follow it, and \
-                 a truth of small strain knows nothing of it"
-            }
-            Method::Mpm { basis: BasisName::Linear, .. } => {
-                "grid crossing: the nodal forces of linear functions jump whenever a particle changes \
-                 its cell"
-            }
-            _ => {
-                "the motion carries particles out of their places: they change cells and are drawn \
-                 apart, and integrate badly what they integrated well at the start"
-            }
-        },
-        remedy: "`frame: total_lagrangian`, a smoother basis, or a smaller motion",
-        apply: |plan| {
-            with_method(plan, |method| {
-                if let Method::Mpm { frame, .. } = method {
-                    *frame = FrameName::Total;
-                }
-            })
-        },
-    },
-    ProbeKind {
-        change: "`basis: quadratic_bspline`",
-        cause: |_, crossings| match crossings {
-            Crossings::None => "linear functions: their gradients jump from cell to cell",
-            Crossings::Some => "grid crossing: the gradients of linear functions jump",
-        },
-        remedy: "a basis with continuous gradients",
-        apply: |plan| match plan.cases[0].method {
-            Method::Mpm { basis: BasisName::Linear, .. } => with_method(plan, |method| {
-                if let Method::Mpm { basis, .. } = method {
-                    *basis = BasisName::QuadraticBSpline;
-                }
-            }),
-            _ => None,
-        },
-    },
-    ProbeKind {
-        change: "a quarter of the time step",
-        cause: |_, _| "the error of the time step",
-        remedy: "shorter steps, or steps that follow h",
-        apply: |plan| {
-            (plan.refine.axis != Axis::Time).then_some(())?;
-            let mut plan = changed_levels(plan, |mut level| {
-                level.dt *= 0.25;
-                Some(level)
-            })?;
-            plan.refine.rule = plan.refine.rule.map(|share| 0.25 * share);
-            Some(plan)
-        },
-    },
-    ProbeKind {
-        change: "cells of half the size",
-        cause: |_, _| "the cells: the levels are still too coarse",
-        remedy: "finer levels",
-        apply: |plan| {
-            let is_of_space = plan.refine.axis == Axis::Space;
-            let dimension = plan.scene.dimension();
-            changed_levels(plan, |level| {
-                let finer = level.halved(Axis::Space, dimension)?;
-                if is_of_space { finer.halved(Axis::Time, dimension) } else { Some(finer) }
-            })
-        },
-    },
-];
+};
 
-/// The plan with its case changed.
-fn with_case(plan: &ConvergencePlan, change: impl Fn(&mut Case)) -> ConvergencePlan {
+/// The formula as exact solution.
+pub(super) const FORMULA: ProbeKind = ProbeKind {
+    change: "the formula in place of the reference",
+    cause: |_, _| "the reference solves another model than the method does",
+    remedy: "compare the method with a solution of its own model",
+    apply: |plan| {
+        let has_both = plan.has_formulas() && plan.cases[0].against == Against::Reference;
+        has_both.then(|| compared_with(plan, Against::Exact))
+    },
+};
+
+/// Grid lines on every interface and loaded face.
+pub(super) const ALIGNMENT: ProbeKind = ProbeKind {
+    change: "cells whose lines meet every interface and loaded face",
+    cause: |_, _| "an interface or a loaded face inside a cell, where the solution is smeared",
+    remedy: "numbers of cells with grid lines on the interface or the loaded face",
+    apply: |plan| {
+        let aligned = |h: f64| is_aligned(&plan.scene, h);
+        let levels = &plan.refine.levels;
+        (!levels.iter().all(|level| aligned(level.h))).then_some(())?;
+        changed_levels(plan, |level| {
+            let with = |cells: u64| {
+                let share = level.cells as f64 / cells as f64;
+                LevelPlan { cells, h: share * level.h, dt: share * level.dt, ..level }
+            };
+            (level.cells..3 * level.cells).map(with).find(|level| aligned(level.h))
+        })
+    },
+};
+
+/// More particles.
+pub(super) const PARTICLES: ProbeKind = ProbeKind {
+    change: "twice as many particles along each axis of a cell",
+    cause: |_, _| "too few particles per cell: the particles are the quadrature points",
+    remedy: "more particles per cell",
+    apply: |plan| {
+        let dimension = plan.scene.dimension();
+        (plan.refine.axis != Axis::Particles).then_some(())?;
+        changed_levels(plan, |level| level.halved(Axis::Particles, dimension))
+    },
+};
+
+/// A longer run to an equilibrium.
+pub(super) const DURATION: ProbeKind = ProbeKind {
+    change: "twice the duration of the run",
+    cause: |_, _| "the body has not come to rest at the end of the run",
+    remedy: "a longer run, or damping nearer to the critical one",
+    apply: |plan| {
+        plan.exact.as_ref().filter(|exact| exact.at_rest)?;
+        let mut plan = plan.clone();
+        plan.cases.iter_mut().for_each(|case| case.until *= 2.0);
+        Some(plan)
+    },
+};
+
+/// Shorter time steps.
+pub(super) const STEP: ProbeKind = ProbeKind {
+    change: "a quarter of the time step",
+    cause: |_, _| "the error of the time step",
+    remedy: "shorter steps, or steps that follow h",
+    apply: |plan| {
+        (plan.refine.axis != Axis::Time).then_some(())?;
+        let mut plan = changed_levels(plan, |mut level| {
+            level.dt *= 0.25;
+            Some(level)
+        })?;
+        plan.refine.rule = plan.refine.rule.map(|share| 0.25 * share);
+        Some(plan)
+    },
+};
+
+/// Finer cells.
+pub(super) const CELLS: ProbeKind = ProbeKind {
+    change: "cells of half the size",
+    cause: |_, _| "the cells: the levels are too coarse",
+    remedy: "finer levels",
+    apply: |plan| {
+        let is_of_space = plan.refine.axis == Axis::Space;
+        let dimension = plan.scene.dimension();
+        changed_levels(plan, |level| {
+            let finer = level.halved(Axis::Space, dimension)?;
+            if is_of_space { finer.halved(Axis::Time, dimension) } else { Some(finer) }
+        })
+    },
+};
+
+/// The plan with its case compared with another solution.
+fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     let mut plan = plan.clone();
-    plan.cases.iter_mut().for_each(change);
+    plan.cases.iter_mut().for_each(|case| case.against = against);
     plan
 }
 
-/// The plan with the method of its case changed; `None` if that is no change, or a method that
-/// means nothing.
-fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
-    let before = plan.cases[0].method;
-    let plan = with_case(plan, |case| change(&mut case.method));
-    let after = plan.cases[0].method;
-    let combined = match after {
-        Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame)
-            .and_then(|()| combine_across(plan.scene.plane, basis, transfer)),
-        Method::Fem { .. } | Method::Heat { .. } | Method::External { .. } => Ok(()),
-    };
-    (after != before && combined.is_ok()).then_some(plan)
-}
-
-/// The plan with every level changed, and with them the fine grid of a truth; `None` if one cannot
-/// be, or is too large.
+/// The plan with every level changed, and with them the fine grid of the exact solution; `None` if
+/// one cannot be, or is too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,

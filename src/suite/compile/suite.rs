@@ -57,9 +57,25 @@ fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
 /// # Errors
 /// If the scaled motion is no solution, as where loads stay what they are.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
+    with_changes(source, |spec| scale_amplitude(spec, factor))
+}
+
+/// The convergence study that `source` holds, without expectations and with these changes.
+///
+/// # Errors
+/// A [`Diagnostic`] that says why the changed suite is not accepted.
+pub(crate) fn with_changes(
+    source: &Source,
+    change: impl FnOnce(&mut ConvergenceSpec),
+) -> Result<Suite, Diagnostic> {
     let mut spec: ConvergenceSpec = read(source, "convergence")?;
-    let ConvergenceSpec { scene, exact, manufactured, equilibrium, expect, .. } = &mut spec;
-    expect.clear();
+    spec.expect.clear();
+    change(&mut spec);
+    convergence(source, spec)
+}
+
+fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
+    let ConvergenceSpec { scene, exact, manufactured, equilibrium, .. } = spec;
     let exact = exact.as_mut().and_then(|exact| exact.displacement.as_mut());
     let at_rest = equilibrium.as_mut().and_then(|exact| exact.displacement.as_mut());
     let manufactured = manufactured.as_mut().and_then(|given| given.displacement.as_mut());
@@ -71,7 +87,6 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
     for text in fields.flatten().chain(of_bodies.filter_map(Option::as_mut)).flatten() {
         *text = NumberText::Formula(format!("{factor}*({text})"));
     }
-    convergence(source, spec)
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {

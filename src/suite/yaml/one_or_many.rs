@@ -34,6 +34,16 @@ impl<T> OneOrMany<T> {
     }
 }
 
+impl<T> OneOrMany<T> {
+    /// These values in the form of `self`: a list, or the first of them alone; `None` if there are
+    /// none.
+    pub(crate) fn with_values(&self, values: impl IntoIterator<Item = T>) -> Option<Self> {
+        let limit = if self.listed { usize::MAX } else { 1 };
+        let values: Vec<T> = values.into_iter().take(limit).collect();
+        (!values.is_empty()).then_some(Self { values, listed: self.listed })
+    }
+}
+
 impl<T> From<T> for OneOrMany<T> {
     fn from(one: T) -> Self {
         Self { values: vec![one], listed: false }

@@ -18,6 +18,9 @@ const RISE: f64 = 0.25;
 /// Orders that differ by less are the same.
 const ALIKE: f64 = 0.1;
 
+/// An order that is restored keeps at most this share of its distance from that of theory.
+const CLOSER: f64 = 0.5;
+
 /// Effect of a change that shows the cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evidence {
@@ -38,17 +41,63 @@ pub struct ChangedRun {
     pub cause: &'static str,
     /// Change of the suite that keeps the order.
     pub remedy: &'static str,
+    /// Why `check` refuses the suite with this change; `None` if it accepts the suite, or if it was
+    /// not asked.
+    pub refusal: Option<String>,
     /// Verdict on these levels, against an order near that of theory.
     pub verdict: Verdict,
     /// Observed order on these levels.
     pub order: Option<Interval>,
-    /// The finest error over that of the case itself, both over their amplitude.
+    /// The finest error.
+    pub error: f64,
+    /// The finest error over that of the case itself.
     pub ratio: f64,
+    /// `ratio` over the ratio of the sizes of the two exact solutions.
+    pub relative_ratio: f64,
     /// Whether levels are finer, so that their error is smaller whatever the cause.
     pub is_finer: bool,
 }
 
-/// The finding on one case.
+/// Kind of a [`Finding`], in the order in which findings are reported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FindingKind {
+    /// The time step is longer than the stable time step.
+    UnstableStep,
+    /// Particles leave the grid.
+    OutsideGrid,
+    /// An equilibrium is asked for, and nothing in the scene removes energy.
+    NoDamping,
+    /// The coarsest levels do not resolve the exact solution.
+    CoarseLevels,
+    /// The exact solution is not smooth enough for the order of theory.
+    NotSmooth,
+}
+
+/// A cause that is known from the problem, the levels or the time steps, whatever the method.
+#[derive(Debug, Clone)]
+pub struct Finding {
+    /// Its kind.
+    pub kind: FindingKind,
+    /// The cause, a clause without a full stop.
+    pub cause: String,
+    /// The figures behind it, in whole sentences.
+    pub evidence: String,
+    /// Change of the suite that removes the cause; `None` if there is none.
+    pub remedy: Option<String>,
+    /// Observed order without the cause, where that was measured.
+    pub order: Option<Interval>,
+}
+
+/// A cause, by what shows it.
+#[derive(Debug, Clone, Copy)]
+pub enum Cause<'a> {
+    /// A property of the problem, the levels or the time steps.
+    Finding(&'a Finding),
+    /// A run with one thing changed.
+    Run(&'a ChangedRun, Evidence),
+}
+
+/// The diagnosis of one case.
 #[derive(Debug, Clone)]
 pub struct Diagnosis {
     /// Name of the case.
@@ -57,18 +106,38 @@ pub struct Diagnosis {
     pub formal_order: f64,
     /// The case as it is, all levels of the gate.
     pub judgement: Judgement,
-    /// The same on the levels that are run again.
+    /// Judgement of the case as it is, on the levels that are run again.
     pub finest: Judgement,
+    /// Finest error of the case as it is.
+    pub finest_error: f64,
     /// Levels that are run again, by name.
     pub levels: Vec<String>,
-    /// Whether particles left the grid, so that the finest levels have no error to explain.
-    pub left_grid: bool,
-    /// A function with a kink that the exact solution calls: theory's order is for smooth ones.
-    pub kink: Option<&'static str>,
+    /// Whether the solver is external, so that its own settings cannot be changed.
+    pub is_external: bool,
+    /// Causes that are known without a change of the method.
+    pub findings: Vec<Finding>,
     /// The runs that change one thing.
     pub runs: Vec<ChangedRun>,
     /// Changes that were possible, and too expensive.
     pub skipped: Vec<String>,
+}
+
+impl Cause<'_> {
+    /// The cause, a clause without a full stop.
+    pub fn cause(&self) -> &str {
+        match self {
+            Self::Finding(finding) => &finding.cause,
+            Self::Run(run, _) => run.cause,
+        }
+    }
+
+    /// Change of the suite that removes the cause; `None` if there is none that `check` accepts.
+    pub fn remedy(&self) -> Option<&str> {
+        match self {
+            Self::Finding(finding) => finding.remedy.as_deref(),
+            Self::Run(run, _) => run.refusal.is_none().then_some(run.remedy),
+        }
+    }
 }
 
 impl Diagnosis {
@@ -77,22 +146,65 @@ impl Diagnosis {
         self.judgement.verdict == Verdict::Converging
     }
 
-    /// The run that shows the cause, and what it shows. The first that restores the order, in the
-    /// order of the runs; where none does the first of those that raise it most, if it is settled
-    /// then; otherwise the one that takes most off the error.
+    /// Whether a finding is the cause whatever else runs with one thing changed show.
+    pub fn is_known(&self) -> bool {
+        self.findings.iter().any(|finding| finding.kind < FindingKind::CoarseLevels)
+    }
+
+    /// The finding of this kind, if there is one.
+    pub fn finding(&self, kind: FindingKind) -> Option<&Finding> {
+        self.findings.iter().find(|finding| finding.kind == kind)
+    }
+
+    /// The causes, the most likely first. A run or a level that restores the order of theory rules
+    /// out that the exact solution limits it.
+    pub fn causes(&self) -> Vec<Cause<'_>> {
+        use FindingKind::{CoarseLevels, NotSmooth};
+        if self.is_known() {
+            return self.findings.iter().map(Cause::Finding).collect();
+        }
+        let run = self.found();
+        let restored = run.filter(|(_, evidence)| *evidence == Evidence::Restored);
+        let coarse = self.finding(CoarseLevels);
+        let mut causes: Vec<_> = coarse.map(Cause::Finding).into_iter().collect();
+        if let Some((run, evidence)) = restored {
+            // Finer cells show the same as fewer coarse ones.
+            let is_nearer = coarse
+                .is_none_or(|coarse| !run.is_finer && self.off(run.order) < self.off(coarse.order));
+            causes.insert(if is_nearer { 0 } else { causes.len() }, Cause::Run(run, evidence));
+        }
+        if restored.is_none() {
+            causes.extend(self.finding(NotSmooth).map(Cause::Finding));
+        }
+        if causes.is_empty() {
+            causes.extend(run.map(|(run, evidence)| Cause::Run(run, evidence)));
+        }
+        causes
+    }
+
+    /// Distance of an order from that of theory.
+    fn off(&self, order: Option<Interval>) -> f64 {
+        order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
+    }
+
+    /// The run that shows the cause, and its effect. Of the runs that restore the order, the first
+    /// of those that come nearest to theory. Where none does, the first of those that raise the
+    /// order most, if it is settled then. Otherwise the run that takes most off the error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
+        let before = self.off(self.finest.order);
         // An order that is nearly that of theory is restored only by one that is within its range.
-        let off = |order: Option<Interval>| {
-            order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
-        };
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
-            let is_nearer = off(run.order) < off(self.finest.order);
+            let is_nearer = self.off(run.order) <= CLOSER * before;
             run.verdict == Verdict::Converging && is_nearer && (is_within || !is_near)
         };
-        if let Some(run) = self.runs.iter().find(restores) {
+        let restoring = self.runs.iter().filter(restores);
+        let nearest = restoring.clone().map(|run| self.off(run.order)).reduce(f64::min);
+        let is_nearest =
+            |run: &&ChangedRun| nearest.is_some_and(|off| self.off(run.order) <= off + ALIKE);
+        if let Some(run) = restoring.clone().find(is_nearest) {
             return Some((run, Evidence::Restored));
         }
         if is_near {
@@ -110,8 +222,8 @@ impl Diagnosis {
         if let Some(run) = self.runs.iter().find(raises) {
             return Some((run, Evidence::Raised));
         }
-        let falls = self.runs.iter().filter(|run| !run.is_finer && run.ratio <= FALL);
-        let most = falls.min_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        let falls = self.runs.iter().filter(|run| !run.is_finer && run.relative_ratio <= FALL);
+        let most = falls.min_by(|a, b| a.relative_ratio.total_cmp(&b.relative_ratio));
         most.map(|run| (run, Evidence::Lowered))
     }
 }
@@ -138,9 +250,12 @@ mod tests {
             change: String::new(),
             cause: "the cause",
             remedy: "",
+            refusal: None,
             verdict: run.0,
             order: Some(run.1),
+            error: run.2,
             ratio: run.2,
+            relative_ratio: run.2,
             is_finer: false,
         };
         Diagnosis {
@@ -148,9 +263,10 @@ mod tests {
             formal_order: 2.0,
             finest: judgement.clone(),
             judgement,
+            finest_error: 1.0,
             levels: Vec::new(),
-            left_grid: false,
-            kink: None,
+            is_external: false,
+            findings: Vec::new(),
             runs: vec![changed],
             skipped: Vec::new(),
         }
@@ -178,6 +294,45 @@ mod tests {
         let to = |half_width| (Converging, order(2.0, half_width), 0.9);
         assert_eq!(evidence(&diagnosis(near, to(0.05))), Some(Evidence::Restored));
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
+    }
+
+    /// 1.81 passes a threshold that 1.79 does not, and explains nothing.
+    #[test]
+    fn an_order_that_hardly_moves_is_not_restored() {
+        let low = (TooLow, order(1.79, 0.05));
+        assert_eq!(evidence(&diagnosis(low, (Converging, order(1.81, 0.05), 0.9))), None);
+    }
+
+    /// Finding of this kind, with the order 1.97 without its cause.
+    fn finding(kind: FindingKind) -> Finding {
+        let (cause, evidence) = ("the finding".to_owned(), String::new());
+        Finding { kind, cause, evidence, remedy: None, order: Some(order(1.97, 0.02)) }
+    }
+
+    fn causes(diagnosis: &Diagnosis) -> Vec<String> {
+        diagnosis.causes().iter().map(|cause| cause.cause().to_owned()).collect()
+    }
+
+    #[test]
+    fn the_change_that_moves_the_order_most_is_the_first_cause() {
+        let low = (TooLow, order(1.5, 0.05));
+        for (value, first) in [(1.8, "the finding"), (2.0, "the cause")] {
+            let mut found = diagnosis(low, (Converging, order(value, 0.05), 0.9));
+            found.findings = vec![finding(FindingKind::CoarseLevels)];
+            assert_eq!(causes(&found)[0], first, "{value}");
+        }
+    }
+
+    /// A restored order is not limited by the exact solution; a smaller error proves nothing.
+    #[test]
+    fn a_kink_is_the_cause_unless_the_order_is_restored() {
+        let low = (TooLow, order(1.0, 0.05));
+        let mut found = diagnosis(low, (TooLow, order(1.01, 0.05), 0.6));
+        found.findings = vec![finding(FindingKind::NotSmooth)];
+        assert_eq!(causes(&found), ["the finding"]);
+        let mut found = diagnosis(low, (Converging, order(2.0, 0.05), 0.6));
+        found.findings = vec![finding(FindingKind::NotSmooth)];
+        assert_eq!(causes(&found), ["the cause"]);
     }
 
     /// Finer levels have a smaller error whatever its cause is.

@@ -1,5 +1,6 @@
 //! Studies, run through their runner.
 
+mod causes;
 mod diagnosis;
 mod error_scale;
 mod fine_grid;

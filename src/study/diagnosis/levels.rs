@@ -1,0 +1,125 @@
+//! Levels that are too coarse for the exact solution, and a body that nothing brings to rest.
+
+use super::regularity::sizes;
+use super::session::Known;
+use crate::study::convergence::outcome::to_judge;
+use crate::study::preflight::extremes::Extremes;
+use crate::study::preflight::undamped;
+use crate::suite::model::method::Method;
+use crate::verify::{
+    Axis, FEWEST_LEVELS, Finding, FindingKind, Interval, LevelOutcome, OrderHypothesis, Verdict,
+    observed_order,
+};
+
+/// Share of its distance from the order of theory that an order keeps at most, if levels that were
+/// left out are the cause.
+const CLOSER: f64 = 0.5;
+
+/// Distance of the order between the finest two levels from that of theory, at most, if the coarse
+/// levels are the cause.
+const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
+
+/// Cell size over the length on which the solution changes, from which on a level is too coarse.
+const COARSE: f64 = 0.5;
+
+/// A finding about coarse levels that do not resolve the exact solution: the order without them is
+/// that of theory, or the orders between neighbouring levels rise to it.
+pub(super) fn coarse(known: &Known<'_>) -> Option<Finding> {
+    let (session, axis) = (known.session, known.plan.refine.axis);
+    let p = session.formal_order;
+    let levels: Vec<&LevelOutcome> = known.levels.iter().filter(|level| level.usable).collect();
+    let judge = |levels: &[&LevelOutcome]| session.judge(levels.iter().copied(), axis);
+    let observed = judge(&levels).order;
+    let off = |order: Option<Interval>| order.map_or(f64::INFINITY, |o| (o.value - p).abs());
+    let last_cut = levels.len().checked_sub(FEWEST_LEVELS)?;
+    let resolution = resolution(known);
+    let cut = (1..=last_cut).map(|cut| (cut, judge(&levels[cut..]))).find(|(_, judgement)| {
+        let is_closer = off(judgement.order) <= CLOSER * off(observed);
+        judgement.verdict == Verdict::Converging && is_closer
+    });
+    let shown = |order: Option<Interval>| order.map_or("not determined".to_owned(), |o| o.shown());
+    let (count, order, evidence) = if let Some((cut, judgement)) = cut {
+        let evidence = format!(
+            "Without {} the order is {} (with all levels: {}).",
+            names(&levels[..cut], axis),
+            shown(judgement.order),
+            shown(observed)
+        );
+        (cut, judgement.order, evidence)
+    } else {
+        let (first, last) = rise(&levels, p)?;
+        resolution.as_ref().filter(|(share, _)| *share > COARSE)?;
+        let evidence = format!(
+            "The order between neighbouring levels rises from {first:.2} to {last:.2} (over all \
+             levels: {}).",
+            shown(observed)
+        );
+        (1, None, evidence)
+    };
+    let mut remedy = format!("leave out {}", names(&levels[..count], axis));
+    if order.is_none() {
+        remedy += ", and add finer levels";
+    }
+    Some(Finding {
+        kind: FindingKind::CoarseLevels,
+        cause: "the first levels are too coarse".to_owned(),
+        evidence: evidence + &resolution.map_or(String::new(), |(_, text)| text),
+        remedy: Some(remedy),
+        order,
+    })
+}
+
+/// Orders between the coarsest two and the finest two levels, if they rise to that of theory.
+fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
+    let order = |pair: &[&LevelOutcome]| {
+        let [coarse, fine] = pair else { return None };
+        observed_order(&to_judge(coarse), &to_judge(fine))
+    };
+    let first = order(levels.get(..2)?)?;
+    let last = order(&levels[levels.len() - 2..])?;
+    ((last - p).abs() <= NEAR && first < p - NEAR).then_some((first, last))
+}
+
+/// The coarsest cell over the length on which the exact solution changes, and a sentence on it.
+fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
+    let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
+    let coarsest = known.levels.first()?.h;
+    let share = coarsest / length;
+    let text = format!(
+        " The exact solution changes over a length of {length:.2e} m (its shortest wavelength over 2 \
+         pi), and a cell of the first level measures {coarsest:.2e} m, {share:.2} times that."
+    );
+    share.is_finite().then_some((share, text))
+}
+
+/// Levels by name, in a sentence.
+fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
+    let names: Vec<String> = levels.iter().map(|level| level.name(axis)).collect();
+    let noun = if names.len() == 1 { "level" } else { "levels" };
+    format!("the {noun} of {}", names.join(", "))
+}
+
+/// A finding about an equilibrium that nothing brings the body to.
+pub(super) fn undamped(known: &Known<'_>) -> Option<Finding> {
+    let (plan, case) = (known.plan, known.session.case);
+    undamped::oscillates(plan, case).then_some(())?;
+    let finest = known.levels.last()?;
+    let size = Extremes::of(plan.exact.as_ref()?).largest_displacement();
+    let speed = finest.run.residual_speed.filter(|speed| speed.is_finite());
+    let speed = speed.map_or(String::new(), |speed| {
+        format!(" Towards the end of the run the body moves at {speed:.1e} of the wave speed.")
+    });
+    let is_external = matches!(case.method, Method::External { .. });
+    let unless = if is_external { ", unless the solver itself does" } else { "" };
+    Some(Finding {
+        kind: FindingKind::NoDamping,
+        cause: format!("nothing removes energy{unless}; the body oscillates about its equilibrium"),
+        evidence: format!(
+            "The largest displacement of the equilibrium is {size:.3e} m, and the finest error is \
+             {:.3e}.{speed}",
+            finest.error
+        ),
+        remedy: Some(undamped::HELP.to_owned()),
+        order: None,
+    })
+}

@@ -1,0 +1,290 @@
+//! Smoothness of the exact solution: jumps of the displacement and its derivatives, the order that
+//! a norm can have on it, and the length over which the solution changes.
+//!
+//! The derivatives are those of the formulas, piece by piece, so that a jump between two points
+//! stays when the points approach each other, and a steep slope does not.
+
+use super::session::Known;
+use crate::exact::{Derivatives, Problem};
+use crate::suite::grammar::NormName;
+use crate::suite::model::{Against, ConvergencePlan};
+use crate::verify::{Axis, Finding, FindingKind, OrderHypothesis, Quantity};
+
+/// Times at which the solution is examined, as shares of the run.
+const TIMES: [f64; 6] = [0.0, 0.17, 0.37, 0.61, 0.83, 1.0];
+
+/// Intervals of each line on which the solution is examined, and lines along each axis, by
+/// dimension.
+const INTERVALS: [usize; 3] = [512, 128, 64];
+const LINES: [usize; 3] = [1, 5, 3];
+
+/// Share of the largest value of a derivative that a jump has at least.
+const LEAST: f64 = 1e-3;
+
+/// Share of the length of a line that is taken for a point.
+const POINT: f64 = 1e-9;
+
+/// Share of its natural size below which a derivative is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Share of its largest value by which the strain changes in a cell that cannot tell the change
+/// from a jump.
+const STEEP: f64 = 0.5;
+
+/// A derivative of the displacement: its order, and its values.
+type Group = (usize, fn(&Derivatives) -> Vec<f64>);
+
+/// The displacement and its derivatives, from the lowest order.
+const GROUPS: [Group; 6] = [
+    (0, |now| now.u.to_vec()),
+    (1, |now| now.velocity.to_vec()),
+    (1, |now| now.grad.as_flattened().to_vec()),
+    (2, |now| now.acceleration.to_vec()),
+    (2, |now| now.grad_rate.as_flattened().to_vec()),
+    (2, |now| now.second.as_flattened().as_flattened().to_vec()),
+];
+
+/// A place and a time at which a derivative jumps.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Jump {
+    /// Order of the derivative.
+    pub(crate) order: usize,
+    /// Place (m).
+    pub(crate) place: Vec<f64>,
+    /// Time (s).
+    pub(crate) time: f64,
+}
+
+/// Largest magnitudes of the displacement and its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sizes([f64; GROUPS.len()]);
+
+impl Sizes {
+    /// Length (m) over which the displacement changes: the square root of its size over that of
+    /// its second derivatives. That of a sine is its wavelength over 2 pi.
+    pub(crate) fn length(&self) -> f64 {
+        (self.0[0] / self.0[5]).sqrt()
+    }
+
+    /// Length (m) over which the displacement gradient changes.
+    fn gradient_length(&self) -> f64 {
+        self.0[2] / self.0[5]
+    }
+}
+
+/// Sizes of the displacement and its derivatives in the body until time `until` (s).
+pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
+    let mut sizes = [0.0_f64; GROUPS.len()];
+    for line in lines(problem) {
+        for share in TIMES {
+            for (_, place) in line.inside(problem) {
+                let now = problem.motion.derivatives(&place, share * until);
+                for (size, (_, values)) in sizes.iter_mut().zip(&GROUPS) {
+                    *size = values(&now).iter().fold(*size, |a, b| a.max(b.abs()));
+                }
+            }
+        }
+    }
+    Sizes(sizes)
+}
+
+/// A jump of the derivative of lowest order that has one, of those up to the second.
+pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
+    let Sizes(sizes) = sizes(problem, until);
+    let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);
+    let [u, velocity, grad, ..] = sizes;
+    let natural = [u, u / until, u / length, velocity / until, velocity / length, grad / length];
+    for (index, (order, values)) in GROUPS.iter().enumerate() {
+        if !(sizes[index] > ROUNDING * natural[index]) {
+            continue;
+        }
+        let least = LEAST * sizes[index];
+        for line in lines(problem) {
+            for time in TIMES.map(|share| share * until) {
+                let at = |place: &[f64]| values(&problem.motion.derivatives(place, time));
+                if let Some(place) = line.jump(problem, least, &at) {
+                    return Some(Jump { order: *order, place, time });
+                }
+            }
+        }
+    }
+    None
+}
+
+/// A line through the body.
+struct Line {
+    axis: usize,
+    from: Vec<f64>,
+    to: f64,
+}
+
+impl Line {
+    fn place(&self, x: f64) -> Vec<f64> {
+        let mut place = self.from.clone();
+        place[self.axis] = x;
+        place
+    }
+
+    /// Points of the line in the body, each with its number.
+    fn inside<'a>(&'a self, problem: &'a Problem) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {
+        let count = INTERVALS[problem.dimension().clamp(1, 3) - 1];
+        let from = self.from[self.axis];
+        let place = move |k: usize| self.place(from + (self.to - from) * k as f64 / count as f64);
+        let places = (0..=count).map(move |k| (k, place(k)));
+        places.filter(|(_, place)| problem.holds(place))
+    }
+
+    /// The place of a jump of a component of `at` by at least `least`.
+    fn jump(
+        &self,
+        problem: &Problem,
+        least: f64,
+        at: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Option<Vec<f64>> {
+        let mut before: Option<(usize, f64, Vec<f64>)> = None;
+        for (k, place) in self.inside(problem) {
+            let (x, values) = (place[self.axis], at(&place));
+            if let Some((_, from, old)) = before.filter(|(last, ..)| last + 1 == k) {
+                let jump = (0..values.len())
+                    .find_map(|i| self.bisect((from, old[i]), (x, values[i]), i, least, at));
+                if jump.is_some() {
+                    return jump;
+                }
+            }
+            before = Some((k, x, values));
+        }
+        None
+    }
+
+    /// The place of a jump of component `i` between two points with its values.
+    fn bisect(
+        &self,
+        mut low: (f64, f64),
+        mut high: (f64, f64),
+        i: usize,
+        least: f64,
+        at: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Option<Vec<f64>> {
+        let point = POINT * (self.to - self.from[self.axis]);
+        // A value that is not finite is no jump.
+        while (high.1 - low.1).abs() >= least && (high.1 - low.1).is_finite() {
+            let x = 0.5 * (low.0 + high.0);
+            if high.0 - low.0 <= point {
+                return Some(self.place(x));
+            }
+            let middle = (x, at(&self.place(x))[i]);
+            let is_low = (middle.1 - low.1).abs() >= (high.1 - middle.1).abs();
+            (low, high) = if is_low { (low, middle) } else { (middle, high) };
+        }
+        None
+    }
+}
+
+/// Lines along every axis, evenly through the body.
+fn lines(problem: &Problem) -> Vec<Line> {
+    let d = problem.dimension();
+    let count = LINES[d.clamp(1, 3) - 1];
+    let mut lines = Vec::new();
+    for axis in 0..d {
+        for number in 0..count.pow(d as u32 - 1) {
+            let mut rest = number;
+            let mut from = problem.from.clone();
+            for other in (0..d).filter(|other| *other != axis) {
+                let share = (0.5 + (rest % count) as f64) / count as f64;
+                from[other] += (problem.to[other] - problem.from[other]) * share;
+                rest /= count;
+            }
+            lines.push(Line { axis, from, to: problem.to[axis] });
+        }
+    }
+    lines
+}
+
+/// Largest order that a method of order `p` can be expected to have on a solution of which the
+/// derivative of order `jump` jumps; `None` of a sum over the body.
+///
+/// A jump of the judged quantity is smeared over h^(p/(p + 1)) by a scheme of order p, and each
+/// continuous derivative gains that factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In an
+/// equilibrium nothing travels: the front is as wide as a cell.
+fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
+    let differentiated = match plan.of {
+        Quantity::Displacement => 0.0,
+        Quantity::Velocity | Quantity::Stress | Quantity::DeformationGradient => 1.0,
+        _ => return None,
+    };
+    let of_support = match plan.norm {
+        NormName::L1 | NormName::MaxL1 => 1.0,
+        NormName::Rms | NormName::MaxRms | NormName::L2 | NormName::MaxL2 => 0.5,
+        NormName::Linf | NormName::MaxLinf => 0.0,
+    };
+    let is_at_rest = plan.exact.as_ref().is_some_and(|exact| exact.at_rest);
+    let front = if is_at_rest { 1.0 } else { p / (p + 1.0) };
+    Some((jump as f64 - differentiated + of_support).max(0.0) * front)
+}
+
+/// A finding about an exact solution on which the order of theory cannot be reached.
+pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
+    let (plan, case) = (known.plan, known.session.case);
+    let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
+    if plan.refine.axis != Axis::Space {
+        return None;
+    }
+    let finest = known.levels.last()?.h;
+    let (jump, cause) = if let Some(jump) = lowest_jump(problem, case.until) {
+        let what = match jump.order {
+            0 => "displacement",
+            1 => "velocity or strain",
+            _ => "acceleration or strain gradient",
+        };
+        let place: Vec<String> = jump.place.iter().map(|x| format!("{x:.4}")).collect();
+        let kind = if jump.order == 1 { "a kink" } else { "a jump" };
+        let cause = format!(
+            "the exact solution is not smooth: it has {kind}, its {what} jumps at X = ({}) m, \
+             t = {:.3e} s",
+            place.join(", "),
+            jump.time
+        );
+        (jump.order, cause)
+    } else {
+        let length = sizes(problem, case.until).gradient_length();
+        (length < STEEP * finest).then_some(())?;
+        let cause = format!(
+            "the exact solution is not smooth at the scale of the cells: its strain changes over \
+             {length:.1e} m, and the finest cells measure {finest:.1e} m, so that it has a kink"
+        );
+        (1, cause)
+    };
+    let p = known.session.formal_order;
+    let limit = limit(plan, p, jump)?;
+    let observed = known.finest.order;
+    // A higher order than this limit shows that the jump does no harm: the grid has a line there.
+    let is_lower =
+        observed.is_none_or(|order| order.low <= limit + 2.0 * OrderHypothesis::TOLERANCE);
+    if !(limit < p - OrderHypothesis::TOLERANCE && is_lower) {
+        return None;
+    }
+    let norm = plan.norm.name().replace('_', " ");
+    let of = plan.of.words();
+    let observed = observed.map_or("none".to_owned(), |order| order.shown());
+    let evidence = format!(
+        "On such a solution a method of order {p} has an order of at most about {limit:.2} in the \
+         {norm} norm of the {of}; the observed order is {observed}."
+    );
+    let manufactured = plan.manufactured().is_some() && jump < 2;
+    let lacking = " A manufactured force has no concentrated force at a kink, so that the solver \
+                   solves another problem.";
+    Some(Finding {
+        kind: FindingKind::NotSmooth,
+        cause,
+        evidence: if manufactured { evidence + lacking } else { evidence },
+        remedy: Some(if manufactured {
+            "a manufactured displacement without a kink".to_owned()
+        } else {
+            format!(
+                "expect an order of about {limit:.2} or less, or use an initial state and loads that \
+                 give a smooth solution"
+            )
+        }),
+        order: None,
+    })
+}

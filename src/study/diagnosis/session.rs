@@ -1,0 +1,119 @@
+//! Runs of one case: what they share, and their budget.
+
+use crate::external::SolverFactory;
+use crate::study::convergence::outcome::to_judge;
+use crate::study::kind::{RunContext, Storage, Study};
+use crate::study::preflight::cost::estimate_of;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Case, ConvergencePlan};
+use crate::suite::yaml::Source;
+use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypothesis, judge};
+use std::cell::{Cell, RefCell};
+use std::time::Instant;
+
+/// An order that is restored is no further below that of theory.
+const NEAR: f64 = 0.2;
+
+/// An order that is restored is no further above that of theory: a case may be better than its
+/// theory.
+const ABOVE: f64 = 0.8;
+
+/// Everything that all runs of a case share.
+pub(super) struct Session<'a> {
+    pub(super) suite: &'a str,
+    pub(super) source: &'a Source,
+    pub(super) case: &'a Case,
+    pub(super) formal_order: f64,
+    pub(super) solver: Option<&'a dyn SolverFactory>,
+    /// Time (s) that is left for changed runs.
+    left: Cell<f64>,
+    /// Measured time of an external solver over the predicted one of this crate, at least 1.
+    slowness: Cell<f64>,
+    /// Changes that were too expensive.
+    skipped: RefCell<Vec<String>>,
+}
+
+impl<'a> Session<'a> {
+    /// A session with `budget` (s) for changed runs.
+    pub(super) fn new(
+        (suite, source): (&'a str, &'a Source),
+        case: &'a Case,
+        formal_order: f64,
+        solver: Option<&'a dyn SolverFactory>,
+        budget: f64,
+    ) -> Self {
+        let (left, slowness) = (Cell::new(budget), Cell::new(1.0));
+        let skipped = RefCell::default();
+        Self { suite, source, case, formal_order, solver, left, slowness, skipped }
+    }
+
+    /// Runs the case as it is.
+    ///
+    /// # Errors
+    /// One line that says why it cannot be run.
+    pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
+        let start = Instant::now();
+        let found = self.run(plan)?;
+        let predicted = estimate_of(plan).seconds;
+        if self.solver.is_some() && predicted > 0.0 {
+            self.slowness.set((start.elapsed().as_secs_f64() / predicted).max(1.0));
+        }
+        Ok(found)
+    }
+
+    /// Runs a changed plan. `None` if it is beyond the budget, or cannot be set up: a change that
+    /// cannot be set up is no evidence.
+    pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
+        let cost = self.slowness.get() * estimate_of(plan).seconds;
+        if !(cost <= self.left.get()) {
+            self.skipped.borrow_mut().push(change.to_owned());
+            return None;
+        }
+        self.left.set(self.left.get() - cost);
+        self.run(plan).ok()
+    }
+
+    fn run(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
+        let (suite, extent, solver) = (self.suite, Extent::Usual, self.solver);
+        let storage = Storage::Nowhere;
+        let context = RunContext { suite, fingerprint: 0, extent, storage, solver };
+        let outcome = plan.runner(context).case(0, &|| ());
+        outcome.convergence().cloned().ok_or(outcome.reason)
+    }
+
+    /// The judgement of levels against an order near that of theory.
+    pub(super) fn judge<'b>(
+        &self,
+        levels: impl IntoIterator<Item = &'b LevelOutcome>,
+        axis: Axis,
+    ) -> Judgement {
+        let levels: Vec<Level> = levels.into_iter().map(to_judge).collect();
+        let p = self.formal_order;
+        judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
+    }
+
+    /// Changes that were too expensive.
+    pub(super) fn into_skipped(self) -> Vec<String> {
+        self.skipped.into_inner()
+    }
+}
+
+/// A case with its levels of the gate, as they have run.
+pub(super) struct Known<'a> {
+    pub(super) session: &'a Session<'a>,
+    /// The study with this case only, and its levels.
+    pub(super) plan: &'a ConvergencePlan,
+    /// The levels, as they have run.
+    pub(super) levels: &'a [LevelOutcome],
+    /// Judgement of the finest levels.
+    pub(super) finest: &'a Judgement,
+}
+
+/// The plan with one case and some levels.
+pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {
+    let mut plan = plan.clone();
+    plan.refine.levels = levels.to_vec();
+    plan.refine.usual = levels.len();
+    plan.cases = vec![case.clone()];
+    plan
+}

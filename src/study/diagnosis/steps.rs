@@ -1,0 +1,147 @@
+//! Time steps longer than the stable step, on all levels or on some.
+
+use super::remedy;
+use super::session::{Known, only};
+use crate::study::preflight::extremes::Extremes;
+use crate::suite::grammar::StepSpec;
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::yaml::NumberText;
+use crate::verify::{Axis, Finding, FindingKind, LevelOutcome};
+
+/// Share of a stable step that is predicted, at which levels are run again.
+const OF_PREDICTED: f64 = 0.5;
+
+/// Share of the time in which a wave crosses a cell, from which on the step of a method without a
+/// predicted stable step is in question.
+const IN_QUESTION: f64 = 0.5;
+
+/// Share of the time in which a wave crosses a cell, at which such levels are run again.
+const CAUTIOUS: f64 = 0.2;
+
+/// Largest share of its error that a level keeps with a stable step, if its own step was unstable.
+/// With a step of 2/5 an accurate method of order 2 in time keeps a sixth.
+const MENDED: f64 = 0.03;
+
+/// A level whose step is longer than a limit (s), and its run with a stable step.
+struct Mended<'a> {
+    index: usize,
+    before: &'a LevelOutcome,
+    after: LevelOutcome,
+    limit: f64,
+}
+
+/// A finding about steps longer than the stable step, on levels whose error is small, or finite at
+/// all, with stable steps only.
+pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
+    let (session, plan) = (known.session, known.plan);
+    let mended = mended(known)?;
+    let worst = mended.iter().max_by(|a, b| a.times().total_cmp(&b.times()))?;
+    let last = mended.last()?;
+    let name = |level: &Mended<'_>| level.before.name(plan.refine.axis);
+    let names: Vec<String> = mended.iter().map(name).collect();
+    let place = if mended.len() == known.levels.len() {
+        "on all levels".to_owned()
+    } else {
+        format!("on the levels with {}", names.join(", "))
+    };
+    let stable = known.levels.iter().enumerate().map(|(k, level)| {
+        mended.iter().find(|mended| mended.index == k).map_or(level, |mended| &mended.after)
+    });
+    let order = session.judge(stable, plan.refine.axis).order;
+    let (dt, limit, times) = (worst.before.dt, worst.limit, worst.times());
+    let measure = if worst.before.stable_time_step.is_some() {
+        format!("{times:.2} times the stable step of {limit:.3e} s")
+    } else {
+        let crossing = limit / IN_QUESTION;
+        format!("{:.2} times the {crossing:.3e} s in which a wave crosses a cell", dt / crossing)
+    };
+    let before = match &last.before.run.failure {
+        Some(reason) => format!("the run fails: {reason}"),
+        None if last.before.error.is_finite() => format!("{:.3e}", last.before.error),
+        None => "not finite".to_owned(),
+    };
+    let shown = order.map_or("not determined".to_owned(), |order| order.shown());
+    let evidence = format!(
+        "With {} the step of {dt:.3e} s is {measure}. With stable steps the error with {} is {:.3e} \
+         (before: {before}), and the order over all levels is {shown}.",
+        name(worst),
+        name(last),
+        last.after.error
+    );
+    Some(Finding {
+        kind: FindingKind::UnstableStep,
+        cause: format!("the step is longer than the stable step, {place}"),
+        evidence,
+        remedy: Some(remedy(known)),
+        order,
+    })
+}
+
+impl Mended<'_> {
+    /// The step over its limit.
+    fn times(&self) -> f64 {
+        self.before.dt / self.limit
+    }
+}
+
+/// Levels in question that stable steps mend; `None` if there are none.
+fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
+    let (plan, levels) = (known.plan, known.levels);
+    let limits: Vec<(usize, f64)> = levels
+        .iter()
+        .enumerate()
+        .filter_map(|(k, level)| Some((k, limit(plan, level)?)))
+        .filter(|(k, limit)| levels[*k].dt > *limit)
+        .collect();
+    let stable = |(k, limit): &(usize, f64)| {
+        let is_predicted = levels[*k].stable_time_step.is_some();
+        let share = if is_predicted { OF_PREDICTED } else { CAUTIOUS / IN_QUESTION };
+        LevelPlan { dt: share * limit, ..plan.refine.levels[*k] }
+    };
+    let stepped: Vec<LevelPlan> = limits.iter().map(stable).collect();
+    if stepped.is_empty() {
+        return None;
+    }
+    let mut changed = only(plan, known.session.case, &stepped);
+    changed.refine.rule = plan.refine.rule.map(|_| OF_PREDICTED);
+    let found = known.session.changed("stable time steps", &changed)?;
+    let is_sound = |level: &LevelOutcome| level.run.failure.is_none() && level.error.is_finite();
+    let mut mended = Vec::new();
+    for ((index, limit), after) in limits.into_iter().zip(found.levels) {
+        let before = &levels[index];
+        if is_sound(&after) && (!is_sound(before) || after.error <= MENDED * before.error) {
+            mended.push(Mended { index, before, after, limit });
+        }
+    }
+    Some(mended).filter(|mended| !mended.is_empty())
+}
+
+/// The step (s) above which the step of a level is in question.
+fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
+    // Steps of this crate's MPM that are not predicted to be too long are stable.
+    if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm { .. }) {
+        return level.stable_time_step;
+    }
+    let speed = plan.exact.as_ref().map_or(0.0, |exact| Extremes::of(exact).speed);
+    let crossing = level.h / (plan.scene.fastest_wave() + speed);
+    crossing.is_finite().then_some(IN_QUESTION * crossing)
+}
+
+/// The first change of the time step that `check` accepts.
+fn remedy(known: &Known<'_>) -> String {
+    let source = known.session.source;
+    if known.plan.refine.axis == Axis::Time {
+        return "leave out the levels with these steps".to_owned();
+    }
+    if remedy::accepts_step(source, StepSpec::Courant(NumberText::Number(OF_PREDICTED))) {
+        return "`dt: {courant: 0.5}`, half of the stable step on every level".to_owned();
+    }
+    let formula = format!("{CAUTIOUS}*h/{:e}", known.plan.scene.fastest_wave());
+    let step = StepSpec::Length(NumberText::Formula(formula.clone()));
+    if remedy::accepts_step(source, step) {
+        return format!("`dt: \"{formula}\"`, which follows the cells");
+    }
+    "shorter steps on these levels".to_owned()
+}

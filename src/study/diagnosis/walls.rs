@@ -1,0 +1,183 @@
+//! Particles that leave the grid, and walls that leave their place.
+
+use super::remedy;
+use super::session::{Known, Session, only};
+use crate::exact::Problem;
+use crate::mpm::FrameName;
+use crate::study::describe::amplitude::raster;
+use crate::study::handover::level_problem;
+use crate::study::preflight::extremes::Extremes;
+use crate::suite::model::grid_size::grid_axis;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{ConvergencePlan, SceneFace};
+use crate::verify::{Finding, FindingKind, LevelOutcome};
+
+/// Distance from the end of the grid that is rounding, in cells.
+const ROUNDING: f64 = 1e-6;
+
+/// Intervals along each axis of the raster, and over the run, on which walls are followed.
+const INTERVALS: usize = 8;
+
+/// Share of its error that the case keeps at most in a frame that moves with the body, if a moving
+/// wall is the cause.
+const MENDED: f64 = 0.1;
+
+/// A finding about a moving wall, or about particles that left the grid.
+pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
+    let is_lost = |level: &LevelOutcome| {
+        level.run.counters.left_domain > Some(0) || level.run.failure.is_some()
+    };
+    let lost = known.levels.iter().position(is_lost);
+    if let Some(finding) = moving_wall(known) {
+        return Some(finding);
+    }
+    let level = *known.plan.refine.levels.get(lost?)?;
+    beyond_the_grid(known, level).or_else(|| particle_on_wall(known.session, known.plan, level))
+}
+
+/// A wall that moves along its normal by more than a cell: nodes of a grid that stays where it is do
+/// not follow it.
+fn moving_wall(known: &Known<'_>) -> Option<Finding> {
+    let (plan, session) = (known.plan, known.session);
+    let problem = plan.exact.as_ref()?;
+    let stays = match session.case.method {
+        Method::Mpm { frame, .. } => frame == FrameName::Updated,
+        Method::External { .. } => true,
+        Method::Fem { .. } | Method::Heat { .. } => false,
+    };
+    stays.then_some(())?;
+    let finest = plan.refine.levels.last()?.h;
+    let driven = plan.scene.faces.iter().filter(|face| face.hold.is_driven());
+    let moved = driven.map(|face| (face, path(problem, face, session.case.until)));
+    let (face, path) = moved.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, d)| *d > finest)?;
+    let length = plan.scene.to[face.axis] - plan.scene.from[face.axis];
+    let follows = follows_in_total_frame(known);
+    let or_frame = if follows { ", or use `frame: total_lagrangian`" } else { "" };
+    Some(Finding {
+        kind: FindingKind::OutsideGrid,
+        cause: format!(
+            "the {} wall moves along its normal, and a wall itself stays where the grid ends",
+            face.name
+        ),
+        evidence: format!(
+            "It moves by {path:.3e} m, {:.2} times the length of the body and {:.1} cells of the \
+             finest level.",
+            path / length,
+            path / finest
+        ),
+        remedy: Some(format!(
+            "let the wall slide along itself, or move little: by less than a cell{or_frame}"
+        )),
+        order: None,
+    })
+}
+
+/// The longest way (m) that a face moves along its normal until time `until` (s).
+fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
+    let at = if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
+    let mut longest = 0.0_f64;
+    for mut label in raster(problem, INTERVALS) {
+        label[face.axis] = at;
+        for step in 0..=INTERVALS {
+            let t = until * step as f64 / INTERVALS as f64;
+            longest = longest.max(problem.motion.component(face.axis, &label, t).abs());
+        }
+    }
+    longest
+}
+
+/// Whether `check` accepts the case in a frame that moves with the body, and most of its error is
+/// gone then.
+fn follows_in_total_frame(known: &Known<'_>) -> bool {
+    let (plan, session) = (known.plan, known.session);
+    let mut case = session.case.clone();
+    let Method::Mpm { frame, .. } = &mut case.method else { return false };
+    *frame = FrameName::Total;
+    let finest = plan.refine.levels.len().saturating_sub(1)..;
+    let changed = only(plan, &case, &plan.refine.levels[finest]);
+    let accepted = remedy::refusal(session.source, plan, &only(plan, &case, &plan.refine.levels));
+    let run = accepted.is_none().then(|| session.changed("`frame: total_lagrangian`", &changed));
+    let after = run.flatten().and_then(|found| found.levels.last().map(|level| level.error));
+    let before = known.levels.last().map_or(f64::NAN, |level| level.error);
+    after.is_some_and(|after| after <= MENDED * before || (after.is_finite() && before.is_nan()))
+}
+
+/// The exact motion leaves the grid of a level.
+fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<Finding> {
+    let (plan, scene) = (known.plan, &known.plan.scene);
+    let reach = Extremes::of(plan.exact.as_ref()?).reach;
+    let axes = 0..scene.dimension();
+    let grid: Vec<(f64, f64)> = axes
+        .clone()
+        .map(|axis| {
+            let (start, cells) = grid_axis(scene, axis, level.h);
+            (start, start + cells * level.h)
+        })
+        .collect();
+    let room = ROUNDING * level.h;
+    let is_beyond = |axis: &usize| {
+        let ((low, high), (start, end)) = (reach[*axis], grid[*axis]);
+        low < start - room || high > end + room
+    };
+    let axis = axes.clone().find(is_beyond)?;
+    let name = ["x", "y", "z"][axis];
+    let ((low, high), (start, end)) = (reach[axis], grid[axis]);
+    let larger: Vec<(f64, f64)> = axes
+        .map(|axis| {
+            let ((low, high), (start, end)) = (reach[axis], grid[axis]);
+            let spare = 0.1 * (scene.to[axis] - scene.from[axis]);
+            let low = if low < start - room { low - spare } else { start };
+            (low, if high > end + room { high + spare } else { end })
+        })
+        .collect();
+    let (from, to): (Vec<f64>, Vec<f64>) = larger.into_iter().unzip();
+    let is_accepted = remedy::accepts_grid(known.session.source, &from, &to);
+    let grid = if is_accepted { "a larger `grid` in `scene`, or " } else { "" };
+    Some(Finding {
+        kind: FindingKind::OutsideGrid,
+        cause: "the grid ends where the body moves to".to_owned(),
+        evidence: format!(
+            "The exact motion takes {name} from {low:.4} to {high:.4} m, and with {} cells the grid \
+             extends from {start:.4} to {end:.4} m.",
+            level.cells
+        ),
+        remedy: Some(format!("{grid}a smaller motion")),
+        order: None,
+    })
+}
+
+/// A particle that starts at the end of the grid, where rounding decides whether it is outside.
+pub(super) fn particle_on_wall(
+    session: &Session<'_>,
+    plan: &ConvergencePlan,
+    level: LevelPlan,
+) -> Option<Finding> {
+    let scene = &plan.scene;
+    let problem = level_problem(session.suite, plan, session.case, level).ok()?;
+    let d = scene.dimension();
+    for axis in (0..d).filter(|axis| !problem.grid.periodic[*axis]) {
+        let (start, cells) = grid_axis(scene, axis, level.h);
+        let end = start + cells * level.h;
+        let coordinates = problem.particles.position.iter().skip(axis).step_by(d);
+        let is_on_wall = |x: &&f64| ((**x - start).min(end - **x)).abs() <= ROUNDING * level.h;
+        let Some(x) = coordinates.clone().find(is_on_wall) else { continue };
+        let name = ["x", "y", "z"][axis];
+        return Some(Finding {
+            kind: FindingKind::OutsideGrid,
+            cause: "particles start on a wall, where rounding decides whether they are in the grid"
+                .to_owned(),
+            evidence: format!(
+                "With {} cells a particle starts at {name} = {x} m, and the grid extends from \
+                 {start} to {end} m.",
+                level.cells
+            ),
+            remedy: Some(
+                "place the particles inside the body: a smaller `shift` in `particles`, or none"
+                    .to_owned(),
+            ),
+            order: None,
+        });
+    }
+    None
+}
