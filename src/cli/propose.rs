@@ -1,9 +1,11 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
 use super::args::ProposeArgs;
-use super::show;
+use super::status::BAD_INPUT;
+use super::{output, show, solver};
+use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
-use mpm_verify::study::{Runner, preflight};
+use mpm_verify::study::{Runner, preflight, under};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use serde_json::json;
@@ -11,20 +13,42 @@ use serde_json::json;
 /// Runs each suite as if it expected nothing, and prints what it could expect.
 pub(super) fn propose(args: &ProposeArgs) -> u8 {
     let targets = &args.targets.targets;
+    let solver = match solver::greeted(&args.solver) {
+        Ok(solver) => solver,
+        Err(message) => {
+            output::complain(&message);
+            return BAD_INPUT;
+        }
+    };
+    let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
     if args.format.is_json() {
         return show::json(targets, |source, suite| {
-            Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite)?}))
+            Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite, solver)?}))
         });
     }
-    show::try_each(targets, of_suite)
+    show::try_each(targets, |source, suite| of_suite(source, suite, solver))
 }
 
-fn of_suite(source: &Source, suite: &Suite) -> Result<String, String> {
+fn of_suite(
+    source: &Source,
+    suite: &Suite,
+    solver: Option<&dyn SolverFactory>,
+) -> Result<String, String> {
     let name = &suite.name;
+    let looks_inside = || format!("error: {name}: it looks inside the methods of this crate");
+    let suite = match solver {
+        None => suite,
+        Some(solver) => &under(suite, solver, false).ok_or_else(looks_inside)?,
+    };
     let exploring = suite.without_expectations().ok_or_else(|| {
         format!("error: {name}: expectations are proposed for convergence studies only")
     })?;
-    let outcome = Runner::new(&exploring).run(&|| ());
+    let runner = Runner::new(&exploring);
+    let outcome = match solver {
+        Some(solver) => runner.judging(solver),
+        None => runner,
+    }
+    .run(&|| ());
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(format!("error: {name}::{}: {}", refused.case, refused.reason));
     }
@@ -34,5 +58,10 @@ fn of_suite(source: &Source, suite: &Suite) -> Result<String, String> {
         let help = found.help().map(|help| format!("; {help}"));
         format!("{}{}", found.message(), help.unwrap_or_default())
     });
+    let method = solver.map(|solver| {
+        let entry = format!("- external: {{name: {}}}", solver.name());
+        format!("for a suite that lists `{entry}` under `methods`")
+    });
+    let remarks = method.into_iter().chain(remarks);
     Ok(format!("# {name}\n{}", report::proposals(&outcome, remarks)))
 }

@@ -37,7 +37,9 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     let mut lines = Vec::new();
     remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
     lines.push("expect:".to_owned());
-    let alone = groups.len() == 1;
+    // An external solver is one method of its suite, and proposes nothing for others.
+    let is_external = outcome.cases.iter().any(|case| case.subject == "external");
+    let alone = groups.len() == 1 && !is_external;
     for group in &groups {
         entry(&mut lines, group, alone);
     }
