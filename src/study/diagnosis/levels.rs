@@ -1,6 +1,6 @@
 //! Levels that are too coarse for the exact solution, and a body that nothing brings to rest.
 
-use super::regularity::sizes;
+use super::jumps::sizes;
 use super::session::Known;
 use crate::study::convergence::outcome::to_judge;
 use crate::study::preflight::extremes::Extremes;
@@ -66,6 +66,7 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<Finding> {
         evidence: evidence + &resolution.map_or(String::new(), |(_, text)| text),
         remedy: Some(remedy),
         order,
+        explains: true,
     })
 }
 
@@ -121,5 +122,6 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<Finding> {
         ),
         remedy: Some(undamped::HELP.to_owned()),
         order: None,
+        explains: true,
     })
 }

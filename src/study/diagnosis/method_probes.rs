@@ -64,8 +64,8 @@ pub(super) const DOMAINS: ProbeKind = ProbeKind {
 pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     change: "`transfer: apic`",
     cause: |_, _| {
-        "the velocity gradients at walls: `mls` fits them to nodes on both sides of a particle, and at \
-         a wall there are nodes on one side only, which costs an order"
+        "the velocity gradients at walls: `mls` fits them to the nodes around a particle, and next to \
+         a held face its error is of first order"
     },
     remedy: "`transfer: apic`, which takes its gradients from the basis",
     apply: |plan| {

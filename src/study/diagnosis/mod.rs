@@ -5,7 +5,8 @@
 //! steps          steps longer than the stable step
 //! walls          particles outside the grid, and walls that move
 //! levels         levels that are too coarse; an equilibrium without damping
-//! regularity     an exact solution with kinks
+//! jumps          jumps of the exact solution, and its length scale
+//! regularity     the order that an exact solution with kinks allows
 //! probes         changes of the problem, the levels or the method, one at a time
 //! remedy         the suite with a remedy in it, as `check` accepts or refuses it
 //! ```
@@ -15,6 +16,7 @@
 //! The `because` texts of the suite are not read. (One factor at a time, as the isolating runs of
 //! Roy 2005, J. Comput. Phys. 205, 131.)
 
+mod jumps;
 mod levels;
 mod method_probes;
 mod probes;

@@ -76,6 +76,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
         evidence,
         remedy: Some(remedy(known)),
         order,
+        explains: true,
     })
 }
 

@@ -70,6 +70,7 @@ fn moving_wall(known: &Known<'_>) -> Option<Finding> {
             "let the wall slide along itself, or move little: by less than a cell{or_frame}"
         )),
         order: None,
+        explains: true,
     })
 }
 
@@ -144,6 +145,7 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<Finding> {
         ),
         remedy: Some(format!("{grid}a smaller motion")),
         order: None,
+        explains: true,
     })
 }
 
@@ -177,6 +179,7 @@ pub(super) fn particle_on_wall(
                     .to_owned(),
             ),
             order: None,
+            explains: true,
         });
     }
     None

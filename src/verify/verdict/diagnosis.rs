@@ -86,6 +86,9 @@ pub struct Finding {
     pub remedy: Option<String>,
     /// Observed order without the cause, where that was measured.
     pub order: Option<Interval>,
+    /// Whether the observed order is the one that the cause leads to. Otherwise there is a larger
+    /// cause.
+    pub explains: bool,
 }
 
 /// A cause, by what shows it.
@@ -173,12 +176,19 @@ impl Diagnosis {
                 .is_none_or(|coarse| !run.is_finer && self.off(run.order) < self.off(coarse.order));
             causes.insert(if is_nearer { 0 } else { causes.len() }, Cause::Run(run, evidence));
         }
-        if restored.is_none() {
-            causes.extend(self.finding(NotSmooth).map(Cause::Finding));
+        if restored.is_some() {
+            return causes;
         }
+        let (limits, others): (Vec<_>, Vec<_>) = self
+            .findings
+            .iter()
+            .filter(|finding| finding.kind == NotSmooth)
+            .partition(|finding| finding.explains);
+        causes.extend(limits.into_iter().map(Cause::Finding));
         if causes.is_empty() {
             causes.extend(run.map(|(run, evidence)| Cause::Run(run, evidence)));
         }
+        causes.extend(others.into_iter().map(Cause::Finding));
         causes
     }
 
@@ -306,7 +316,14 @@ mod tests {
     /// Finding of this kind, with the order 1.97 without its cause.
     fn finding(kind: FindingKind) -> Finding {
         let (cause, evidence) = ("the finding".to_owned(), String::new());
-        Finding { kind, cause, evidence, remedy: None, order: Some(order(1.97, 0.02)) }
+        Finding {
+            kind,
+            cause,
+            evidence,
+            remedy: None,
+            order: Some(order(1.97, 0.02)),
+            explains: true,
+        }
     }
 
     fn causes(diagnosis: &Diagnosis) -> Vec<String> {
@@ -333,6 +350,14 @@ mod tests {
         let mut found = diagnosis(low, (Converging, order(2.0, 0.05), 0.6));
         found.findings = vec![finding(FindingKind::NotSmooth)];
         assert_eq!(causes(&found), ["the cause"]);
+    }
+
+    /// An order far below the limit of a kink has a larger cause.
+    #[test]
+    fn a_kink_that_does_not_explain_the_order_comes_last() {
+        let mut found = diagnosis((TooLow, order(0.2, 0.05)), (TooLow, order(0.8, 0.05), 0.6));
+        found.findings = vec![Finding { explains: false, ..finding(FindingKind::NotSmooth) }];
+        assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 
     /// Finer levels have a smaller error whatever its cause is.
