@@ -19,10 +19,10 @@ pub(super) fn share(left: f64, size: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Problem;
     use crate::exact::check::boundary::boundary;
     use crate::exact::law::TaitLaw;
     use crate::exact::tests::{bar, fixed, free};
+    use crate::exact::{Problem, Survey};
     use rstest::rstest;
 
     /// A wave of small amplitude in Tait's fluid, between walls: K u_XX times 8 u_X is left,
@@ -69,7 +69,8 @@ mod tests {
     fn a_traction_that_presses_is_left_over_too() {
         let left = |u| {
             let linearised = Some(Linearised { tolerance: f64::INFINITY, because: String::new() });
-            boundary(&Problem { linearised, ..bar(u, free()) }).unwrap()
+            let problem = Problem { linearised, ..bar(u, free()) };
+            boundary(&problem, &Survey::of(&problem)).unwrap()
         };
         assert!(left("X/50") > 0.1 && left("X/50") == left("-X/50"), "{}", left("-X/50"));
     }

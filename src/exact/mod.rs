@@ -33,6 +33,7 @@ mod violation;
 pub(crate) mod tests;
 
 pub use check::interface::{Interface, meets};
+pub use check::survey::{Magnitudes, Survey};
 pub use condition::{Condition, FacePoint};
 pub use expansion::Expansion;
 pub use face::Face;

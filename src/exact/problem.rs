@@ -11,7 +11,6 @@ use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, write};
 use super::outline::Outline;
 use super::plane;
-use super::random::Random;
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
@@ -92,14 +91,6 @@ impl Problem {
         self.bodies.iter().find(inside).unwrap_or(self)
     }
 
-    /// A random point of the body.
-    pub(super) fn point(&self, random: &mut Random) -> Vec<f64> {
-        match &self.outline {
-            Some(outline) => outline.point(random),
-            None => random.point(&self.from, &self.to),
-        }
-    }
-
     /// Speed (m/s) of a wave of small strain: `sqrt((lambda + 2 mu)/rho0)`.
     pub fn wave_speed(&self) -> f64 {
         (self.equation.modulus() / self.density).sqrt()
@@ -108,11 +99,6 @@ impl Problem {
     /// The time (s) whose loads belong to the motion at time `t`.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
-    }
-
-    /// A time of the run at which a condition is checked.
-    pub(super) fn moment(&self, random: &mut Random) -> f64 {
-        self.loaded(random.between(0.0, self.until))
     }
 
     /// All derivatives of the motion, with those across a plane.

@@ -15,8 +15,48 @@ pub struct Violation {
     pub expected: Option<f64>,
     /// Value of the solution.
     pub found: f64,
-    /// Unit of both.
+    /// Largest difference that the tolerance of the problem allows, if the tolerance decides.
+    pub allowed: Option<f64>,
+    /// Unit of these values.
     pub unit: &'static str,
+}
+
+/// The largest of several violations, relative to what is allowed. Among similar ones, the first.
+#[derive(Debug, Default)]
+pub(super) struct LargestViolation(Option<Violation>);
+
+impl LargestViolation {
+    /// Adds what was found at one place and time.
+    pub(super) fn add(&mut self, found: Result<(), Violation>) {
+        let Err(found) = found else { return };
+        // An excess that is no number counts as the largest.
+        let exceeds = |largest: &Violation| {
+            let factor = if found.condition == largest.condition { 1.01 } else { 10.0 };
+            !(found.excess() <= factor * largest.excess())
+        };
+        if self.0.as_ref().is_none_or(exceeds) {
+            self.0 = Some(found);
+        }
+    }
+
+    /// # Errors
+    /// The violation, if there is one.
+    pub(super) fn into_result(self) -> Result<(), Violation> {
+        self.0.map_or(Ok(()), Err)
+    }
+}
+
+impl Violation {
+    /// Difference relative to the difference that is allowed.
+    fn excess(&self) -> f64 {
+        self.accepted_by(1.0).unwrap_or(0.0)
+    }
+
+    /// The tolerance that would accept the solution of a problem with a `tolerance`, if the
+    /// tolerance decides.
+    pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
+        Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
+    }
 }
 
 impl fmt::Display for Violation {
@@ -24,15 +64,24 @@ impl fmt::Display for Violation {
         let place: Vec<String> = self.label.iter().map(|c| coordinate(*c)).collect();
         let (place, t) = (place.join(", "), coordinate(self.t));
         write!(f, "{} is violated at X = ({place}), t = {t}: ", self.condition)?;
-        if let Some(expected) = self.expected {
-            write!(f, "expected {expected:.6e}, ")?;
+        let (found, gap) = (self.found, if self.unit.is_empty() { "" } else { " " });
+        let Some(expected) = self.expected else {
+            return write!(f, "found {found:.6e}{gap}{}", self.unit);
+        };
+        // More than six digits if these do not show the difference.
+        let differs = |n: &usize| format!("{expected:.n$e}") != format!("{found:.n$e}");
+        let digits = match (6..17).find(differs) {
+            Some(6) | None => 6,
+            Some(digits) => (digits + 1).min(16),
+        };
+        write!(f, "expected {expected:.digits$e}, found {found:.digits$e}{gap}{} ", self.unit)?;
+        let off = found - expected;
+        match self.allowed {
+            Some(allowed) if off.is_finite() => {
+                write!(f, "(off by {off:.3e}, at most {allowed:.1e} allowed)")
+            }
+            _ => write!(f, "(off by {off:.3e})"),
         }
-        write!(f, "found {:.6e}", self.found)?;
-        if !self.unit.is_empty() {
-            write!(f, " {}", self.unit)?;
-        }
-        self.expected
-            .map_or(Ok(()), |expected| write!(f, " (off by {:.3e})", self.found - expected))
     }
 }
 

@@ -1,7 +1,8 @@
 //! Boundary conditions, checked at points of every face, and of every part whose motion is given.
 
+use super::event::{AXES, Event, FACE_EVENTS, OnFace, SpaceTimeBox};
 use super::friction;
-use super::pointwise::{AXES, Event, POINTS, largest, scale, strain, stress};
+use super::survey::{self, Magnitudes, Survey};
 use crate::exact::condition::FacePoint;
 use crate::exact::face::Face;
 use crate::exact::formula::Formula;
@@ -9,36 +10,26 @@ use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
-use crate::exact::violation::Violation;
+use crate::exact::violation::{LargestViolation, Violation};
 use std::cell::Cell;
-
-/// Magnitudes that residuals of boundary conditions are compared with.
-struct Magnitudes {
-    displacement: f64,
-    velocity: f64,
-    gradient: f64,
-    stress: f64,
-}
 
 /// Every face of the body, at random points and times: returns what is left of its tractions, the
 /// largest relative to the stress.
-pub(crate) fn boundary(problem: &Problem) -> Result<f64, Violation> {
-    let sizes = Magnitudes {
-        displacement: scale(problem, |_, d| largest(&d.u)),
-        velocity: scale(problem, |_, d| largest(&d.velocity)),
-        gradient: strain(problem),
-        stress: stress(problem),
-    };
+pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let left = Cell::new(0.0);
     let mut random = Random::new(3);
     for face in &problem.faces {
-        for _ in 0..POINTS {
-            let label = random.on_face(&problem.from, &problem.to, face.axis, face.high);
-            let event = Event { label, t: problem.moment(&mut random) };
+        let on_face = OnFace::of((&problem.from, &problem.to), face.axis, face.high);
+        let extent = on_face.extent(&survey::extent(problem));
+        let mut found = LargestViolation::default();
+        // A load may vary along an axis along which the motion does not.
+        for event in extent.spread(FACE_EVENTS, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
-            let (sizes, left) = (&sizes, &left);
-            face.condition.check(&MovingPoint { problem, face, event, now, sizes, left })?;
+            let (sizes, left) = (&survey.largest, &left);
+            let point = MovingPoint { problem, face, event, now, sizes, left };
+            found.add(face.condition.check(&point));
         }
+        found.into_result()?;
     }
     Ok(left.get())
 }
@@ -135,22 +126,23 @@ fn at(formula: &Formula, event: &Event) -> f64 {
 }
 
 /// `u_t` is the velocity that is given, in every region that has one.
-pub(crate) fn driven(problem: &Problem) -> Result<(), Violation> {
-    let speed = scale(problem, |_, d| largest(&d.velocity));
+pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
+    let speed = survey.largest.velocity;
     let mut random = Random::new(7);
     for (region, velocity) in problem.terms.iter().filter_map(|term| term.driven()) {
         let (from, to) = region.within((&problem.from, &problem.to));
-        for _ in 0..POINTS {
-            let label = random.point(&from, &to);
-            let event = Event { label, t: problem.moment(&mut random) };
+        let part = SpaceTimeBox { from: &from, to: &to, ..survey::extent(problem) };
+        let mut found = LargestViolation::default();
+        for event in part.spread(FACE_EVENTS, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
                 let given = at(formula, &event);
                 let name = format!("given velocity of the set {} in {}", region.name, AXES[i]);
                 let allowed = problem.tolerance * speed.max(given.abs());
-                event.judge(allowed, name, (given, now.velocity[i]), "m/s")?;
+                found.add(event.judge(allowed, name, (given, now.velocity[i]), "m/s"));
             }
         }
+        found.into_result()?;
     }
     Ok(())
 }

@@ -1,26 +1,43 @@
 //! Two differentiations of one motion: automatic, and by central differences.
 
-use super::pointwise::{AXES, Event, POINTS, largest, scale};
+use super::event::{AXES, Event, greatest};
+use super::survey::{Magnitudes, Survey};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
-use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
 /// Relative agreement asked of automatic differentiation and finite differences. Differences of
 /// second order with the steps below reach about 1e-6.
 pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
-/// Holds `check` at random events. A kink (a wave front) that happens to lie within the reach of
-/// differences is no fault, so an event is moved twice before it counts.
-pub(crate) fn away_from_kinks(
-    event: impl Fn(&mut Random) -> Event,
+/// Number of places at which derivatives are compared.
+const PLACES: usize = 32;
+
+/// Largest step of a difference, relative to the body or the run.
+const STEP: f64 = 1e-5;
+
+/// Largest step, relative to the length or the time over which the motion varies.
+const SHARE: f64 = 1e-3;
+
+/// Step (s or m) of differences over an `extent` of a quantity whose largest value and derivatives
+/// are `largest`, in ascending order.
+pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
+    let scales = largest.windows(2).map(|pair| SHARE * (pair[0] / pair[1]));
+    scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
+}
+
+/// Runs `check` at some of `events`. A kink (a wave front) within a step of an event is no error:
+/// a violation counts only if it occurs at three events in succession.
+pub(crate) fn away_from_kinks<'a>(
+    events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,
 ) -> Result<(), Violation> {
-    let mut random = Random::new(5);
-    for _ in 0..POINTS / 4 {
+    let stride = (events.len() / (3 * PLACES)).max(1);
+    let events: Vec<&Event> = events.step_by(stride).collect();
+    for three in events.chunks_exact(3) {
         let mut last = Ok(());
-        for _ in 0..3 {
-            last = check(&event(&mut random));
+        for event in three {
+            last = check(event).map_err(|found| Violation { allowed: None, ..found });
             if last.is_ok() {
                 break;
             }
@@ -31,23 +48,16 @@ pub(crate) fn away_from_kinks(
 }
 
 /// Automatic differentiation against central differences.
-pub(crate) fn differentiation(problem: &Problem) -> Result<(), Violation> {
-    let speed = scale(problem, |_, d| largest(&d.velocity));
-    let acceleration = scale(problem, |_, d| largest(&d.acceleration));
-    away_from_kinks(
-        |random| Event { label: problem.point(random), t: problem.moment(random) },
-        |event| differences(problem, event, speed, acceleration),
-    )
+pub(crate) fn differentiation(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
+    let events = survey.points.iter().map(|point| &point.event);
+    away_from_kinks(events, |event| differences(problem, event, &survey.largest))
 }
 
-fn differences(
-    problem: &Problem,
-    event: &Event,
-    speed: f64,
-    acceleration: f64,
-) -> Result<(), Violation> {
-    let step = 1e-5 * problem.until;
+fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(), Violation> {
+    let Magnitudes { displacement, velocity: speed, acceleration, .. } = *sizes;
+    let step = step(problem.until, &[displacement, speed, acceleration]);
     let all = problem.derivatives(&event.label, event.t);
+    let largest_coordinate = greatest(event.label.iter().map(|x| x.abs()));
     for i in 0..problem.dimension() {
         let u = |t: f64| problem.motion.component(i, &event.label, t);
         let (low, mid, high) = (u(event.t - step), u(event.t), u(event.t + step));
@@ -55,13 +65,15 @@ fn differences(
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
-        // The second difference loses digits: u itself, known to 1e-16, is divided by step^2.
-        let rounding = 1e-13 * (low.abs() + mid.abs() + high.abs()) / (step * step);
+        // The second difference loses digits: u is divided by step^2, and is known to 1e-16 of its
+        // own terms, such as the coordinates in X*(cos(w*t) - 1).
+        let known = 1e-13 * (low.abs() + mid.abs() + high.abs()) + 1e-15 * largest_coordinate;
+        let rounding = known / (step * step);
         let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;
         let curvature = (high - 2.0 * mid + low) / (step * step);
         event.judge(allowed, name, (curvature, all.acceleration[i]), "m/s2")?;
     }
-    stress_differences(problem, event, &all)
+    stress_differences(problem, event, &all, sizes)
 }
 
 /// Div P, once by automatic differentiation and once from P at neighbouring points.
@@ -69,12 +81,14 @@ fn stress_differences(
     problem: &Problem,
     event: &Event,
     all: &Derivatives,
+    sizes: &Magnitudes,
 ) -> Result<(), Violation> {
     let d = problem.dimension();
+    let scales = [sizes.displacement, sizes.gradient, sizes.curvature];
     let exact = problem.divergence(&event.label, event.t, all);
     let (mut divergence, mut size) = (problem.hoop_force(&event.label, event.t, all), 0.0);
     for axis in 0..d {
-        let step = 1e-5 * (problem.to[axis] - problem.from[axis]);
+        let step = step(problem.to[axis] - problem.from[axis], &scales);
         let stress = |sign: f64| {
             let mut label = event.label.clone();
             label[axis] += sign * step;
@@ -88,7 +102,7 @@ fn stress_differences(
     }
     for i in 0..d {
         let name = format!("agreement of two differentiations of Div P in {}", AXES[i]);
-        let allowed = DIFFERENCE_TOLERANCE * largest(&exact) + 1e-9 * size;
+        let allowed = DIFFERENCE_TOLERANCE * sizes.divergence + 1e-9 * size;
         event.judge(allowed, name, (divergence[i], exact[i]), "N/m3")?;
     }
     Ok(())

@@ -4,16 +4,17 @@
 //! Bodies in contact do not enter each other and do not pull; they push only where they touch, with
 //! equal and opposite tractions, and what slides is resisted by friction.
 //!
-//! One formula may speak of several bodies and jump where they meet: each is looked at from its own
-//! inside, a billionth of its length from the face.
+//! One formula may describe several bodies and jump where they meet. The motion at the face is
+//! therefore a one-sided limit: its expansion about a point a billionth of the length inside.
 
+use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
-use super::pointwise::{AXES, Event, POINTS, largest, scale, stress};
+use super::survey::{self, Magnitudes};
 use crate::exact::condition::{Condition, FacePoint};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
-use crate::exact::violation::Violation;
+use crate::exact::violation::{LargestViolation, Violation};
 
 /// The condition on a face where another body is; [`meets`] holds the two against each other.
 #[derive(Debug)]
@@ -25,11 +26,12 @@ impl Condition for Interface {
     }
 }
 
-/// How far inside a face is looked at, in lengths of the body.
+/// Distance from the face of the point inside, in lengths of the body.
 const INSIDE: f64 = 1e-9;
 
 /// Holds the high face of `one` on `axis` against the low face of `other`, which lies opposite: in
-/// contact with a coefficient of friction, or, without one, as one body.
+/// contact with a coefficient of friction, or, without one, as one body. Residuals are compared
+/// with the largest magnitudes of all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -38,32 +40,37 @@ pub fn meets(
     other: &Problem,
     axis: usize,
     friction: Option<f64>,
+    largest: &Magnitudes,
 ) -> Result<(), Violation> {
-    let pair = BodyPair { one, other, axis, sizes: sizes(one, other) };
-    let mut random = Random::new(8);
-    for _ in 0..POINTS {
-        let label = random.point(&one.from, &one.to);
-        let t = one.moment(&mut random);
-        match friction {
-            Some(coefficient) => pair.touch(label, t, coefficient)?,
-            None => pair.go_on(label, t)?,
-        }
+    let Magnitudes { displacement, velocity, stress, .. } = *largest;
+    let pair = BodyPair { one, other, axis, sizes: [displacement, velocity, stress] };
+    let on_face = OnFace::of((&one.from, &one.to), axis, true);
+    let extent = on_face.extent(&survey::extent(one));
+    let mut found = LargestViolation::default();
+    for event in extent.spread(FACE_EVENTS, |_| true, &mut Random::new(8)) {
+        found.add(match friction {
+            Some(coefficient) => pair.touch(&event, coefficient),
+            None => pair.go_on(&event),
+        });
     }
-    Ok(())
+    found.into_result()
 }
 
-/// Largest displacement (m), velocity (m/s) and stress (Pa) of the two.
-fn sizes(one: &Problem, other: &Problem) -> [f64; 3] {
-    let of = |problem: &Problem| {
-        [
-            scale(problem, |_, d| largest(&d.u)),
-            scale(problem, |_, d| largest(&d.velocity)),
-            stress(problem),
-        ]
-    };
-    let (a, b) = (of(one), of(other));
-    // A sum is NaN if one of the two is.
-    std::array::from_fn(|i| a[i] + b[i])
+/// The motion on a face of `problem` at `event`, expanded about a point inside that lies `inside`
+/// (m) below the face along `axis`.
+fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
+    let mut label = event.label.clone();
+    label[axis] -= inside;
+    let mut now = problem.motion.derivatives(&label, event.t);
+    for i in 0..problem.dimension() {
+        now.u[i] += now.grad[i][axis] * inside;
+        now.velocity[i] += now.grad_rate[i][axis] * inside;
+        for j in 0..problem.dimension() {
+            now.grad[i][j] += now.second[i][j][axis] * inside;
+        }
+    }
+    problem.complete(&event.label, &mut now);
+    now
 }
 
 struct BodyPair<'a> {
@@ -78,16 +85,13 @@ impl BodyPair<'_> {
         format!("where two bodies meet along {}, {what}", AXES[self.axis])
     }
 
-    /// Both bodies next to the faces, and the event on the face.
-    fn both(&self, mut label: Vec<f64>, t: f64) -> (Event, Derivatives, Derivatives) {
+    /// The motion of both bodies on their faces.
+    fn both(&self, event: &Event) -> [Derivatives; 2] {
         let Self { one, other, axis, .. } = *self;
         let inside = |problem: &Problem| INSIDE * (problem.to[axis] - problem.from[axis]);
-        label[axis] = one.to[axis] - inside(one);
-        let here = one.derivatives(&label, t);
-        label[axis] = other.from[axis] + inside(other);
-        let there = other.derivatives(&label, t);
-        label[axis] = one.to[axis];
-        (Event { label, t }, here, there)
+        let mut opposite = event.clone();
+        opposite.label[axis] = other.from[axis];
+        [on_face(one, event, axis, inside(one)), on_face(other, &opposite, axis, -inside(other))]
     }
 
     /// P e on the two faces, e being the direction of the axis.
@@ -111,27 +115,27 @@ impl BodyPair<'_> {
         Ok(())
     }
 
-    fn go_on(&self, label: Vec<f64>, t: f64) -> Result<(), Violation> {
-        let (event, here, there) = self.both(label, t);
+    fn go_on(&self, event: &Event) -> Result<(), Violation> {
+        let [here, there] = self.both(event);
         for i in 0..self.one.dimension() {
             let name = self.condition(&format!("the same u_{} on both,", AXES[i]));
             let allowed = self.one.tolerance * self.sizes[0];
             event.judge(allowed, name, (here.u[i], there.u[i]), "m")?;
         }
-        self.balance(&event, self.forces(&event, &here, &there))
+        self.balance(event, self.forces(event, &here, &there))
     }
 
-    fn touch(&self, label: Vec<f64>, t: f64, coefficient: f64) -> Result<(), Violation> {
+    fn touch(&self, event: &Event, coefficient: f64) -> Result<(), Violation> {
         let Self { one, other, axis, sizes: [displacement, velocity, stress] } = *self;
         let tolerance = one.tolerance;
-        let (event, here, there) = self.both(label, t);
+        let [here, there] = self.both(event);
         let gap = other.from[axis] - one.to[axis] + (there.u[axis] - here.u[axis]);
         let allowed = tolerance * displacement;
         let name = self.condition("of which none enters the other, overlap");
         event.judge_most(allowed, name, (0.0, -gap), "m")?;
 
-        let forces = self.forces(&event, &here, &there);
-        self.balance(&event, forces)?;
+        let forces = self.forces(event, &here, &there);
+        self.balance(event, forces)?;
         let ([traction, _], pressure) = (forces, -forces[0][axis]);
         let (allowed, apart) = (one.law_tolerance() * stress, gap > allowed);
         let name = self.condition("and do not pull each other, traction");
@@ -143,7 +147,7 @@ impl BodyPair<'_> {
         let relative = std::array::from_fn(|i| here.velocity[i] - there.velocity[i]);
         let rub = InterfaceTraction { traction, velocity: relative, pressure, coefficient };
         let residuals = [allowed, tolerance * velocity];
-        coulomb(&event, (axis, one.dimension()), &rub, residuals, |what| {
+        coulomb(event, (axis, one.dimension()), &rub, residuals, |what| {
             self.condition(&format!("with friction, {what}"))
         })
     }
@@ -152,6 +156,7 @@ impl BodyPair<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::check::survey::Survey;
     use crate::exact::formula::{Expr, Formula, Scope};
     use crate::exact::tests::free;
     use crate::exact::{Face, InitialStress, Motion, SmallStrainLaw};
@@ -193,6 +198,11 @@ mod tests {
         [bar(0.0, [free(), Arc::new(Interface)]), bar(1.0, [Arc::new(Interface), free()])]
     }
 
+    fn meets_alone(one: &Problem, other: &Problem, friction: Option<f64>) -> Result<(), Violation> {
+        let surveys = Survey::of_each(&[one.clone(), other.clone()]);
+        meets(one, other, 0, friction, &surveys[0].largest)
+    }
+
     /// The bars run into each other with velocity 1/100 and part after 2.
     const BOUNCE: &str =
         "sign(1 - X)/100*(t - max(0, t - abs(X - 1)) - max(0, t - (2 - abs(X - 1))))";
@@ -217,7 +227,7 @@ mod tests {
     )]
     fn two_bars(#[case] motion: &str, #[case] friction: Option<f64>, #[case] violated: &str) {
         let [one, other] = bars(motion);
-        match meets(&one, &other, 0, friction) {
+        match meets_alone(&one, &other, friction) {
             Ok(()) => assert!(violated.is_empty(), "`{violated}` was not seen"),
             Err(found) if violated.is_empty() => panic!("{found}"),
             Err(found) => assert!(found.condition.contains(violated), "{found}"),
@@ -247,7 +257,7 @@ mod tests {
             motion: Motion::new(vec![bind("-X/100"), bind(along)]),
             ..bar
         });
-        let found = meets(&one, &other, 0, Some(0.3)).map_err(|found| found.condition);
+        let found = meets_alone(&one, &other, Some(0.3)).map_err(|found| found.condition);
         match found {
             Ok(()) => assert!(violated.is_empty(), "`{violated}` was not seen"),
             Err(found) => assert!(!violated.is_empty() && found.contains(violated), "{found}"),

@@ -1,21 +1,16 @@
 //! Laws with a memory are known to the truth for loading that never reverses: that it does not is
 //! checked here.
 
-use super::pointwise::{Event, POINTS};
+use super::survey::{Survey, SurveyPoint};
 use crate::exact::problem::Problem;
-use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
 /// In uniaxial strain: where the body flows, the stretch never turns back.
-pub(crate) fn monotone(problem: &Problem) -> Result<(), Violation> {
+pub(crate) fn monotone(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     if !problem.equation.has_history() {
         return Ok(());
     }
-    let mut random = Random::new(8);
-    for _ in 0..4 * POINTS {
-        let label = problem.point(&mut random);
-        let event = Event { label, t: problem.moment(&mut random) };
-        let now = problem.derivatives(&event.label, event.t);
+    for SurveyPoint { event, now, .. } in &survey.points {
         if !problem.equation.flows(now.grad[0][0]) {
             continue;
         }
@@ -47,6 +42,6 @@ mod tests {
     fn what_flows_does_not_turn_back(#[case] displacement: &str, #[case] passes: bool) {
         let equation = J2Law::new(2.0, 0.0, 0.02, 0.1).into();
         let problem = Problem { equation, ..bar(displacement, free()) };
-        assert_eq!(monotone(&problem).is_ok(), passes);
+        assert_eq!(monotone(&problem, &Survey::of(&problem)).is_ok(), passes);
     }
 }

@@ -3,14 +3,18 @@
 pub(crate) mod boundary;
 pub(crate) mod differences;
 mod distinct;
+pub(crate) mod event;
 pub(crate) mod friction;
 pub(crate) mod interface;
 pub(crate) mod loading;
 pub(crate) mod pointwise;
 pub(crate) mod rims;
 pub(crate) mod space_time_patch;
+pub(crate) mod survey;
 pub(crate) mod weak;
 
+use self::event::greatest;
+use self::survey::Survey;
 use super::linearised::Linearised;
 use super::problem::Problem;
 use super::violation::Violation;
@@ -22,27 +26,40 @@ impl Problem {
     /// # Errors
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
-        pointwise::presence(self)?;
-        pointwise::initial(self)?;
-        boundary::boundary(self)?;
-        boundary::driven(self)?;
-        rims::free(self)?;
-        loading::monotone(self)?;
-        differences::differentiation(self)?;
-        pointwise::equation(self)?;
-        weak::momentum(self)
+        self.check_with(&Survey::of(self))
+    }
+
+    /// Checks the motion as [`check`](Self::check) does, with a `survey` that shares its magnitudes
+    /// with those of other bodies.
+    ///
+    /// # Errors
+    /// The first [`Violation`].
+    pub fn check_with(&self, survey: &Survey) -> Result<(), Violation> {
+        pointwise::presence(self, survey)?;
+        pointwise::initial(self, survey)?;
+        boundary::boundary(self, survey)?;
+        boundary::driven(self, survey)?;
+        rims::free(self, survey)?;
+        loading::monotone(self, survey)?;
+        differences::differentiation(self, survey)?;
+        pointwise::equation(self, survey)?;
+        weak::momentum(self, survey)
     }
 
     /// Residual of the conditions that the law enters, relative to their terms: the equation of
     /// motion, tractions on faces and rims. NaN where another condition is violated, or this is no
     /// number.
     pub fn residual(&self) -> f64 {
-        if !self.bodies.is_empty() {
-            return pointwise::greatest(self.bodies.iter().map(Self::residual));
-        }
-        let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
-        let loose = Self { linearised: Some(any), ..self.clone() };
-        let left = [boundary::boundary, rims::free, pointwise::equation].map(|left| left(&loose));
-        pointwise::greatest(left.into_iter().map(|left| left.unwrap_or(f64::NAN)))
+        let problems =
+            if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };
+        let surveys = Survey::of_each(problems);
+        let each = problems.iter().zip(&surveys).map(|(problem, survey)| {
+            let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
+            let loose = Self { linearised: Some(any), ..problem.clone() };
+            let left = [boundary::boundary, rims::free, pointwise::equation]
+                .map(|left| left(&loose, survey));
+            greatest(left.into_iter().map(|left| left.unwrap_or(f64::NAN)))
+        });
+        greatest(each)
     }
 }

@@ -1,11 +1,23 @@
 //! Patches of space and time with a bump on each, and the points of the midpoint rule on them.
 
+use super::event::Event;
 use crate::exact::random::Random;
+
+/// The largest densities of the terms of a balance.
+pub(crate) struct Densities {
+    /// Of what is stored.
+    pub(crate) stored: f64,
+    /// Of what flows.
+    pub(crate) flow: f64,
+    /// Of what is supplied.
+    pub(crate) supply: f64,
+}
 
 /// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
 /// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten
 /// points on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07
 /// %.
+#[derive(Clone)]
 pub(crate) struct SpaceTimePatch {
     pub(crate) centre: Vec<f64>,
     half: Vec<f64>,
@@ -41,6 +53,53 @@ impl SpaceTimePatch {
         centre.push(middle);
         half.push(duration);
         Self { centre, half }
+    }
+
+    /// All of a box, at times about `t` (s) of a run until `until` (s), for no longer than
+    /// `longest` (s).
+    pub(super) fn whole((from, to): (&[f64], &[f64]), until: f64, longest: f64, t: f64) -> Self {
+        let mut half: Vec<f64> =
+            from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
+        let mut centre: Vec<f64> = from.iter().zip(&half).map(|(low, half)| low + half).collect();
+        let duration = 0.5 * until.min(longest);
+        half.push(duration);
+        centre.push(t.clamp(duration, until - duration));
+        Self { centre, half }
+    }
+
+    /// The part of the patch about `event` that is shorter by a random factor on all axes.
+    pub(super) fn about(&self, event: &Event, random: &mut Random) -> Self {
+        let mut place = event.label.clone();
+        place.push(event.t);
+        self.part(&place, 0.5 * libm::exp2(-5.0 * random.unit()))
+    }
+
+    /// The half of the patch, on every axis, about `place`.
+    pub(super) fn half_about(&self, place: &[f64]) -> Self {
+        self.part(place, 0.5)
+    }
+
+    /// The part about `place` that is shorter by `factor` on every axis.
+    fn part(&self, place: &[f64], factor: f64) -> Self {
+        let half: Vec<f64> = self.half.iter().map(|half| factor * half).collect();
+        let within = |axis: usize| {
+            let room = self.half[axis] - half[axis];
+            place[axis].clamp(self.centre[axis] - room, self.centre[axis] + room)
+        };
+        Self { centre: (0..half.len()).map(within).collect(), half }
+    }
+
+    /// The sum of the terms of a balance over a raster, if they had their `largest` densities all
+    /// over the patch.
+    pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
+        let d = self.dimension();
+        // The integrals of the bump and of its slope on one axis are 32/35 and 2 times its height.
+        let points = per_axis as f64;
+        let mean: f64 = (0..d).map(|_| 16.0 / 35.0 * points).product();
+        let slope = |axis: usize| mean * points / self.half[axis];
+        let flow: f64 = (0..d).map(slope).sum();
+        let supply = mean * 16.0 / 35.0 * points;
+        largest.stored * slope(d) + largest.flow * flow + largest.supply * supply
     }
 
     /// Points of the midpoint rule, `per_axis` of them on each axis.

@@ -7,7 +7,8 @@
 //! `R dX` in the place of dX, and less `P_tT phi` in the radial component.
 
 use super::distinct::DistinctPlaces;
-use super::space_time_patch::{Raster, SpaceTimePatch, bump, labels};
+use super::space_time_patch::{AxisPoint, Densities, Raster, SpaceTimePatch, bump, labels};
+use super::survey::{Magnitudes, Survey};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -51,29 +52,73 @@ fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     }
 }
 
-/// Checks the balance of momentum on random patches.
-pub(crate) fn momentum(problem: &Problem) -> Result<(), Violation> {
+/// Smallest share of the largest terms that counts: what is smaller, as next to a narrow pulse, is
+/// compared with this share.
+const SMALLEST: f64 = 1e-3;
+
+/// Halvings of a patch on which the sums depend on the number of points.
+const HALVINGS: usize = 12;
+
+/// Checks the balance of momentum on random patches, and on patches about the largest stresses.
+pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let mut random = Random::new(6);
     let heat = problem.heat.as_ref();
     let smooth = problem.motion.is_smooth() && heat.is_none_or(|heat| heat.temperature.is_smooth());
-    for _ in 0..patches(smooth) {
-        balance(problem, &draw(&mut random, problem))?;
+    let count = patches(smooth);
+    for _ in 0..count {
+        balance(problem, draw(&mut random, problem), &survey.largest)?;
+    }
+    for event in survey.active(count, |sizes| sizes.stress) {
+        let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+        let whole = match &problem.outline {
+            None => SpaceTimePatch::whole(ends, problem.until, longest, event.t),
+            Some(_) => draw(&mut random, problem),
+        };
+        balance(problem, whole.about(event, &mut random), &survey.largest)?;
     }
     Ok(())
 }
 
-/// Sums of the terms over a patch, by the midpoint rule. Where they balance closely on half of the
-/// points on each axis, these do; they are the fourth to the sixteenth part.
-pub(crate) fn integrate<const N: usize>(
-    patch: &SpaceTimePatch,
-    sums_on: impl Fn(&Raster) -> [Sums; N],
-) -> [Sums; N] {
+/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it is about the
+/// same with twice as many points per axis, and with four times as many. Otherwise the points do
+/// not resolve the fields: the half of the patch about its largest term is compared instead.
+///
+/// `condition` ends with the name of the equation.
+pub(crate) fn balances<const N: usize>(
+    mut patch: SpaceTimePatch,
+    condition: &str,
+    largest: &Densities,
+    sums_on: impl Fn(&Raster, f64) -> [Sums; N],
+) -> Result<(), Violation> {
     let per_axis = [0, 64, 20, 10][patch.dimension()];
-    let coarse = sums_on(&patch.raster(per_axis / 2));
-    if coarse.iter().all(|sums| sums.imbalance_within(TOLERANCE / 2.0)) {
-        return coarse;
+    for halving in 0..=HALVINGS {
+        let sums_of = |per_axis: usize| {
+            let smallest = SMALLEST * patch.largest_sum(largest, per_axis);
+            sums_on(&patch.raster(per_axis), smallest)
+        };
+        let coarse = sums_of(per_axis / 2);
+        if coarse.iter().all(|sums| sums.imbalance_within(TOLERANCE / 2.0)) {
+            return Ok(());
+        }
+        let fine = sums_of(per_axis);
+        if fine.iter().all(|sums| sums.imbalance_within(TOLERANCE)) {
+            return Ok(());
+        }
+        let settled = |fine: &[Sums; N], coarse: &[Sums; N]| {
+            let share = (0..=patch.dimension()).map(|_| 0.5).product();
+            let mut pairs = fine.iter().zip(coarse);
+            halving == HALVINGS || pairs.any(|(fine, coarse)| fine.has_settled(coarse, share))
+        };
+        if settled(&fine, &coarse) {
+            let finest = sums_of(2 * per_axis);
+            if settled(&finest, &fine) {
+                return finest.iter().try_for_each(|sums| sums.judge(condition, &patch));
+            }
+        }
+        let peak = fine.iter().max_by(|a, b| a.peak.total_cmp(&b.peak));
+        patch = peak.map_or(patch.clone(), |peak| patch.half_about(&peak.place));
     }
-    sums_on(&patch.raster(per_axis))
+    Ok(())
 }
 
 /// The sums of one component over a patch.
@@ -82,50 +127,91 @@ pub(crate) struct Sums {
     pub(crate) gain: f64,
     pub(crate) loss: f64,
     pub(crate) size: f64,
+    /// The smallest sum that counts.
+    pub(crate) smallest: f64,
+    /// The largest magnitude of a point, and the place and time of the point.
+    peak: f64,
+    place: [f64; 4],
 }
 
 impl Sums {
-    /// Whether gain and loss differ by no more than a share of the sum of all terms.
-    fn imbalance_within(&self, share: f64) -> bool {
-        (self.gain - self.loss).abs() <= share * self.size
+    /// Sums that are zero, with the `smallest` size that counts.
+    pub(crate) fn new(smallest: f64) -> Self {
+        Self { smallest, ..Self::default() }
     }
 
-    /// Holds gain against loss; `condition` ends with the name of the equation.
-    pub(crate) fn judge(
-        &self,
-        condition: &str,
-        (label, t): (&[f64], f64),
-    ) -> Result<(), Violation> {
+    /// Adds what is gained and lost at a point, the `size` of the terms there.
+    pub(crate) fn add(&mut self, gain: f64, loss: f64, size: f64, at: &[AxisPoint]) {
+        self.gain += gain;
+        self.loss += loss;
+        self.size += size;
+        if size > self.peak {
+            self.peak = size;
+            for (place, point) in self.place.iter_mut().zip(at) {
+                *place = point.at;
+            }
+        }
+    }
+
+    /// Difference of gain and loss, relative to the sum of all terms.
+    fn imbalance(&self) -> f64 {
+        (self.gain - self.loss) / self.size.max(self.smallest)
+    }
+
+    /// Whether gain and loss differ by no more than a share of the sum of all terms.
+    fn imbalance_within(&self, share: f64) -> bool {
+        (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
+    }
+
+    /// Whether there is an imbalance that is about the same on half of the points per axis, `share`
+    /// of as many points, as are the terms.
+    fn has_settled(&self, coarse: &Self, share: f64) -> bool {
+        let (fine, before) = (self.imbalance(), coarse.imbalance());
+        let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
+        !(fine.abs() <= TOLERANCE) && !((fine - before).abs() > 0.3 * fine.abs() || !same_size)
+    }
+
+    fn judge(&self, condition: &str, patch: &SpaceTimePatch) -> Result<(), Violation> {
         if self.imbalance_within(TOLERANCE) {
             return Ok(());
         }
+        let d = patch.dimension();
         Err(Violation {
             condition: format!("{condition} in weak form; shares of the sum of all terms)"),
-            label: label.to_vec(),
-            t,
+            label: patch.centre[..d].to_vec(),
+            t: patch.centre[d],
             expected: Some(self.loss / self.size),
             found: self.gain / self.size,
+            allowed: None,
             unit: "",
         })
     }
 }
 
-fn balance(problem: &Problem, patch: &SpaceTimePatch) -> Result<(), Violation> {
-    let d = problem.dimension();
+fn balance(
+    problem: &Problem,
+    patch: SpaceTimePatch,
+    largest: &Magnitudes,
+) -> Result<(), Violation> {
     let condition = "momentum balance across wave fronts (the equation of motion";
-    let centre = (&patch.centre[..d], problem.loaded(patch.centre[d]));
     let only_first = !problem.force_is_of_second_order();
-    let mut balances = integrate(patch, |raster| sums(problem, raster, only_first));
-    // What is constant where a root has an infinite slope has a derivative in jets only.
-    if balances.iter().any(|sums| !sums.size.is_finite()) {
-        balances = integrate(patch, |raster| sums(problem, raster, false));
-    }
-    balances[..d].iter().try_for_each(|sums| sums.judge(condition, centre))
+    let (ring, _) = problem.ring(&problem.to, &[[0.0; 3]; 3]);
+    let densities = Densities {
+        stored: ring * problem.density * largest.velocity,
+        flow: ring * largest.stress,
+        supply: ring * largest.force,
+    };
+    balances(patch, condition, &densities, |raster, smallest| {
+        let all = sums(problem, raster, smallest, only_first);
+        // What is constant where a root has an infinite slope has a derivative in jets only.
+        let is_finite = all.iter().all(|sums| sums.size.is_finite());
+        if is_finite { all } else { sums(problem, raster, smallest, false) }
+    })
 }
 
 /// The balance of every component on a raster of a patch, with first derivatives of the motion only
 /// if they are all that the forces take.
-fn sums(problem: &Problem, raster: &Raster, only_first: bool) -> [Sums; 3] {
+fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;
     let labels = labels(points);
@@ -134,7 +220,7 @@ fn sums(problem: &Problem, raster: &Raster, only_first: bool) -> [Sums; 3] {
     let at = distinct.first.iter().map(|point| labels[*point].as_slice());
     let mut places = if only_first { motion.slopes_at_places(at) } else { motion.at_places(at) };
     let mut fields = vec![Derivatives::default(); distinct.first.len()];
-    let mut all = [Sums::default(); 3];
+    let mut all = [Sums::new(smallest); 3];
     for time in times {
         places.set_time(time.at);
         for (place, field) in fields.iter_mut().enumerate() {
@@ -155,9 +241,8 @@ fn sums(problem: &Problem, raster: &Raster, only_first: bool) -> [Sums; 3] {
                 let stress: f64 = (0..d).map(|j| piola[i][j] * slope[j]).sum();
                 let stress = ring * stress + hoops[i] * phi;
                 let force = ring * problem.density * force[i] * phi;
-                sums.gain -= inertia;
-                sums.loss += force - stress;
-                sums.size += inertia.abs() + stress.abs() + force.abs();
+                let size = inertia.abs() + stress.abs() + force.abs();
+                sums.add(-inertia, force - stress, size, &event[..=d]);
             }
         }
     }

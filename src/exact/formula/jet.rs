@@ -165,10 +165,14 @@ impl<const N: usize> Mul for Jet<N> {
 impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
-    /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''.
+    /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''. Far
+    /// away from a pulse such as `1/cosh(x)^2` it is constant, see [`is_overflow`].
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
+        if is_overflow(b.value, value) {
+            return Self::from(value);
+        }
         let mut gradient = [0.0; N];
         for i in 0..N {
             gradient[i] = (self.gradient[i] - value * b.gradient[i]) / b.value;
@@ -210,13 +214,17 @@ impl<const N: usize> Number for Jet<N> {
     #[inline]
     fn powi(self, exponent: i32) -> Self {
         let n = f64::from(exponent);
+        let value = Number::powi(self.value, exponent);
+        if exponent < 0 && value.abs() < TINY {
+            return Self::from(value);
+        }
         // x^0 and x^1 have vanishing derivatives, where the general rule says 0 * infinity at 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
         let second = match exponent {
             0 | 1 => 0.0,
             _ => n * (n - 1.0) * power(self.value, n - 2.0),
         };
-        self.chain(Number::powi(self.value, exponent), first, second)
+        self.chain(value, first, second)
     }
 
     fn pow(self, exponent: Self) -> Self {
@@ -232,6 +240,16 @@ impl<const N: usize> Number for Jet<N> {
         let value = power(a, b);
         (exponent * self.unary(Unary::Ln)).chain(value, value, value)
     }
+}
+
+/// Magnitude below which a quotient counts as constant if its derivatives could overflow.
+pub(super) const TINY: f64 = 1e-140;
+
+/// Whether the derivatives of a quotient with such a denominator would be quotients of infinities.
+/// The quotient itself is too small then for its derivatives to matter.
+#[inline]
+pub(super) fn is_overflow(denominator: f64, quotient: f64) -> bool {
+    denominator.abs() > 1.0 / TINY && quotient.abs() < TINY
 }
 
 /// The power over `f64`, so that the value of a jet has the bits of the plain evaluation.

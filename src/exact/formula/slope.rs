@@ -2,6 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::jet::{TINY, is_overflow};
 use super::number::{Number, whole};
 use super::unary::Unary;
 
@@ -114,6 +115,9 @@ impl<const N: usize> Div for Slope<N> {
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
+        if is_overflow(b.value, value) {
+            return Self::from(value);
+        }
         Self::build(value, |i| (self.gradient[i] - value * b.gradient[i]) / b.value)
     }
 }
@@ -144,8 +148,12 @@ impl<const N: usize> Number for Slope<N> {
     #[inline]
     fn powi(self, exponent: i32) -> Self {
         let n = f64::from(exponent);
+        let value = Number::powi(self.value, exponent);
+        if exponent < 0 && value.abs() < TINY {
+            return Self::from(value);
+        }
         let first = if exponent == 0 { 0.0 } else { n * Number::pow(self.value, n - 1.0) };
-        self.chain(Number::powi(self.value, exponent), first)
+        self.chain(value, first)
     }
 
     fn pow(self, exponent: Self) -> Self {

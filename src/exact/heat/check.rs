@@ -2,14 +2,15 @@
 
 use super::condition::HeatFacePoint;
 use super::field::TemperatureDerivatives;
+use super::magnitudes::{HeatMagnitudes, HeatPoint, extent, interior, needed_and_stated};
 use super::problem::{Conduction, HeatFace};
 use super::{equation, weak};
-use crate::exact::check::differences::{DIFFERENCE_TOLERANCE, away_from_kinks};
-use crate::exact::check::pointwise::{Event, POINTS, drawn, greatest, largest};
+use crate::exact::check::differences::{DIFFERENCE_TOLERANCE, away_from_kinks, step};
+use crate::exact::check::event::{Event, FACE_EVENTS, OnFace, SpaceTimeBox, greatest};
 use crate::exact::formula::Formula;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::random::Random;
-use crate::exact::violation::Violation;
+use crate::exact::violation::{LargestViolation, Violation};
 
 impl Conduction {
     /// Holds the temperature against the heat equation (point by point and in weak form), the
@@ -18,97 +19,70 @@ impl Conduction {
     /// # Errors
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
-        presence(self)?;
-        initial(self)?;
-        boundary(self)?;
-        differentiation(self)?;
-        equation(self)?;
-        weak::balance(self)
+        let points = interior(self);
+        let largest = HeatMagnitudes::of(self, &points);
+        presence(&points, &largest)?;
+        initial(self, &largest)?;
+        boundary(self, &largest)?;
+        away_from_kinks(points.iter().map(|point| &point.0), |event| {
+            differences(self, event, &largest)
+        })?;
+        equation(self, &points, largest.terms)?;
+        weak::balance(self, &largest)
     }
-}
-
-impl Conduction {
-    /// A random place in the body, and a time of the run.
-    fn event(&self, random: &mut Random) -> Event {
-        Event { label: random.point(&self.from, &self.to), t: self.moment(random) }
-    }
-}
-
-type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
-
-fn interior(problem: &Conduction, seed: u64) -> Vec<HeatPoint> {
-    drawn(seed, |random| {
-        let event = problem.event(random);
-        let (motion, now) = problem.now(&event.label, event.t);
-        (event, motion, now)
-    })
-}
-
-/// Largest value of a quantity over the interior points; NaN if any is.
-fn scale(problem: &Conduction, quantity: impl Fn(&HeatPoint) -> f64) -> f64 {
-    greatest(interior(problem, 1).iter().map(|point| quantity(point).abs()))
 }
 
 /// The temperature is a number everywhere inside, and not zero everywhere.
-fn presence(problem: &Conduction) -> Result<(), Violation> {
-    let points = interior(problem, 1);
+fn presence(points: &[HeatPoint], largest: &HeatMagnitudes) -> Result<(), Violation> {
     let wrong = |(event, _, now): &HeatPoint, what: &str| Violation {
         condition: format!("the demand that the temperature is {what}"),
         label: event.label.clone(),
         t: event.t,
         expected: None,
         found: now.value,
+        allowed: None,
         unit: "K",
     };
     if let Some(point) = points.iter().find(|(_, _, now)| !now.value.is_finite()) {
         return Err(wrong(point, "finite"));
     }
-    if points.iter().any(|(_, _, now)| now.value != 0.0) {
-        return Ok(());
+    match points.first() {
+        Some(point) if !(largest.value > 0.0) => Err(wrong(point, "not zero everywhere")),
+        _ => Ok(()),
     }
-    Err(wrong(&points[0], "not zero everywhere"))
 }
 
 /// `T(X, 0) = T0(X)`.
-fn initial(problem: &Conduction) -> Result<(), Violation> {
-    let size = scale(problem, |(_, _, now)| now.value);
-    for (event, _, _) in interior(problem, 2) {
-        let event = Event { t: 0.0, ..event };
+fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
+    let start = SpaceTimeBox { end: 0.0, ..extent(problem) };
+    let mut worst = LargestViolation::default();
+    for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
         // Where nothing is stated, the start must be a number: nothing is near to NaN.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
         let name = "initial condition T(X, 0) = T0(X)".to_owned();
-        event.judge(problem.tolerance * size, name, (start, found), "K")?;
+        worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
     }
-    Ok(())
+    worst.into_result()
 }
 
 fn at(formula: &Formula, event: &Event) -> f64 {
     formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
-/// Magnitudes that residuals of boundary conditions are compared with.
-struct HeatMagnitudes {
-    value: f64,
-    inflow: f64,
-}
-
 /// Every face of the body, at random points and times.
-fn boundary(problem: &Conduction) -> Result<(), Violation> {
-    let sizes = HeatMagnitudes {
-        value: scale(problem, |(_, _, now)| now.value),
-        inflow: scale(problem, |(_, motion, now)| largest(&problem.inflow(motion, now))),
-    };
+fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violation> {
     let mut random = Random::new(3);
     for face in &problem.faces {
-        for _ in 0..POINTS {
-            let label = random.on_face(&problem.from, &problem.to, face.axis, face.high);
-            let event = Event { label, t: problem.moment(&mut random) };
+        let mut found = LargestViolation::default();
+        let on_face = OnFace::of((&problem.from, &problem.to), face.axis, face.high);
+        for event in on_face.extent(&extent(problem)).spread(FACE_EVENTS, |_| true, &mut random) {
             let (motion, now) = problem.now(&event.label, event.t);
             let inflow = inflow_at(problem, face, &motion, &now);
-            let point = HeatedPoint { problem, face, event, now, inflow, sizes: &sizes };
-            face.condition.check(&point)?;
+            let point = HeatedPoint { problem, face, event, now, inflow, sizes };
+            found.add(face.condition.check(&point));
         }
+        found.into_result()?;
     }
     Ok(())
 }
@@ -180,23 +154,23 @@ fn inflow_at(
 }
 
 /// T_t and Div Q, once by automatic differentiation and once by central differences.
-fn differentiation(problem: &Conduction) -> Result<(), Violation> {
-    let rate = scale(problem, |(_, _, now)| now.rate);
-    away_from_kinks(|random| problem.event(random), |event| differences(problem, event, rate))
-}
-
-fn differences(problem: &Conduction, event: &Event, rate: f64) -> Result<(), Violation> {
+fn differences(
+    problem: &Conduction,
+    event: &Event,
+    largest: &HeatMagnitudes,
+) -> Result<(), Violation> {
     let (motion, now) = problem.now(&event.label, event.t);
-    let step = 1e-5 * problem.until;
+    let over_time = step(problem.until, &[largest.value, largest.rate]);
+    let scales = [largest.value, largest.gradient, largest.curvature];
     let value = |t: f64| problem.temperature.at(&event.label, t);
-    let (low, high) = (value(event.t - step), value(event.t + step));
-    let rounding = 1e-13 * (low.abs() + high.abs()) / step;
+    let (low, high) = (value(event.t - over_time), value(event.t + over_time));
+    let rounding = 1e-13 * (low.abs() + high.abs()) / over_time;
     let name = "agreement of two differentiations of T in time".to_owned();
-    let slope = (high - low) / (2.0 * step);
-    event.judge(DIFFERENCE_TOLERANCE * rate + rounding, name, (slope, now.rate), "K/s")?;
+    let slope = (high - low) / (2.0 * over_time);
+    event.judge(DIFFERENCE_TOLERANCE * largest.rate + rounding, name, (slope, now.rate), "K/s")?;
     let (mut divergence, mut size) = (0.0, 0.0);
     for axis in 0..problem.dimension() {
-        let step = 1e-5 * (problem.to[axis] - problem.from[axis]);
+        let step = step(problem.to[axis] - problem.from[axis], &scales);
         let inflow = |sign: f64| {
             let mut label = event.label.clone();
             label[axis] += sign * step;
@@ -209,26 +183,18 @@ fn differences(problem: &Conduction, event: &Event, rate: f64) -> Result<(), Vio
     }
     let exact = problem.conductivity * equation::divergence(problem.dimension(), &motion, &now);
     let name = "agreement of two differentiations of Div Q".to_owned();
-    let allowed = DIFFERENCE_TOLERANCE * exact.abs() + 1e-9 * size;
+    let allowed = DIFFERENCE_TOLERANCE * largest.divergence + 1e-9 * size;
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
 /// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, as powers per unit of mass: that which the
 /// temperature needs, and that which is stated.
-fn equation(problem: &Conduction) -> Result<(), Violation> {
-    let terms = |(event, motion, now): &HeatPoint| {
-        let needed = problem.balance(motion, now);
-        (needed, problem.source(&event.label, event.t, motion, now))
-    };
-    let size = scale(problem, |point| {
-        let (needed, stated) = terms(point);
-        let stored = problem.capacity * point.2.rate;
-        stored.abs() + (needed - stored).abs() + stated.abs()
-    });
-    for point in &interior(problem, 4) {
-        let (needed, stated) = terms(point);
+fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
+    let mut found = LargestViolation::default();
+    for point in points {
+        let (needed, stated) = needed_and_stated(problem, point);
         let name = "heat equation, rho0 c T_t = Div(k Grad T) + rho0 s, solved for s,".to_owned();
-        point.0.judge(problem.tolerance * size, name, (needed, stated), "W/kg")?;
+        found.add(point.0.judge(problem.tolerance * size, name, (needed, stated), "W/kg"));
     }
-    Ok(())
+    found.into_result()
 }

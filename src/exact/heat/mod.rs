@@ -5,6 +5,7 @@ mod condition;
 mod equation;
 mod field;
 mod forcing;
+mod magnitudes;
 mod problem;
 mod source;
 #[cfg(test)]

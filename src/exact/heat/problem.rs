@@ -6,7 +6,6 @@ use super::field::{Temperature, TemperatureDerivatives};
 use super::source::source_at;
 use crate::exact::formula::Formula;
 use crate::exact::motion::{Derivatives, Motion};
-use crate::exact::random::Random;
 use crate::exact::truth::Truth;
 use std::sync::Arc;
 
@@ -97,11 +96,6 @@ impl Conduction {
     /// `k J C^-1 Grad T` (W/m^(D-1)): minus the flow per reference area.
     pub(super) fn inflow(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
         slope(motion, now).map(|slope| self.conductivity * slope)
-    }
-
-    /// A time of the run at which a condition is checked.
-    pub(super) fn moment(&self, random: &mut Random) -> f64 {
-        random.between(0.0, self.until)
     }
 }
 

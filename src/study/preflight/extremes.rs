@@ -1,6 +1,7 @@
-//! Extremes of an exact motion, on a raster of the body and the run.
+//! Extremes of an exact motion, on a raster of the body and the run and at the places and times of
+//! its survey, which resolve a narrow pulse.
 
-use crate::exact::{Derivatives, Problem};
+use crate::exact::{Derivatives, Problem, Survey};
 use crate::study::describe::amplitude::raster;
 
 /// Intervals of the raster along each axis, by dimension.
@@ -46,6 +47,8 @@ impl Extremes {
                 all.take(label, &now);
             }
         }
+        let survey = Survey::of(problem);
+        survey.motion().for_each(|(label, now)| all.take(label, now));
         all
     }
 

@@ -24,6 +24,7 @@ mod periods;
 mod planes;
 mod polygons;
 mod pulled_bodies;
+mod pulses;
 mod quantities;
 mod random;
 mod refinement;

@@ -1,6 +1,8 @@
 //! The heat problem that a stated temperature is to solve, and the methods that know of heat.
 
+use super::tolerance::if_rounded;
 use crate::exact::Motion;
+
 use crate::exact::heat::{Conduction, Temperature};
 use crate::mpm::{FrameName, TransferKind};
 use crate::suite::compile::coordinates::coordinates_and_time;
@@ -121,8 +123,11 @@ pub(crate) fn refuse_wrong_temperature(
 ) -> Result<(), Diagnostic> {
     problem.check().map_err(|violation| {
         let diagnostic = evaluator.diagnostic(&path.then("temperature"), &violation.to_string());
+        let rounded = if_rounded(&violation, problem.tolerance);
         diagnostic
             .with_label("this is not a solution of the problem that the scene states")
-            .with_help("correct the formula, or `heat`: numbers, source, boundary, initial state")
+            .with_help(&format!(
+                "correct the formula, or `heat`: numbers, source, boundary, initial state{rounded}"
+            ))
     })
 }

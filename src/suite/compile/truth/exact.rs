@@ -3,7 +3,7 @@
 use super::conduction::{self, ConductionInputs};
 use super::tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 use super::{equilibrium, interface, law};
-use crate::exact::{Equation, Face, Motion, Problem};
+use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::suite::compile::coordinates::coordinates_and_time;
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
@@ -12,8 +12,8 @@ use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
-/// Longest formula of a solution, which is evaluated some 30000 times with all its derivatives
-/// before anything runs.
+/// Maximum length of a formula of a solution, which is evaluated some 30000 times with all its
+/// derivatives before anything runs.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// The problem that a suite's formulas solve, if it has formulas.
@@ -40,7 +40,7 @@ pub(crate) fn exact(
             follows_motion: false,
             ..solution(evaluator, &path, state, (scene, true), until)?
         };
-        refuse_wrong_solution(evaluator, &path, &problem)?;
+        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
         return Ok(Some(problem));
     }
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
@@ -51,7 +51,7 @@ pub(crate) fn exact(
     }
     let problem = solution(evaluator, &path, exact, (scene, false), until)?;
     if scene.bodies.is_empty() {
-        refuse_wrong_solution(evaluator, &path, &problem)?;
+        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
         return Ok(Some(problem));
     }
     let each =
@@ -61,8 +61,8 @@ pub(crate) fn exact(
         evaluator,
         scene,
         bodies.clone(),
-        |problem| refuse_wrong_solution(evaluator, &path, problem),
-        |violation| no_solution(evaluator, &path, &violation),
+        |problem, survey| refuse_wrong_solution(evaluator, &path, problem, survey),
+        |violation| no_solution(evaluator, &path, &violation, problem.tolerance),
     )?;
     Ok(Some(Problem { bodies, ..problem }))
 }
@@ -158,7 +158,7 @@ fn manufactured(
     };
     let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
     let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
-    refuse_wrong_solution(evaluator, &path, &problem)?;
+    refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
     Ok(Some(problem))
 }
 
@@ -193,11 +193,12 @@ fn refuse_wrong_solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
     problem: &Problem,
+    survey: &Survey,
 ) -> Result<(), Diagnostic> {
     if let Some(problem) = &problem.heat {
         conduction::refuse_wrong_temperature(evaluator, path, problem)?;
     }
-    problem.check().map_err(|violation| violated(evaluator, path, problem, &violation))
+    problem.check_with(survey).map_err(|violation| violated(evaluator, path, problem, &violation))
 }
 
 fn motion(

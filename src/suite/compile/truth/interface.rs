@@ -4,7 +4,7 @@
 //! same extent, touching or with a gap between them. No condition is known for other faces and for
 //! rims.
 
-use crate::exact::{Interface, Problem, Violation, meets};
+use crate::exact::{Interface, Problem, Survey, Violation, meets};
 use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::ConvergenceSpec;
@@ -37,7 +37,7 @@ pub(crate) fn refuse_violated_conditions(
     evaluator: &Evaluator<'_>,
     scene: &Scene,
     mut problems: Vec<Problem>,
-    check: impl Fn(&Problem) -> Result<(), Diagnostic>,
+    check: impl Fn(&Problem, &Survey) -> Result<(), Diagnostic>,
     diagnostic: impl Fn(Violation) -> Diagnostic,
 ) -> Result<(), Diagnostic> {
     let at = Path::top("scene").then("bodies");
@@ -57,9 +57,11 @@ pub(crate) fn refuse_violated_conditions(
         problems[k].faces[2 * axis].condition = Arc::new(Interface);
     }
     refuse_other_touch(evaluator, &at, &problems, &pairs)?;
-    problems.iter().try_for_each(check)?;
+    let surveys = Survey::of_each(&problems);
+    problems.iter().zip(&surveys).try_for_each(|(problem, survey)| check(problem, survey))?;
     for (i, k, axis) in pairs {
-        meets(&problems[i], &problems[k], axis, scene.contact).map_err(&diagnostic)?;
+        let largest = &surveys[i].largest;
+        meets(&problems[i], &problems[k], axis, scene.contact, largest).map_err(&diagnostic)?;
     }
     Ok(())
 }

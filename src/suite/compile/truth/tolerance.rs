@@ -50,7 +50,8 @@ pub(crate) fn violated(
     problem: &Problem,
     violation: &Violation,
 ) -> Diagnostic {
-    let diagnostic = no_solution(evaluator, path, violation);
+    let tolerance = if problem.linearised.is_none() { problem.tolerance } else { f64::INFINITY };
+    let diagnostic = no_solution(evaluator, path, violation, tolerance);
     let left = problem.residual();
     match &problem.linearised {
         Some(stated) if left > stated.tolerance => {
@@ -70,15 +71,32 @@ pub(crate) fn violated(
     }
 }
 
-/// The diagnostic of a violation.
+/// Largest relative residual that may be a matter of rounding or of a series that was cut off.
+const ROUNDING: f64 = 1e-5;
+
+/// How to accept a violation that is small, for a solution with a `tolerance`.
+pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
+    match violation.accepted_by(tolerance) {
+        Some(accepted) if accepted <= ROUNDING => format!(
+            "; if the formula is exact to {accepted:.0e} of its largest term only, state \
+             `tolerance: {:.0e}` next to it",
+            2.0 * accepted
+        ),
+        _ => String::new(),
+    }
+}
+
+/// The diagnostic of a violation of a solution with a `tolerance`.
 pub(crate) fn no_solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
     violation: &Violation,
+    tolerance: f64,
 ) -> Diagnostic {
+    let rounded = if_rounded(violation, tolerance);
     let diagnostic =
         evaluator.diagnostic(&path.then("displacement").then(0), &violation.to_string());
-    diagnostic
-        .with_label("this is not a solution of the problem that the scene states")
-        .with_help("correct the formula, or the scene: loads, boundary, initial state")
+    diagnostic.with_label("this is not a solution of the problem that the scene states").with_help(
+        &format!("correct the formula, or the scene: loads, boundary, initial state{rounded}"),
+    )
 }

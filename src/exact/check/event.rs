@@ -1,0 +1,136 @@
+//! Places and times at which conditions are checked, spread over boxes in space and time.
+
+use crate::exact::random::Random;
+use crate::exact::violation::Violation;
+
+/// Component names for messages.
+pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// One place and time of a check.
+#[derive(Debug, Clone)]
+pub(crate) struct Event {
+    pub(crate) label: Vec<f64>,
+    pub(crate) t: f64,
+}
+
+impl Event {
+    pub(crate) fn judge(
+        &self,
+        allowed: f64,
+        condition: String,
+        values: (f64, f64),
+        unit: &'static str,
+    ) -> Result<(), Violation> {
+        let (expected, found) = values;
+        if (found - expected).abs() <= allowed {
+            return Ok(());
+        }
+        Err(self.violation(condition, Some(expected), found, (Some(allowed), unit)))
+    }
+
+    /// Whether `found` is at most `most`, but for what is allowed.
+    pub(crate) fn judge_most(
+        &self,
+        allowed: f64,
+        condition: String,
+        (most, found): (f64, f64),
+        unit: &'static str,
+    ) -> Result<(), Violation> {
+        if found - most <= allowed {
+            return Ok(());
+        }
+        Err(self.violation(condition + " at most", Some(most), found, (Some(allowed), unit)))
+    }
+
+    pub(super) fn violation(
+        &self,
+        condition: String,
+        expected: Option<f64>,
+        found: f64,
+        (allowed, unit): (Option<f64>, &'static str),
+    ) -> Violation {
+        let label = self.label.clone();
+        Violation { condition, label, t: self.t, expected, found, allowed, unit }
+    }
+}
+
+/// Largest of magnitudes; NaN if any is NaN, so that every comparison with it fails.
+pub(crate) fn greatest(magnitudes: impl Iterator<Item = f64>) -> f64 {
+    magnitudes.fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
+}
+
+pub(crate) fn largest(values: &[f64; 3]) -> f64 {
+    values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
+}
+
+/// Number of events spread over the body and the run.
+pub(crate) const EVENTS: usize = 4096;
+
+/// Number of events spread over a face, or over another part of a problem with fewer dimensions.
+pub(crate) const FACE_EVENTS: usize = 1024;
+
+/// A box in space and time.
+pub(crate) struct SpaceTimeBox<'a> {
+    pub(crate) from: &'a [f64],
+    pub(crate) to: &'a [f64],
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+}
+
+impl SpaceTimeBox<'_> {
+    /// At most `count` events, each at a random place of one cell of a regular raster. Axes of no
+    /// extent, and axes along which nothing `varies`, are not divided.
+    pub(crate) fn spread(
+        &self,
+        count: usize,
+        varies: impl Fn(usize) -> bool,
+        random: &mut Random,
+    ) -> Vec<Event> {
+        let d = self.from.len();
+        let ends: Vec<(f64, f64)> = (self.from.iter().zip(self.to).map(|(a, b)| (*a, *b)))
+            .chain([(self.start, self.end)])
+            .collect();
+        let divided: Vec<bool> = ends
+            .iter()
+            .enumerate()
+            .map(|(a, (low, high))| high > low && (a == d || varies(a)))
+            .collect();
+        let axes = divided.iter().filter(|divided| **divided).count() as u32;
+        let per_axis = (1..=count).take_while(|n| n.pow(axes) <= count).last().unwrap_or(1);
+        let total = per_axis.pow(axes);
+        let event = |mut number: usize| {
+            let mut coordinates = ends.iter().zip(&divided).map(|((low, high), divided)| {
+                let (cell, cells) = if *divided { (number % per_axis, per_axis) } else { (0, 1) };
+                number /= cells;
+                low + (high - low) * ((cell as f64 + random.unit()) / cells as f64)
+            });
+            let label = coordinates.by_ref().take(d).collect();
+            Event { label, t: coordinates.next().unwrap_or(self.end) }
+        };
+        (0..total).map(event).collect()
+    }
+}
+
+/// The corners of a face of a box.
+pub(crate) struct OnFace {
+    from: Vec<f64>,
+    to: Vec<f64>,
+}
+
+impl OnFace {
+    /// The low or the `high` face of a box on `axis`.
+    pub(crate) fn of((from, to): (&[f64], &[f64]), axis: usize, high: bool) -> Self {
+        let (mut from, mut to) = (from.to_vec(), to.to_vec());
+        if high {
+            from[axis] = to[axis]
+        } else {
+            to[axis] = from[axis]
+        }
+        Self { from, to }
+    }
+
+    /// The face, at the times of `body`.
+    pub(crate) fn extent<'a>(&'a self, body: &SpaceTimeBox<'_>) -> SpaceTimeBox<'a> {
+        SpaceTimeBox { from: &self.from, to: &self.to, start: body.start, end: body.end }
+    }
+}

@@ -1,0 +1,230 @@
+//! Places and times at which a problem is checked, and the largest terms that occur there.
+//!
+//! Events are spread evenly over the body and the run. More are then placed close to those with the
+//! largest terms, so that a pulse much narrower than the body is resolved. A residual is compared
+//! with the largest term of the whole survey: far away from a pulse all terms are rounding.
+
+use super::event::{EVENTS, Event, SpaceTimeBox, greatest, largest};
+use crate::exact::motion::Derivatives;
+use crate::exact::problem::Problem;
+use crate::exact::random::Random;
+
+/// Rounds in which events are added close to those with the largest terms.
+const ROUNDS: usize = 8;
+
+/// Events that a round adds.
+const ADDED: usize = 16;
+
+/// Largest distance of an added event in the first round, relative to the body and the run. Each
+/// round halves it.
+const REACH: f64 = 1.0 / 32.0;
+
+/// The largest magnitudes of a motion and of the terms of its equation.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Magnitudes {
+    /// Displacement (m).
+    pub(crate) displacement: f64,
+    /// Velocity (m/s).
+    pub(crate) velocity: f64,
+    /// Acceleration (m/s2).
+    pub(crate) acceleration: f64,
+    /// Displacement gradient.
+    pub(crate) gradient: f64,
+    /// Second derivatives of the displacement along the axes (1/m).
+    pub(crate) curvature: f64,
+    /// Stress (Pa): modulus times the gradient, and the initial stress.
+    pub(crate) stress: f64,
+    /// Divergence of the stress (N/m3).
+    pub(crate) divergence: f64,
+    /// Body force (N/m3).
+    pub(crate) force: f64,
+    /// Sum of all terms of the equation of motion (N/m3).
+    pub(crate) terms: f64,
+}
+
+impl Magnitudes {
+    /// Number of magnitudes.
+    const COUNT: usize = 9;
+
+    fn at(
+        problem: &Problem,
+        event: &Event,
+        now: &Derivatives,
+        [divergence, force]: &[[f64; 3]; 2],
+    ) -> Self {
+        let initial = problem.initial_stress.at(&event.label);
+        let gradient = greatest(now.grad.iter().map(largest));
+        // In a tube at rest the hoops balance the rest of Div P.
+        let hoops = largest(&problem.hoop_force(&event.label, event.t, now));
+        let terms = (0..problem.dimension()).map(|i| {
+            let inertia = problem.density * now.acceleration[i];
+            inertia.abs() + divergence[i].abs() + (problem.density * force[i]).abs() + hoops
+        });
+        Self {
+            displacement: largest(&now.u),
+            velocity: largest(&now.velocity),
+            acceleration: largest(&now.acceleration),
+            gradient,
+            curvature: greatest(now.second.iter().flatten().map(largest)),
+            stress: problem.equation.modulus() * gradient + greatest(initial.iter().map(largest)),
+            divergence: largest(divergence),
+            force: problem.density * largest(force),
+            terms: terms.sum(),
+        }
+    }
+
+    fn to_array(self) -> [f64; Self::COUNT] {
+        let Self { displacement, velocity, acceleration, gradient, curvature, .. } = self;
+        let Self { stress, divergence, force, terms, .. } = self;
+        [
+            displacement,
+            velocity,
+            acceleration,
+            gradient,
+            curvature,
+            stress,
+            divergence,
+            force,
+            terms,
+        ]
+    }
+
+    /// The larger of two, magnitude by magnitude; NaN if one of them is NaN.
+    fn larger(self, other: Self) -> Self {
+        let (a, b) = (self.to_array(), other.to_array());
+        let all: [f64; Self::COUNT] = std::array::from_fn(|i| greatest([a[i], b[i]].into_iter()));
+        let [displacement, velocity, acceleration, gradient, curvature, ..] = all;
+        let [.., stress, divergence, force, terms] = all;
+        let first = Self { displacement, velocity, acceleration, gradient, ..self };
+        Self { curvature, stress, divergence, force, terms, ..first }
+    }
+}
+
+/// An event in the interior of the body, with the motion there.
+#[derive(Debug)]
+pub(crate) struct SurveyPoint {
+    pub(crate) event: Event,
+    pub(crate) now: Derivatives,
+    /// Divergence of the stress (N/m3).
+    pub(crate) divergence: [f64; 3],
+    /// Body force (m/s2).
+    pub(crate) force: [f64; 3],
+    sizes: Magnitudes,
+}
+
+/// The motion of a problem at many events.
+#[derive(Debug)]
+pub struct Survey {
+    /// Events spread over the body and the run, then those close to the largest terms.
+    pub(crate) points: Vec<SurveyPoint>,
+    /// The largest magnitudes: those of all bodies of a scene.
+    pub(crate) largest: Magnitudes,
+}
+
+impl Survey {
+    /// Evaluates the motion of `problem`.
+    pub fn of(problem: &Problem) -> Self {
+        let mut random = Random::new(1);
+        let events = events(problem, EVENTS, &mut random);
+        let mut points: Vec<_> = events.into_iter().map(|event| point(problem, event)).collect();
+        for quantity in 0..Magnitudes::COUNT {
+            concentrate(problem, &mut points, quantity, &mut random);
+        }
+        let none = Magnitudes::default();
+        let largest = points.iter().fold(none, |all, point| all.larger(point.sizes));
+        Self { points, largest }
+    }
+
+    /// Evaluates the motions of all bodies of a scene, which share their largest magnitudes.
+    pub fn of_each(problems: &[Problem]) -> Vec<Self> {
+        let mut all: Vec<Self> = problems.iter().map(Self::of).collect();
+        let none = Magnitudes::default();
+        let largest = all.iter().fold(none, |most, survey| most.larger(survey.largest));
+        all.iter_mut().for_each(|survey| survey.largest = largest);
+        all
+    }
+
+    /// Reference positions, with the motion there.
+    pub(crate) fn motion(&self) -> impl Iterator<Item = (&[f64], &Derivatives)> {
+        self.points.iter().map(|point| (point.event.label.as_slice(), &point.now))
+    }
+
+    /// At most `count` of the events at which the quantity `of` is at least half of its maximum.
+    pub(crate) fn active(&self, count: usize, of: impl Fn(&Magnitudes) -> f64) -> Vec<&Event> {
+        let most = greatest(self.points.iter().map(|point| of(&point.sizes)));
+        let active: Vec<&Event> = self
+            .points
+            .iter()
+            .filter(|point| of(&point.sizes) >= 0.5 * most)
+            .map(|point| &point.event)
+            .collect();
+        let step = active.len().div_ceil(count.max(1)).max(1);
+        active.into_iter().step_by(step).collect()
+    }
+}
+
+/// Events spread over the body of `problem` and the run.
+pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Vec<Event> {
+    let Some(outline) = &problem.outline else {
+        return extent(problem).spread(count, |axis| problem.motion.varies_along(axis), random);
+    };
+    let event = |number: usize| {
+        let share = (number as f64 + random.unit()) / count as f64;
+        let t = problem.loaded(problem.until * share);
+        Event { label: outline.point(random), t }
+    };
+    (0..count).map(event).collect()
+}
+
+/// The box around the body, and the times of the run.
+pub(crate) fn extent(problem: &Problem) -> SpaceTimeBox<'_> {
+    let Problem { from, to, until, .. } = problem;
+    SpaceTimeBox { from, to, start: problem.loaded(0.0), end: *until }
+}
+
+fn point(problem: &Problem, event: Event) -> SurveyPoint {
+    let now = problem.derivatives(&event.label, event.t);
+    let divergence = problem.divergence(&event.label, event.t, &now);
+    let force = problem.force(&event.label, event.t, &now);
+    let sizes = Magnitudes::at(problem, &event, &now, &[divergence, force]);
+    SurveyPoint { event, now, divergence, force, sizes }
+}
+
+/// Adds events close to those at which a quantity is at least half of its maximum, closer in each
+/// round.
+fn concentrate(
+    problem: &Problem,
+    points: &mut Vec<SurveyPoint>,
+    quantity: usize,
+    random: &mut Random,
+) {
+    let mut values: Vec<f64> =
+        points.iter().map(|point| point.sizes.to_array()[quantity]).collect();
+    let mut reach = REACH;
+    for _ in 0..ROUNDS {
+        let most = greatest(values.iter().copied());
+        if !(most > 0.0) {
+            return;
+        }
+        let active: Vec<usize> = (0..values.len()).filter(|i| values[*i] >= 0.5 * most).collect();
+        if active.is_empty() {
+            return;
+        }
+        for _ in 0..ADDED {
+            let chosen = (random.unit() * active.len() as f64) as usize;
+            let near = &points[active[chosen.min(active.len() - 1)]].event;
+            let ends = problem.from.iter().zip(&problem.to);
+            let mut moved = |x: f64, length: f64| x + reach * length * random.between(-1.0, 1.0);
+            let places = near.label.iter().zip(ends.clone());
+            let label: Vec<f64> = places.map(|(x, (low, high))| moved(*x, high - low)).collect();
+            let t = problem.loaded(moved(near.t, problem.until));
+            let in_box = label.iter().zip(ends).all(|(x, (low, high))| low < x && x < high);
+            let in_run = t > 0.0 && t <= problem.until;
+            if in_box && in_run && problem.holds(&label) {
+                points.push(point(problem, Event { label, t }));
+                values.extend(points.last().map(|point| point.sizes.to_array()[quantity]));
+            }
+        }
+        reach *= 0.5;
+    }
+}
