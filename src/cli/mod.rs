@@ -28,6 +28,7 @@ mod watch;
 
 use args::{Cli, Command};
 use clap::Parser;
+use clap::error::ContextKind;
 use status::{BAD_INPUT, PASSED};
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -56,7 +57,13 @@ fn parsed(words: Vec<OsString>) -> u8 {
             done(cli.command)
         }
         // Help and the version too, which are printed to standard output.
-        Err(answer) => {
+        Err(mut answer) => {
+            // `-- -1` would pass a negative number as a suite.
+            let unknown = answer.get(ContextKind::InvalidArg).map(ToString::to_string);
+            let is_number = |text: &str| text.parse::<f64>().is_ok();
+            if unknown.is_some_and(|text| text.starts_with('-') && is_number(&text)) {
+                answer.remove(ContextKind::Suggested);
+            }
             output::keep(answer.print());
             if answer.use_stderr() { BAD_INPUT } else { PASSED }
         }

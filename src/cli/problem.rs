@@ -45,6 +45,10 @@ fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, String> {
         .checked_sub(1)
         .and_then(|index| levels.get(index))
         .ok_or_else(|| format!("there is no level {number}: expected 1 to {}", levels.len()))?;
+    let until = plan.cases[0].until;
+    if let Some(t) = args.at.filter(|t| !(0.0..=until).contains(t)) {
+        return Err(format!("`--at {t}` is not a time of the run: expected 0 to {until} s"));
+    }
     let mut problem = level_problem(&suite.name, plan, &plan.cases[0], *level)?;
     if let Some(t) = args.at {
         problem.particles = exact_state(plan, &problem.particles, t)?;

@@ -1,5 +1,6 @@
 //! Words of the commands that hold two runs side by side.
 
+use super::shared::share;
 use clap::{Args, ValueEnum};
 use mpm_verify::report::compare;
 use std::path::PathBuf;
@@ -16,7 +17,7 @@ pub(in crate::cli) struct CompareArgs {
     #[arg(long, value_enum, default_value_t = Page::Text)]
     pub(in crate::cli) format: Page,
     /// Largest relative change of a figure that counts as none
-    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE)]
+    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
     pub(in crate::cli) tolerance: f64,
     /// Draws errors that moved, before and after, as SVG files in this folder; a comment
     /// (`--format markdown`) shows them side by side

@@ -13,7 +13,7 @@ pub(in crate::cli) struct CostArgs {
     pub(in crate::cli) over: Vec<Vary>,
     /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
     /// `500ms`, `2min`
-    #[arg(long, value_name = "TIME", value_parser = seconds, conflicts_with_all = ["over", "figures", "solver"])]
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["over", "figures", "solver"])]
     pub(in crate::cli) budget: Option<f64>,
     #[command(flatten)]
     pub(in crate::cli) format: FormatArgs,

@@ -114,7 +114,7 @@ pub(super) struct DiagnoseArgs {
     #[arg(long, value_name = "TEXT", default_value = "")]
     pub(super) case: String,
     /// Predicted time for the runs of each case: `30s`, `2min`
-    #[arg(long, value_name = "TIME", value_parser = shared::seconds, default_value = "60s")]
+    #[arg(long, value_name = "TIME", value_parser = shared::seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(super) budget: f64,
     #[command(flatten)]
     pub(super) format: FormatArgs,

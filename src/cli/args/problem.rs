@@ -1,5 +1,6 @@
 //! Words of `mpm-verify problem`.
 
+use super::shared::{number, whole};
 use clap::Args;
 use mpm_verify::external::ProblemFormat;
 use std::path::PathBuf;
@@ -10,10 +11,10 @@ pub(in crate::cli) struct ProblemArgs {
     #[arg(value_name = "SUITE")]
     pub(in crate::cli) suite: PathBuf,
     /// Level, the coarsest being 1 [default: the finest that the gate runs]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(in crate::cli) level: Option<usize>,
     /// The exact state at this time (s), and not the initial one
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     pub(in crate::cli) at: Option<f64>,
     /// Format of the output: csv, json, npz, vtu
     #[arg(long, alias = "out", value_name = "FORMAT", value_parser = format, default_value = "csv")]

@@ -1,6 +1,6 @@
 //! The words of `run`, `merge` and `list`.
 
-use super::shared::{FormatArgs, SolverArgs, Targets, seconds};
+use super::shared::{FormatArgs, SolverArgs, Targets, count, seconds};
 use clap::Args;
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ pub(in crate::cli) struct ReportArgs {
     #[arg(long, value_name = "FILE")]
     pub(in crate::cli) html: Option<PathBuf>,
     /// Threads to use; results do not depend on it [default: all cores]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub(in crate::cli) jobs: Option<usize>,
 }
 
@@ -54,14 +54,14 @@ pub(in crate::cli) struct RunArgs {
     pub(in crate::cli) case: Option<String>,
     /// One of N parts of the cases, of about the same predicted cost; `merge` reports the folders
     /// that the parts keep with `--resume`
-    #[arg(long, value_name = "K/N")]
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     pub(in crate::cli) shard: Option<Shard>,
     /// Keep finished levels and the states of running ones in this folder, and take from it those
     /// that are there: an interrupted run goes on where it was
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) resume: Option<PathBuf>,
     /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
-    #[arg(long, value_name = "TIME", value_parser = seconds, requires = "resume")]
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, requires = "resume")]
     pub(in crate::cli) checkpoint_every: Option<f64>,
     /// Write particles and grid over time into this folder, as files for ParaView, of the cases
     /// that did not come as expected, or of those that `--case` chooses: on the first level that

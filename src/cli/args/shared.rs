@@ -20,10 +20,10 @@ pub(in crate::cli) struct SolverArgs {
     #[arg(long, value_name = "COMMAND")]
     pub(in crate::cli) solver: Option<String>,
     /// Longest time without an answer of the solver
-    #[arg(long, value_name = "TIME", value_parser = seconds, default_value = "60s")]
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(in crate::cli) solver_timeout: f64,
     /// Most memory (address space) of each process of the solver, in MB [default: no limit]
-    #[arg(long, value_name = "MB", requires = "solver")]
+    #[arg(long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
     pub(in crate::cli) solver_memory: Option<u64>,
 }
 
@@ -57,6 +57,34 @@ pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
     });
     let usable = known.filter(|time| *time > 0.0 && time.is_finite());
     usable.ok_or_else(|| "expected a time with its unit, such as `10s` or `500ms`".to_owned())
+}
+
+/// A whole number.
+pub(in crate::cli) fn whole(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number".to_owned())
+}
+
+/// A whole number from 1 on.
+pub(in crate::cli) fn count(text: &str) -> Result<usize, String> {
+    let known = text.parse().ok().filter(|count| *count > 0);
+    known.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
+}
+
+/// A number of megabytes.
+fn megabytes(text: &str) -> Result<u64, String> {
+    count(text).map(|count| count as u64)
+}
+
+/// A finite number.
+pub(in crate::cli) fn number(text: &str) -> Result<f64, String> {
+    let known = text.parse().ok().filter(|number: &f64| number.is_finite());
+    known.ok_or_else(|| "expected a finite number".to_owned())
+}
+
+/// A finite number that is not negative.
+pub(in crate::cli) fn share(text: &str) -> Result<f64, String> {
+    let known = number(text).ok().filter(|share| *share >= 0.0);
+    known.ok_or_else(|| "expected a finite number, zero or more".to_owned())
 }
 
 #[derive(Debug, Args)]

@@ -22,7 +22,8 @@ impl Event {
         unit: &'static str,
     ) -> Result<(), Violation> {
         let (expected, found) = values;
-        if (found - expected).abs() <= allowed {
+        let off = (found - expected).abs();
+        if off.is_finite() && off <= allowed {
             return Ok(());
         }
         Err(self.violation(condition, Some(expected), found, (Some(allowed), unit)))
@@ -36,7 +37,8 @@ impl Event {
         (most, found): (f64, f64),
         unit: &'static str,
     ) -> Result<(), Violation> {
-        if found - most <= allowed {
+        let over = found - most;
+        if over.is_finite() && over <= allowed {
             return Ok(());
         }
         Err(self.violation(condition + " at most", Some(most), found, (Some(allowed), unit)))

@@ -147,6 +147,12 @@ impl<'a> Lexer<'a> {
         let name = self.name();
         if !name.is_empty() {
             let message = format!("`{number}{name}` is neither a number nor a name");
+            let after = name.trim_start_matches('_');
+            if name.starts_with('_') && after.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_') {
+                let whole = format!("{number}{}", name.replace('_', ""));
+                return Err(FormulaError::new(start..self.at, message)
+                    .help(format!("digits are not grouped: write `{whole}`")));
+            }
             return Err(FormulaError::new(start..self.at, message)
                 .help(format!("write `{number}*{name}` to multiply")));
         }

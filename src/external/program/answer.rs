@@ -3,7 +3,7 @@
 use super::column::ColumnText;
 use super::frame::MessageFrame;
 use super::hello::Hello;
-use super::printable::printable;
+use super::printable::{plain, printable};
 use super::request::ValueRequest;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -112,7 +112,7 @@ impl Answer {
                 let hint = "what else it prints belongs on its standard error";
                 return format!("answered with what is no message ({hint}): `{}`", excerpt(&text));
             }
-            format!("answered with what is no message ({error}): `{}`", excerpt(&text))
+            format!("answered with what is no message ({}): `{}`", plain(&error), excerpt(&text))
         })
     }
 

@@ -42,8 +42,11 @@ impl SolverProgram {
     /// # Errors
     /// One line that says what is wrong with the command or its answer.
     pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, String> {
-        let command = shlex::split(command).filter(|words| !words.is_empty());
-        let command = command.ok_or("expected a command with its arguments")?;
+        let command = shlex::split(command)
+            .ok_or("command has a quote that is not closed, or ends with a backslash")?;
+        if command.is_empty() {
+            return Err("is empty: expected a command with its arguments".to_owned());
+        }
         let (connection, hello) = connected(&command, limits)?;
         connection.end();
         let identity = identity(&command, &hello);

@@ -153,6 +153,9 @@ impl ProgramSubject {
         samples.temperature = column("temperature", n)?.unwrap_or_default();
         self.counters.crossings = crossings;
         self.counters.left_domain = left_domain;
+        if let Some(j) = min_j.filter(|j| !(*j > 0.0 && j.is_finite())) {
+            return Err(format!("gave `min_j` {j}: a determinant of F is a positive number"));
+        }
         self.counters.min_j = min_j.unwrap_or(f64::NAN);
         Ok(())
     }

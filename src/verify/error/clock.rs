@@ -42,7 +42,8 @@ impl Clock {
 
     /// `steps`, at least one, if they make a run.
     fn usable(until: f64, wanted: f64, instants: u64, steps: f64) -> Option<u64> {
-        let usable = until > 0.0 && wanted > 0.0 && until.is_finite() && instants > 0;
+        let positive = |time: f64| time > 0.0 && time.is_finite();
+        let usable = positive(until) && positive(wanted) && instants > 0;
         (usable && steps <= MOST_STEPS).then_some(steps.max(1.0) as u64)
     }
 

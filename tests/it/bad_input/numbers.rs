@@ -64,6 +64,31 @@ use rstest::rstest;
     &["with 6 cells the time step is 1e-300", "at most 1e9 of them"]
 )]
 #[case::a_time_step_that_is_none(&[("dt: 1e-3", "dt: ▸\"0/0\"")], &["the time step is NaN"])]
+#[case::an_infinite_time_step(
+    &[("dt: 1e-3", "dt: ▸\"0.5*h/(E - E)\"")],
+    &["with 6 cells the time step is inf", "expected a positive step"]
+)]
+#[case::an_infinite_gravity(
+    &[("  boundary: {left: fixed}", "  boundary: {left: fixed}\n  loads: [gravity: [▸\"1/0\"]]")],
+    &["`1/0` is inf, which is not finite", "expected a finite number"]
+)]
+#[case::an_infinite_traction(
+    &[
+        ("  boundary: {left: fixed}", "  boundary: {left: fixed}\n  loads: [traction: {on: right, value: [\"1/(t - t)\"]}]"),
+        ("[\"v0/omega", "[▸\"v0/omega"),
+    ],
+    &["right is loaded, traction in X", "expected inf", "off by -inf"]
+)]
+#[case::grouped_digits(&[("E: 100", "E: ▸1_000")], &["digits are not grouped: write `1000`"])]
+#[case::grouped_digits_in_a_formula(
+    &[("E: 100", "E: \"2*▸1_000_000\"")],
+    &["digits are not grouped: write `1000000`"]
+)]
+#[case::a_decimal_comma(&[("E: 100", "E: \"1▸,5\"")], &["a decimal point is written `.`: `1.5`"])]
+#[case::a_decimal_comma_in_brackets(
+    &[("E: 100", "E: \"2*(1▸,5 + 3)\"")],
+    &["a decimal point is written `.`: `1.5`"]
+)]
 #[case::a_time_step_below_zero_on_coarse_grids(
     &[("dt: 1e-3", "dt: ▸\"1e-3*(4 - h)\"")],
     &["with 6 cells the time step is -0.001"]

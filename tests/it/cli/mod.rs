@@ -1,5 +1,6 @@
 //! The command line as its user meets it: what is printed where, and with which exit status.
 
+mod arguments;
 mod checkpoint;
 mod compare;
 mod cost;

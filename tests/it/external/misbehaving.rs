@@ -52,6 +52,22 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
     "gave the column `displacement` 1 numbers, expected 16"
 )]
 #[case::no_column("echo '{\"type\":\"state\",\"columns\":{}}'", "gave no column `displacement`")]
+#[case::a_fraction_of_a_count(
+    "echo '{\"type\":\"state\",\"columns\":{},\"crossings\":1.5}'",
+    "expected a whole number, zero or more at line 1"
+)]
+#[case::a_count_in_words(
+    "echo '{\"type\":\"state\",\"columns\":{},\"left_domain\":\"none\"}'",
+    "expected a whole number, zero or more at line 1"
+)]
+#[case::a_column_that_is_a_number(
+    "echo '{\"type\":\"state\",\"columns\":{\"displacement\":5}}'",
+    "a column is a list of numbers, or `{\"f64\": [OFFSET, COUNT]}`"
+)]
+#[case::a_negative_determinant(
+    "echo '{\"type\":\"state\",\"columns\":{\"displacement\":ZEROS,\"velocity\":ZEROS},\"min_j\":-1}'",
+    "gave `min_j` -1: a determinant of F is a positive number"
+)]
 #[case::nan(
     "echo '{\"type\":\"state\",\"columns\":{\"displacement\":[NaN]}}'",
     "answered with NaN, which is no number"
@@ -76,7 +92,9 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
     // What is waited for to the end is waited for briefly.
     let patience = if then.ends_with("sleep 99") { "0.3s" } else { "1s" };
-    let (code, said) = run(&script(then), &["--solver-timeout", patience]);
+    let zeros = format!("{:?}", [0; 16]);
+    let (code, said) =
+        run(&script(&then.replace("ZEROS", &zeros)), &["--solver-timeout", patience]);
     assert!(code == SOUND && said.contains("explored  short-bar::odd  failed"), "{said}");
     let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(flat.contains(words), "no `{words}` in\n{said}");

@@ -150,6 +150,16 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// The number around a comma between two numbers, with a point in its place.
+    fn decimal_comma(&self) -> Option<String> {
+        let (before, after) =
+            (self.lexemes.get(self.at.checked_sub(1)?)?, self.lexemes.get(self.at + 1)?);
+        let are_numbers =
+            [before, after].iter().all(|lexeme| matches!(lexeme.token, Token::Number(_)));
+        let text = |lexeme: &Lexeme<'_>| self.source.get(lexeme.span.clone());
+        are_numbers.then(|| Some(format!("{}.{}", text(before)?, text(after)?)))?
+    }
+
     /// The error where an operand has ended: if another one follows, a `*` may be missing.
     fn missing_operator(&self, expected: &str) -> FormulaError {
         let error = self.expected(expected);
@@ -157,6 +167,10 @@ impl<'a> Parser<'a> {
             Token::Number(_) | Token::Name(_) | Token::Symbol('(') => {
                 error.help("there is no implicit multiplication: write `*`")
             }
+            Token::Symbol(',') => match self.decimal_comma() {
+                Some(number) => error.help(format!("a decimal point is written `.`: `{number}`")),
+                None => error,
+            },
             _ => error,
         }
     }

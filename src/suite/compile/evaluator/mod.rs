@@ -113,7 +113,14 @@ impl<'a> Evaluator<'a> {
             let message = format!("{got} components in a scene of dimension {d}");
             return Err(self.diagnostic(path, &message).with_label(&format!("expected {d}")));
         }
-        let bind = |(i, text)| self.formula(&path.then(i), text, variables);
+        let bind = |(i, text): (usize, &NumberText)| {
+            let path = path.then(i);
+            let formula = self.formula(&path, text, variables)?;
+            match formula.constant() {
+                Some(value) if !value.is_finite() => Err(self.not_finite(&path, text, value)),
+                _ => Ok(formula),
+            }
+        };
         texts.iter().enumerate().map(bind).collect()
     }
 
