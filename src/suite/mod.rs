@@ -18,7 +18,7 @@ pub mod yaml;
 
 #[cfg(feature = "schemas")]
 pub use compile::schema::suite_schema;
-pub use grammar::{CrossingLevels, EquationName, NormName};
+pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
 pub use model::external_method::ExternalMethod;
 pub use model::heat::SceneHeat;
 pub use model::load::EffectName;

@@ -94,9 +94,12 @@ pub(super) struct CheckArgs {
     /// Exit status 1 if there are warnings
     #[arg(long)]
     pub(super) strict: bool,
-    /// Say nothing of suites that are sound, and make no notes
+    /// Print nothing about sound suites, and no notes
     #[arg(long, short)]
     pub(super) quiet: bool,
+    /// Print all notes. Without this: the notes about suites that are named, and a count of others
+    #[arg(long, conflicts_with = "quiet")]
+    pub(super) notes: bool,
     #[command(flatten)]
     pub(super) format: FormatArgs,
     #[command(flatten)]

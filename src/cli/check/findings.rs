@@ -11,12 +11,21 @@ use serde_json::{Value, json};
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
+    /// Whether notes are printed in full.
+    has_notes: bool,
     suites: Vec<Value>,
 }
 
 impl CheckFindings {
-    pub(super) fn new(args: &CheckArgs) -> Self {
-        Self { is_json: args.format.is_json(), is_quiet: args.quiet, suites: Vec::new() }
+    /// Findings about `count` suites. Notes are printed if every target names one suite.
+    pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
+        let is_named = count <= args.targets.targets.len();
+        Self {
+            is_json: args.format.is_json(),
+            is_quiet: args.quiet,
+            has_notes: args.notes || (is_named && !args.quiet),
+            suites: Vec::new(),
+        }
     }
 
     /// A file that cannot be used.
@@ -46,8 +55,8 @@ impl CheckFindings {
             if !self.is_quiet {
                 output::print(&sound(suite));
             }
-            let is_said = |one: &&Diagnostic| !(self.is_quiet && one.severity() == Severity::Note);
-            return found.iter().filter(is_said).for_each(output::diagnose);
+            let is_printed = |one: &&Diagnostic| self.has_notes || one.severity() != Severity::Note;
+            return found.iter().filter(is_printed).for_each(output::diagnose);
         }
         let cost = study::estimate(suite);
         let linearised = study::linearisation(suite);
@@ -69,7 +78,8 @@ impl CheckFindings {
     /// Says how many complaints there are.
     pub(super) fn end(self, counts: Counts) {
         if !self.is_json {
-            return if self.is_quiet { Counts { notes: 0, ..counts } } else { counts }.say();
+            let counts = if self.is_quiet { Counts { notes: 0, ..counts } } else { counts };
+            return counts.print(self.has_notes);
         }
         let Counts { errors, warnings, notes } = counts;
         let document =
@@ -114,7 +124,7 @@ impl Counts {
     }
 
     /// One line on standard error, if there is anything to count.
-    fn say(self) {
+    fn print(self, has_notes: bool) {
         let counted = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
         let said = |(count, noun): (usize, &str)| match count {
             0 => None,
@@ -122,8 +132,11 @@ impl Counts {
             _ => Some(format!("{count} {noun}s")),
         };
         let said: Vec<String> = counted.into_iter().filter_map(said).collect();
+        let hidden = self.notes > 0 && !has_notes;
+        let hint =
+            if hidden { " (printed with `--notes`, or for suites that are named)" } else { "" };
         if !said.is_empty() {
-            output::complain(&said.join(", "));
+            output::complain(&format!("{}{hint}", said.join(", ")));
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn check(args: &CheckArgs) -> u8 {
 fn all(args: &CheckArgs) -> u8 {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
-    let mut findings = CheckFindings::new(args);
+    let mut findings = CheckFindings::new(args, found.len());
     let mut names: BTreeMap<String, String> = BTreeMap::new();
     let solver = match solver::greeted(&args.solver) {
         Ok(solver) => solver,

@@ -16,8 +16,9 @@
 //! cost         seconds and memory
 //! ```
 //!
-//! A rule speaks of what its suite claims: a suite that only bounds an error is not told that its
-//! levels are too few for an order.
+//! A rule concerns what its suite claims: a suite that only bounds an error gets no warning about
+//! too few levels for an order. A suite acknowledges findings that it intends by their names, with
+//! `acknowledge`.
 
 pub(crate) mod alignment;
 pub(crate) mod cost;
@@ -37,29 +38,58 @@ pub(crate) use cost::UNKNOWN;
 pub use cost::{Estimate, estimate, estimates, unit_seconds};
 
 use self::subject::Preflight;
+use crate::suite::grammar::WarningName;
 use crate::suite::model::{ConvergencePlan, Suite};
-use crate::suite::yaml::{Diagnostic, Source};
+use crate::suite::yaml::{Diagnostic, Severity, Source};
 
 /// Findings of one rule.
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
-/// Every rule of suites that claim an order.
-const RULES_OF_ORDER: [PreflightRule; 6] = [
-    levels::check,
-    time_step::check,
-    reach::check,
-    strain::check,
-    precision::check,
-    alignment::check,
+/// Rules of suites that claim an order, with the names under which suites acknowledge them.
+const RULES_OF_ORDER: [(WarningName, PreflightRule); 6] = [
+    (WarningName::FewLevels, levels::check),
+    (WarningName::TimeStep, time_step::check),
+    (WarningName::LeavesGrid, reach::check),
+    (WarningName::SmallStrain, strain::check),
+    (WarningName::SinglePrecision, precision::check),
+    (WarningName::InsideCell, alignment::check),
 ];
 
-/// Every rule of all suites.
-const RULES: [PreflightRule; 3] = [linearised::check, end_on_node::check, undamped::check];
+/// Rules of all suites, with their names.
+const RULES: [(WarningName, PreflightRule); 3] = [
+    (WarningName::LooseTolerance, linearised::check),
+    (WarningName::EndOnNode, end_on_node::check),
+    (WarningName::Undamped, undamped::check),
+];
 
-/// Warnings and notes about `suite`, read from `source`; none about studies that refine nothing.
+/// A finding whose help, if it is a warning, has the name under which it is acknowledged.
+fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
+    if finding.severity() != Severity::Warning {
+        return finding;
+    }
+    let acknowledged = format!("if the suite intends this, `acknowledge` `{}`", name.name());
+    let help = match finding.help() {
+        Some(help) => format!("{help}; {acknowledged}"),
+        None => acknowledged,
+    };
+    finding.with_help(&help)
+}
+
+/// Warnings and notes about `suite`, read from `source`, except those that the suite acknowledges;
+/// none about studies that refine nothing.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let preflight = Preflight::new(plan, source);
     let of_order = RULES_OF_ORDER.iter().filter(|_| preflight.claims_an_order());
-    of_order.chain(&RULES).flat_map(|rule| rule(&preflight)).collect()
+    let (mut findings, mut used) = (Vec::new(), Vec::new());
+    for (name, rule) in of_order.chain(&RULES) {
+        let found = rule(&preflight);
+        if plan.acknowledged.contains(name) {
+            used.extend(found.first().map(|_| *name));
+        } else {
+            findings.extend(found.into_iter().map(|finding| with_name(finding, *name)));
+        }
+    }
+    findings.extend(preflight.unused_acknowledgements(&used));
+    findings
 }

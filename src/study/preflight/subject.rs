@@ -3,6 +3,7 @@
 use super::extremes::Extremes;
 use crate::mpm::FrameName;
 use crate::suite::compile::path::Path;
+use crate::suite::grammar::WarningName;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan};
@@ -69,6 +70,20 @@ impl<'a> Preflight<'a> {
 
     fn stands(&self, path: &Path) -> bool {
         self.source.value_at(path.steps()).is_some()
+    }
+
+    /// A warning about every acknowledgement that is not among those `used`. An external solver in
+    /// place of the methods of the suite may have other findings.
+    pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
+        let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());
+        let all = self.plan.acknowledged.iter().enumerate().filter(|_| !replaced);
+        let unused = all.filter(|(_, name)| !used.contains(name));
+        let warning = |(i, name): (usize, &WarningName)| {
+            let path = Path::top("acknowledge").then(i).then("warning");
+            let message = format!("there is no warning `{}` to acknowledge", name.name());
+            self.finding(Severity::Warning, &path, &message).with_help("remove this entry")
+        };
+        unused.map(warning).collect()
     }
 
     /// A finding about the value at `path`.

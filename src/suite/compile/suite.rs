@@ -3,6 +3,7 @@
 
 use super::check::{fem_support, load_support, size, subject_support, sums};
 use super::evaluator::Evaluator;
+use super::expect::because::because;
 use super::path::Path;
 use super::run::{cases, refine, same_method, scatter, steps};
 use super::scene::scene_words::SceneWords;
@@ -10,7 +11,8 @@ use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, reference};
 use super::{assemble, internal_force, observe, stability, suite_name};
 use crate::suite::grammar::{
-    ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName, read,
+    AcknowledgeSpec, ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName,
+    WarningName, read,
 };
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
@@ -139,6 +141,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         scale: scale.transpose()?,
         crossing_levels: spec.judge.crossing_levels,
         cases: Vec::new(),
+        acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
     subject_support::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
@@ -149,6 +152,24 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
     Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+}
+
+/// The warnings that a suite acknowledges. Each needs its reason, and appears once.
+fn acknowledged(
+    evaluator: &Evaluator<'_>,
+    specs: &[AcknowledgeSpec],
+) -> Result<Vec<WarningName>, Diagnostic> {
+    let mut names = Vec::new();
+    for (i, spec) in specs.iter().enumerate() {
+        let path = Path::top("acknowledge").then(i);
+        because(evaluator, &path, "an acknowledged warning", &spec.because)?;
+        if names.contains(&spec.warning) {
+            let message = format!("`{}` is acknowledged twice", spec.warning.name());
+            return Err(evaluator.diagnostic(&path.then("warning"), &message));
+        }
+        names.push(spec.warning);
+    }
+    Ok(names)
 }
 
 fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {

@@ -3,6 +3,7 @@
 //! Every map refuses keys that it does not know. A number may be a formula of declared parameters;
 //! a method's entries may be lists, whose product gives the cases.
 
+pub(crate) mod acknowledge;
 pub(crate) mod drift;
 pub(crate) mod expect;
 pub(crate) mod head;
@@ -17,6 +18,8 @@ pub(crate) mod step;
 pub(crate) mod transfer;
 pub(crate) mod truth;
 
+pub(crate) use acknowledge::AcknowledgeSpec;
+pub use acknowledge::WarningName;
 pub(crate) use drift::DriftSpec;
 pub(crate) use expect::{CrossingsName, ExpectSpec};
 pub(crate) use head::{Head, StudyName};
@@ -89,6 +92,9 @@ pub(crate) struct ConvergenceSpec {
     /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
     #[serde(default)]
     pub(crate) expect: Vec<ExpectSpec>,
+    /// Warnings of `check` that the suite intends, each with its reason.
+    #[serde(default)]
+    pub(crate) acknowledge: Vec<AcknowledgeSpec>,
 }
 
 impl ConvergenceSpec {

@@ -18,6 +18,7 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("refine", "{cells: [8, 16, 32, 64], ppc: 4}"),
     ("methods", "[{mpm: {basis: linear, transfer: flip, scheme: musl}}]"),
     ("because", "theory says so"),
+    ("warning", "small_strain"),
     ("by", "t"),
     ("table", "[[0, 0], [1, 1]]"),
     // A scene.

@@ -28,7 +28,7 @@ use self::lattice::LatticeOffsets;
 use self::method::Method;
 use self::refine_plan::{LevelPlan, RefinePlan};
 use self::study_plan::{StudyPlan, kept};
-use super::grammar::{CrossingLevels, EquationName, NormName};
+use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};
 use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
@@ -93,6 +93,8 @@ pub struct ConvergencePlan {
     pub observe: Option<Vec<f64>>,
     /// The cases, in the order of the product.
     pub cases: Vec<Case>,
+    /// Warnings that the suite intends, in the order of the file.
+    pub acknowledged: Vec<WarningName>,
 }
 
 /// One case of a convergence study.

@@ -1,6 +1,7 @@
 //! The command line as its user meets it: what is printed where, and with which exit status.
 
 mod arguments;
+mod check;
 mod checkpoint;
 mod compare;
 mod cost;

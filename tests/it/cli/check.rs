@@ -1,0 +1,95 @@
+//! `mpm-verify check`: notes, and warnings that suites acknowledge.
+
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use rstest::rstest;
+
+/// The bar with a time step beyond the stable one, followed by `more`.
+fn long_step(more: &str) -> String {
+    let text = BAR.replace("dt: 1e-3", "dt: \"1.3*h/10\"");
+    assert_ne!(text, BAR);
+    format!("{text}\n{more}\n")
+}
+
+/// The bar with the same short step on all levels, which is a note.
+fn with_note(name: &str) -> String {
+    let text = BAR.replace("suite: short-bar", &format!("suite: {name}"));
+    assert_ne!(text, BAR);
+    text
+}
+
+const NOTE: &str = "note: the time step is the same on every level";
+
+#[test]
+fn notes_are_printed_for_suites_that_are_named() {
+    let folder = Folder::new();
+    folder.write("bars/a.yaml", with_note("bar-a"));
+    folder.write("bars/b.yaml", with_note("bar-b"));
+    let of_folder = folder.call(&["check", "bars"]);
+    assert!(!of_folder.errors.contains(NOTE), "{}", of_folder.errors);
+    let hint = " notes (printed with `--notes`, or for suites that are named)";
+    assert!(of_folder.errors.contains(hint), "{}", of_folder.errors);
+    let printed = |arguments: &[&str]| folder.call(arguments).errors.matches(NOTE).count();
+    assert_eq!(printed(&["check", "bars", "--notes"]), 2);
+    assert_eq!(printed(&["check", "bars/a.yaml"]), 1);
+    assert_eq!(printed(&["check", "bars/a.yaml", "bars/b.yaml"]), 2);
+    assert_eq!(printed(&["check", "bars/a.yaml", "--quiet"]), 0);
+}
+
+const ACKNOWLEDGED: &str =
+    "acknowledge: [{warning: time_step, because: it is what the suite shows}]";
+
+#[test]
+fn an_acknowledged_warning_is_not_printed() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", long_step(""));
+    let warned = folder.call(&["check", "bar.yaml", "--strict"]);
+    assert_eq!(warned.code, FAILED);
+    for part in ["times what a wave takes to cross a cell", "`acknowledge` `time_step`"] {
+        assert!(warned.errors.contains(part), "no `{part}` in\n{}", warned.errors);
+    }
+    folder.write("bar.yaml", long_step(ACKNOWLEDGED));
+    let found = folder.call(&["check", "bar.yaml", "--strict"]);
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    assert!(!found.errors.contains("warning"), "{}", found.errors);
+}
+
+#[test]
+fn an_acknowledgement_without_its_warning_is_a_warning() {
+    let folder = Folder::new();
+    folder.write("bar.yaml", long_step(&ACKNOWLEDGED.replace("time_step", "end_on_node")));
+    let found = folder.call(&["check", "bar.yaml", "--strict"]);
+    assert_eq!(found.code, FAILED);
+    assert!(
+        found.errors.contains("there is no warning `end_on_node` to acknowledge"),
+        "{}",
+        found.errors
+    );
+    assert!(found.errors.contains("times what a wave takes to cross a cell"), "{}", found.errors);
+}
+
+#[rstest]
+#[case::an_unknown_name("[{warning: time_stp, because: x}]", "did you mean `time_step`?")]
+#[case::no_reason("[{warning: time_step}]", "missing key `because`")]
+#[case::an_empty_reason(
+    "[{warning: time_step, because: \" \"}]",
+    "an acknowledged warning needs its reason"
+)]
+#[case::the_same_twice(
+    "[{warning: time_step, because: x}, {warning: time_step, because: y}]",
+    "`time_step` is acknowledged twice"
+)]
+#[case::a_bare_name("[time_step]", "expected a map")]
+fn an_acknowledgement_is_refused_with(#[case] entries: &str, #[case] words: &str) {
+    let folder = Folder::new();
+    folder.write("bar.yaml", long_step(&format!("acknowledge: {entries}")));
+    let found = folder.call(&["check", "bar.yaml"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+}
+
+/// A new warning about a built-in suite would not be lost among others.
+#[test]
+fn built_in_suites_have_no_warning_that_they_do_not_acknowledge() {
+    let found = Folder::new().call(&["check", "--strict", "--quiet"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+}
