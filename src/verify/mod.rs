@@ -77,7 +77,9 @@ pub use stability::{
     spectral_radius, stability_limit, trial,
 };
 pub use study_results::StudyResults;
-pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, Finding, FindingKind};
+pub use verdict::diagnosis::{
+    Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind,
+};
 pub use verdict::floor::{Floor, FloorCause, Probe};
 pub use verdict::judge::{Judgement, judge};
 pub use verdict::name::{UnknownVerdict, Verdict};

@@ -40,7 +40,7 @@ pub(crate) fn paragraph(found: &Diagnosis) -> String {
         };
         sentences.push(format!("{lead}: {}.", cause.cause()));
         sentences.push(match cause {
-            Cause::Finding(finding) => finding.evidence.clone(),
+            Cause::Known(finding) => finding.evidence.clone(),
             Cause::Run(run, evidence) => evidence_of_run(found, run, *evidence),
         });
         sentences.extend(remedy(cause));
@@ -127,7 +127,7 @@ fn remedy(cause: &Cause<'_>) -> Option<String> {
             let refusal = run.refusal.as_deref().unwrap_or_default();
             Some(format!("`check` refuses {} in this suite: {refusal}.", run.remedy))
         }
-        (None, Cause::Finding(_)) => None,
+        (None, Cause::Known(_)) => None,
     }
 }
 

@@ -24,10 +24,10 @@ const POINT: f64 = 1e-9;
 const ROUNDING: f64 = 1e-9;
 
 /// A derivative of the displacement: its order, and its values.
-type Group = (usize, fn(&Derivatives) -> Vec<f64>);
+type Derivative = (usize, fn(&Derivatives) -> Vec<f64>);
 
 /// The displacement and its derivatives, from the lowest order.
-const GROUPS: [Group; 6] = [
+const GROUPS: [Derivative; 6] = [
     (0, |now| now.u.to_vec()),
     (1, |now| now.velocity.to_vec()),
     (1, |now| now.grad.as_flattened().to_vec()),

@@ -7,8 +7,8 @@ use crate::study::preflight::extremes::Extremes;
 use crate::study::preflight::undamped;
 use crate::suite::model::method::Method;
 use crate::verify::{
-    Axis, FEWEST_LEVELS, Finding, FindingKind, Interval, LevelOutcome, OrderHypothesis, Verdict,
-    observed_order,
+    Axis, FEWEST_LEVELS, Interval, KnownCause, KnownCauseKind, LevelOutcome, OrderHypothesis,
+    Verdict, observed_order,
 };
 
 /// Share of its distance from the order of theory that an order keeps at most, if levels that were
@@ -24,7 +24,7 @@ const COARSE: f64 = 0.5;
 
 /// A finding about coarse levels that do not resolve the exact solution: the order without them is
 /// that of theory, or the orders between neighbouring levels rise to it.
-pub(super) fn coarse(known: &Known<'_>) -> Option<Finding> {
+pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     let (session, axis) = (known.session, known.plan.refine.axis);
     let p = session.formal_order;
     let levels: Vec<&LevelOutcome> = known.levels.iter().filter(|level| level.usable).collect();
@@ -60,8 +60,8 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<Finding> {
     if order.is_none() {
         remedy += ", and add finer levels";
     }
-    Some(Finding {
-        kind: FindingKind::CoarseLevels,
+    Some(KnownCause {
+        kind: KnownCauseKind::CoarseLevels,
         cause: "the first levels are too coarse".to_owned(),
         evidence: evidence + &resolution.map_or(String::new(), |(_, text)| text),
         remedy: Some(remedy),
@@ -101,7 +101,7 @@ fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
 }
 
 /// A finding about an equilibrium that nothing brings the body to.
-pub(super) fn undamped(known: &Known<'_>) -> Option<Finding> {
+pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     undamped::oscillates(plan, case).then_some(())?;
     let finest = known.levels.last()?;
@@ -112,8 +112,8 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<Finding> {
     });
     let is_external = matches!(case.method, Method::External { .. });
     let unless = if is_external { ", unless the solver itself does" } else { "" };
-    Some(Finding {
-        kind: FindingKind::NoDamping,
+    Some(KnownCause {
+        kind: KnownCauseKind::NoDamping,
         cause: format!("nothing removes energy{unless}; the body oscillates about its equilibrium"),
         evidence: format!(
             "The largest displacement of the equilibrium is {size:.3e} m, and the finest error is \

@@ -39,7 +39,9 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::{Against, ConvergencePlan, Suite};
 use crate::suite::yaml::Source;
-use crate::verify::{Axis, ChangedRun, Diagnosis, FEWEST_LEVELS, Finding, LevelOutcome, Quantity};
+use crate::verify::{
+    Axis, ChangedRun, Diagnosis, FEWEST_LEVELS, KnownCause, LevelOutcome, Quantity,
+};
 
 /// Number of levels, the finest, that are run again.
 const LEVELS: usize = 5;
@@ -66,7 +68,7 @@ const PROBES: [&ProbeKind; 14] = [
 ];
 
 /// Every search for a cause that needs no change of the method.
-const CHECKS: [fn(&Known<'_>) -> Option<Finding>; 5] =
+const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 5] =
     [steps::check, walls::check, levels::undamped, levels::coarse, regularity::check];
 
 /// The diagnosis of case number `index` of a suite, within a predicted time (s) for all changed

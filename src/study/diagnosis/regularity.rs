@@ -4,14 +4,14 @@ use super::jumps::{lowest_jump, sizes};
 use super::session::Known;
 use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
-use crate::verify::{Axis, Finding, FindingKind, OrderHypothesis, Quantity};
+use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
 /// Share of its largest value by which the strain changes in a cell that cannot tell the change
 /// from a jump.
 const STEEP: f64 = 0.5;
 
 /// Distance of the observed order below the limit, at most, if the limit explains it.
-const BELOW: f64 = 0.3;
+const BELOW: f64 = 0.5;
 
 /// Largest order that a method of order `p` can be expected to have on a solution of which the
 /// derivative of order `jump` jumps; `None` of a sum over the body.
@@ -36,7 +36,7 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
 }
 
 /// A finding about an exact solution on which the order of theory cannot be reached.
-pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
+pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
     if plan.refine.axis != Axis::Space {
@@ -86,8 +86,8 @@ pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
     let manufactured = plan.manufactured().is_some() && jump < 2;
     let lacking = " A manufactured force has no concentrated force at a kink, so that the solver \
                    solves another problem.";
-    Some(Finding {
-        kind: FindingKind::NotSmooth,
+    Some(KnownCause {
+        kind: KnownCauseKind::NotSmooth,
         cause,
         evidence: if manufactured { evidence + lacking } else { evidence },
         remedy: Some(if manufactured {
@@ -99,6 +99,6 @@ pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
             )
         }),
         order: None,
-        explains: observed.is_some_and(|order| order.high >= limit - BELOW),
+        explains: observed.is_some_and(|order| order.value >= limit - BELOW),
     })
 }

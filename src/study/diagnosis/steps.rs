@@ -8,7 +8,7 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::NumberText;
-use crate::verify::{Axis, Finding, FindingKind, LevelOutcome};
+use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome};
 
 /// Share of a stable step that is predicted, at which levels are run again.
 const OF_PREDICTED: f64 = 0.5;
@@ -34,7 +34,7 @@ struct Mended<'a> {
 
 /// A finding about steps longer than the stable step, on levels whose error is small, or finite at
 /// all, with stable steps only.
-pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
+pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (session, plan) = (known.session, known.plan);
     let mended = mended(known)?;
     let worst = mended.iter().max_by(|a, b| a.times().total_cmp(&b.times()))?;
@@ -70,8 +70,8 @@ pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
         name(last),
         last.after.error
     );
-    Some(Finding {
-        kind: FindingKind::UnstableStep,
+    Some(KnownCause {
+        kind: KnownCauseKind::UnstableStep,
         cause: format!("the step is longer than the stable step, {place}"),
         evidence,
         remedy: Some(remedy(known)),

@@ -11,7 +11,7 @@ use crate::suite::model::grid_size::grid_axis;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, SceneFace};
-use crate::verify::{Finding, FindingKind, LevelOutcome};
+use crate::verify::{KnownCause, KnownCauseKind, LevelOutcome};
 
 /// Distance from the end of the grid that is rounding, in cells.
 const ROUNDING: f64 = 1e-6;
@@ -24,7 +24,7 @@ const INTERVALS: usize = 8;
 const MENDED: f64 = 0.1;
 
 /// A finding about a moving wall, or about particles that left the grid.
-pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
+pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let is_lost = |level: &LevelOutcome| {
         level.run.counters.left_domain > Some(0) || level.run.failure.is_some()
     };
@@ -36,9 +36,9 @@ pub(super) fn check(known: &Known<'_>) -> Option<Finding> {
     beyond_the_grid(known, level).or_else(|| particle_on_wall(known.session, known.plan, level))
 }
 
-/// A wall that moves along its normal by more than a cell: nodes of a grid that stays where it is do
-/// not follow it.
-fn moving_wall(known: &Known<'_>) -> Option<Finding> {
+/// A wall that moves along its normal by more than a cell, while the nodes of the grid stay where
+/// they are.
+fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, session) = (known.plan, known.session);
     let problem = plan.exact.as_ref()?;
     let stays = match session.case.method {
@@ -54,8 +54,8 @@ fn moving_wall(known: &Known<'_>) -> Option<Finding> {
     let length = plan.scene.to[face.axis] - plan.scene.from[face.axis];
     let follows = follows_in_total_frame(known);
     let or_frame = if follows { ", or use `frame: total_lagrangian`" } else { "" };
-    Some(Finding {
-        kind: FindingKind::OutsideGrid,
+    Some(KnownCause {
+        kind: KnownCauseKind::OutsideGrid,
         cause: format!(
             "the {} wall moves along its normal, and a wall itself stays where the grid ends",
             face.name
@@ -105,7 +105,7 @@ fn follows_in_total_frame(known: &Known<'_>) -> bool {
 }
 
 /// The exact motion leaves the grid of a level.
-fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<Finding> {
+fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     let (plan, scene) = (known.plan, &known.plan.scene);
     let reach = Extremes::of(plan.exact.as_ref()?).reach;
     let axes = 0..scene.dimension();
@@ -135,8 +135,8 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<Finding> {
     let (from, to): (Vec<f64>, Vec<f64>) = larger.into_iter().unzip();
     let is_accepted = remedy::accepts_grid(known.session.source, &from, &to);
     let grid = if is_accepted { "a larger `grid` in `scene`, or " } else { "" };
-    Some(Finding {
-        kind: FindingKind::OutsideGrid,
+    Some(KnownCause {
+        kind: KnownCauseKind::OutsideGrid,
         cause: "the grid ends where the body moves to".to_owned(),
         evidence: format!(
             "The exact motion takes {name} from {low:.4} to {high:.4} m, and with {} cells the grid \
@@ -154,7 +154,7 @@ pub(super) fn particle_on_wall(
     session: &Session<'_>,
     plan: &ConvergencePlan,
     level: LevelPlan,
-) -> Option<Finding> {
+) -> Option<KnownCause> {
     let scene = &plan.scene;
     let problem = level_problem(session.suite, plan, session.case, level).ok()?;
     let d = scene.dimension();
@@ -165,8 +165,8 @@ pub(super) fn particle_on_wall(
         let is_on_wall = |x: &&f64| ((**x - start).min(end - **x)).abs() <= ROUNDING * level.h;
         let Some(x) = coordinates.clone().find(is_on_wall) else { continue };
         let name = ["x", "y", "z"][axis];
-        return Some(Finding {
-            kind: FindingKind::OutsideGrid,
+        return Some(KnownCause {
+            kind: KnownCauseKind::OutsideGrid,
             cause: "particles start on a wall, where rounding decides whether they are in the grid"
                 .to_owned(),
             evidence: format!(

@@ -58,9 +58,9 @@ pub struct ChangedRun {
     pub is_finer: bool,
 }
 
-/// Kind of a [`Finding`], in the order in which findings are reported.
+/// Kind of a [`KnownCause`], in the order in which findings are reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum FindingKind {
+pub enum KnownCauseKind {
     /// The time step is longer than the stable time step.
     UnstableStep,
     /// Particles leave the grid.
@@ -75,9 +75,9 @@ pub enum FindingKind {
 
 /// A cause that is known from the problem, the levels or the time steps, whatever the method.
 #[derive(Debug, Clone)]
-pub struct Finding {
+pub struct KnownCause {
     /// Its kind.
-    pub kind: FindingKind,
+    pub kind: KnownCauseKind,
     /// The cause, a clause without a full stop.
     pub cause: String,
     /// The figures behind it, in whole sentences.
@@ -95,7 +95,7 @@ pub struct Finding {
 #[derive(Debug, Clone, Copy)]
 pub enum Cause<'a> {
     /// A property of the problem, the levels or the time steps.
-    Finding(&'a Finding),
+    Known(&'a KnownCause),
     /// A run with one thing changed.
     Run(&'a ChangedRun, Evidence),
 }
@@ -118,7 +118,7 @@ pub struct Diagnosis {
     /// Whether the solver is external, so that its own settings cannot be changed.
     pub is_external: bool,
     /// Causes that are known without a change of the method.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<KnownCause>,
     /// The runs that change one thing.
     pub runs: Vec<ChangedRun>,
     /// Changes that were possible, and too expensive.
@@ -129,7 +129,7 @@ impl Cause<'_> {
     /// The cause, a clause without a full stop.
     pub fn cause(&self) -> &str {
         match self {
-            Self::Finding(finding) => &finding.cause,
+            Self::Known(finding) => &finding.cause,
             Self::Run(run, _) => run.cause,
         }
     }
@@ -137,7 +137,7 @@ impl Cause<'_> {
     /// Change of the suite that removes the cause; `None` if there is none that `check` accepts.
     pub fn remedy(&self) -> Option<&str> {
         match self {
-            Self::Finding(finding) => finding.remedy.as_deref(),
+            Self::Known(finding) => finding.remedy.as_deref(),
             Self::Run(run, _) => run.refusal.is_none().then_some(run.remedy),
         }
     }
@@ -151,25 +151,25 @@ impl Diagnosis {
 
     /// Whether a finding is the cause whatever else runs with one thing changed show.
     pub fn is_known(&self) -> bool {
-        self.findings.iter().any(|finding| finding.kind < FindingKind::CoarseLevels)
+        self.findings.iter().any(|finding| finding.kind < KnownCauseKind::CoarseLevels)
     }
 
     /// The finding of this kind, if there is one.
-    pub fn finding(&self, kind: FindingKind) -> Option<&Finding> {
+    pub fn finding(&self, kind: KnownCauseKind) -> Option<&KnownCause> {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
     /// The causes, the most likely first. A run or a level that restores the order of theory rules
     /// out that the exact solution limits it.
     pub fn causes(&self) -> Vec<Cause<'_>> {
-        use FindingKind::{CoarseLevels, NotSmooth};
+        use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {
-            return self.findings.iter().map(Cause::Finding).collect();
+            return self.findings.iter().map(Cause::Known).collect();
         }
         let run = self.found();
         let restored = run.filter(|(_, evidence)| *evidence == Evidence::Restored);
         let coarse = self.finding(CoarseLevels);
-        let mut causes: Vec<_> = coarse.map(Cause::Finding).into_iter().collect();
+        let mut causes: Vec<_> = coarse.map(Cause::Known).into_iter().collect();
         if let Some((run, evidence)) = restored {
             // Finer cells show the same as fewer coarse ones.
             let is_nearer = coarse
@@ -179,16 +179,14 @@ impl Diagnosis {
         if restored.is_some() {
             return causes;
         }
-        let (limits, others): (Vec<_>, Vec<_>) = self
-            .findings
-            .iter()
-            .filter(|finding| finding.kind == NotSmooth)
-            .partition(|finding| finding.explains);
-        causes.extend(limits.into_iter().map(Cause::Finding));
-        if causes.is_empty() {
+        // An order that rises was not limited by the exact solution, and may be limited now.
+        let is_raised = run.is_some_and(|(_, evidence)| evidence == Evidence::Raised);
+        let limit = self.finding(NotSmooth);
+        let is_limited = limit.is_some_and(|limit| limit.explains && !is_raised);
+        if causes.is_empty() && !is_limited {
             causes.extend(run.map(|(run, evidence)| Cause::Run(run, evidence)));
         }
-        causes.extend(others.into_iter().map(Cause::Finding));
+        causes.extend(limit.map(Cause::Known));
         causes
     }
 
@@ -313,10 +311,10 @@ mod tests {
         assert_eq!(evidence(&diagnosis(low, (Converging, order(1.81, 0.05), 0.9))), None);
     }
 
-    /// Finding of this kind, with the order 1.97 without its cause.
-    fn finding(kind: FindingKind) -> Finding {
+    /// A known cause of this kind, with the order 1.97 without its cause.
+    fn finding(kind: KnownCauseKind) -> KnownCause {
         let (cause, evidence) = ("the finding".to_owned(), String::new());
-        Finding {
+        KnownCause {
             kind,
             cause,
             evidence,
@@ -335,7 +333,7 @@ mod tests {
         let low = (TooLow, order(1.5, 0.05));
         for (value, first) in [(1.8, "the finding"), (2.0, "the cause")] {
             let mut found = diagnosis(low, (Converging, order(value, 0.05), 0.9));
-            found.findings = vec![finding(FindingKind::CoarseLevels)];
+            found.findings = vec![finding(KnownCauseKind::CoarseLevels)];
             assert_eq!(causes(&found)[0], first, "{value}");
         }
     }
@@ -345,18 +343,21 @@ mod tests {
     fn a_kink_is_the_cause_unless_the_order_is_restored() {
         let low = (TooLow, order(1.0, 0.05));
         let mut found = diagnosis(low, (TooLow, order(1.01, 0.05), 0.6));
-        found.findings = vec![finding(FindingKind::NotSmooth)];
+        found.findings = vec![finding(KnownCauseKind::NotSmooth)];
         assert_eq!(causes(&found), ["the finding"]);
         let mut found = diagnosis(low, (Converging, order(2.0, 0.05), 0.6));
-        found.findings = vec![finding(FindingKind::NotSmooth)];
+        found.findings = vec![finding(KnownCauseKind::NotSmooth)];
         assert_eq!(causes(&found), ["the cause"]);
     }
 
-    /// An order far below the limit of a kink has a larger cause.
+    /// An order far below the limit of a kink has a larger cause, and one that rises had one.
     #[test]
     fn a_kink_that_does_not_explain_the_order_comes_last() {
-        let mut found = diagnosis((TooLow, order(0.2, 0.05)), (TooLow, order(0.8, 0.05), 0.6));
-        found.findings = vec![Finding { explains: false, ..finding(FindingKind::NotSmooth) }];
+        let mut found = diagnosis((TooLow, order(0.8, 0.05)), (TooLow, order(1.2, 0.05), 0.6));
+        found.findings = vec![finding(KnownCauseKind::NotSmooth)];
+        assert_eq!(causes(&found), ["the cause", "the finding"]);
+        let mut found = diagnosis((TooLow, order(0.2, 0.05)), (TooLow, order(0.2, 0.05), 0.6));
+        found.findings = vec![KnownCause { explains: false, ..finding(KnownCauseKind::NotSmooth) }];
         assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 

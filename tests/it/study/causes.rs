@@ -7,7 +7,7 @@ use mpm_verify::study::{self, diagnose, preflight, under};
 use mpm_verify::subject::Subject;
 use mpm_verify::suite::yaml::{Severity, Source};
 use mpm_verify::suite::{ConvergencePlan, LevelPlan, Suite};
-use mpm_verify::verify::{Diagnosis, FindingKind};
+use mpm_verify::verify::{Diagnosis, KnownCauseKind};
 use rstest::rstest;
 
 /// Predicted time for the runs of a case (s).
@@ -149,7 +149,7 @@ fn a_rule_beyond_the_stable_step_is_the_cause() {
 fn a_stable_step_is_no_cause(#[case] dt: &str) {
     for diagnosis in [diagnosis, external_diagnosis] {
         let found = diagnosis(&BAR.replace("0.2*h/c", dt), NO_RUNS);
-        assert!(found.finding(FindingKind::UnstableStep).is_none(), "{found:#?}");
+        assert!(found.finding(KnownCauseKind::UnstableStep).is_none(), "{found:#?}");
     }
 }
 
@@ -180,7 +180,7 @@ fn a_larger_grid_is_recommended_for_a_free_end(#[case] diagnosis: fn(&str, f64) 
     let grid = "  grid: {from: [0], to: [1]}\n";
     let u = "0.05*sin(pi*X/2)*sin(5*pi*t)";
     let found = diagnosis(&manufactured(grid, "left: fixed", u, "0.1", LINEAR), BUDGET);
-    assert!(found.finding(FindingKind::OutsideGrid).is_some() && found.runs.is_empty());
+    assert!(found.finding(KnownCauseKind::OutsideGrid).is_some() && found.runs.is_empty());
     contains(
         &page(&found),
         &["the grid ends where the body moves to", "a larger `grid` in `scene`"],
@@ -195,7 +195,7 @@ fn a_particle_on_a_wall_is_named_with_the_refusal() {
     let text = text.replace("to: [1]", "to: [0.9]").replace("6, 12, 18, 24", "10, 20, 40, 80");
     let text = text.replace("methods:", "particles: {shift: [0.5]}\nmethods:");
     let (source, suite) = load(&text);
-    let refused = diagnose(&suite, &source, 0, BUDGET, None).err().expect("a particle is lost");
+    let refused = diagnose(&suite, &source, 0, BUDGET, None).expect_err("a particle is lost");
     contains(&refused, &["left the domain", "particles start on a wall", "a smaller `shift`"]);
     assert!(!refused.contains("larger `grid`"), "{refused}");
 }
@@ -233,7 +233,7 @@ fn a_function_with_a_kink_outside_the_body_is_no_cause() {
             .replace("linear, transfer: flip, scheme: musl", "linear, transfer: flip, scheme: usf"),
         NO_RUNS,
     );
-    assert!(found.finding(FindingKind::NotSmooth).is_none(), "{found:#?}");
+    assert!(found.finding(KnownCauseKind::NotSmooth).is_none(), "{found:#?}");
 }
 
 /// A pulse of width 0.03 m in a periodic bar: the first cells are nearly as wide.
