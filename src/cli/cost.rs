@@ -31,7 +31,7 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
         }
     };
     if let Some(solver) = &solver {
-        suites = solver::judged(suites, solver, false);
+        (suites, _) = solver::suites_of_solver(suites, solver, |_| None);
     }
     let found = match args.budget {
         Some(budget) => best_candidates(&suites, budget, args),

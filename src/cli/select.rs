@@ -1,9 +1,10 @@
 //! Suites that the user names.
 
 use mpm_verify::nearest;
-use mpm_verify::suite::yaml::{Diagnostic, Source};
+use mpm_verify::suite::yaml::{self, Diagnostic, Source};
 use mpm_verify::suite::{Suite, embedded, pattern};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -68,6 +69,26 @@ fn no_file(target: &Path) -> Diagnostic {
         _ => format!("`{name}` is built in: there is no file to watch"),
     };
     Diagnostic::about("--watch", &message).with_help("name a file or a folder")
+}
+
+/// Names of the suites that `targets` name one by one: as a file, by name or on standard input, and
+/// not by a folder, a group or a pattern. `suites` are all that the targets select.
+pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {
+    #[derive(serde::Deserialize)]
+    struct Name {
+        suite: String,
+    }
+    if targets.iter().any(|target| target.as_os_str() == STDIN) {
+        // Standard input cannot be read again.
+        return suites.iter().map(|suite| suite.name.clone()).collect();
+    }
+    let is_one = |target: &&PathBuf| match place(target) {
+        Some(place) => place.is_file(),
+        None => embedded::source(&target.to_string_lossy()).is_some(),
+    };
+    let sources = targets.iter().filter(is_one).flat_map(|target| sources(target));
+    let name = |source: Source| Some(yaml::read::<Name>(&source).ok()?.suite);
+    sources.filter_map(|source| name(source.ok()?)).collect()
 }
 
 /// Whether `target` names suites that are there, or should be.

@@ -3,8 +3,8 @@
 use super::args::SolverArgs;
 use super::output;
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
-use mpm_verify::study::under;
-use mpm_verify::suite::Suite;
+use mpm_verify::study::under_on;
+use mpm_verify::suite::{GateTerms, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use std::time::Duration;
 
@@ -27,31 +27,46 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String
     Ok(Some(solver))
 }
 
-/// The suites with the solver in place of their methods; those that look inside a method are left
-/// out.
-pub(super) fn judged(suites: Vec<Suite>, solver: &SolverProgram, gate: bool) -> Vec<Suite> {
-    suites.into_iter().filter_map(|suite| judged_suite(&suite, solver, gate)).collect()
-}
-
 /// The suite with the solver, if there is one, in place of its methods; `None` if the suite is left
-/// out, with a note.
+/// out because it studies the inside of a method, with a note.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,
 ) -> Option<Suite> {
     match solver {
-        Some(solver) => judged_suite(&suite, solver, false),
+        Some(solver) => suite_of_solver(&suite, solver, None),
         None => Some(suite),
     }
 }
 
-fn judged_suite(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
-    let judged = under(suite, solver, gate);
+fn suite_of_solver(
+    suite: &Suite,
+    solver: &dyn SolverFactory,
+    terms: Option<&GateTerms>,
+) -> Option<Suite> {
+    let judged = under_on(suite, solver, terms);
     if judged.is_none() {
         let why = "left out, since it looks inside the methods of this crate";
         output::complain(&format!("note: {}: {why}", suite.name));
     }
     judged
+}
+
+/// The suites with the solver in place of their methods, each gated on its `terms` if it has any,
+/// and the names of those that are left out because they study the inside of a method.
+pub(super) fn suites_of_solver(
+    suites: Vec<Suite>,
+    solver: &SolverProgram,
+    terms: impl Fn(&Suite) -> Option<GateTerms>,
+) -> (Vec<Suite>, Vec<String>) {
+    let (mut judged, mut left_out) = (Vec::new(), Vec::new());
+    for suite in suites {
+        match suite_of_solver(&suite, solver, terms(&suite).as_ref()) {
+            Some(suite) => judged.push(suite),
+            None => left_out.push(suite.name),
+        }
+    }
+    (judged, left_out)
 }
 
 /// Whether there is a case that the solver could be put to.

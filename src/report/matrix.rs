@@ -1,7 +1,7 @@
 //! The matrix of problems and methods: what each basis comes to in each suite.
 
 use crate::report::grouping::{distinct, grouped};
-use crate::verify::{CaseOutcome, Convergence, StabilityStudy, SuiteOutcome, Verdict};
+use crate::verify::{CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict};
 
 /// Headings of the columns: bases of MPM, finite elements, and all that is neither.
 pub(crate) const COLUMNS: [&str; 8] =
@@ -81,6 +81,9 @@ fn order(case: &CaseOutcome) -> Option<f64> {
 fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() {
         return Some("n/a".to_owned());
+    }
+    if case.exemption == Some(Exemption::Excepted) {
+        return Some("excepted".to_owned());
     }
     let Some(study) = case.convergence() else { return Some(of_other_study(case)) };
     if study.bounded {

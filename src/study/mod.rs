@@ -36,7 +36,7 @@ pub use cache::results::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
 pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
-pub use handover::{exact_state, lacking, level_problem, needs, under};
+pub use handover::{exact_state, lacking, level_problem, needs, under, under_on};
 pub use kind::{CheckpointStores, Progress, StepWarning, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
 pub use runner::Runner;

@@ -19,7 +19,7 @@ pub mod yaml;
 #[cfg(feature = "schemas")]
 pub use compile::schema::suite_schema;
 pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
-pub use model::external_method::ExternalMethod;
+pub use model::external_method::{AnyMethod, ExternalMethod, GateTerms};
 pub use model::heat::SceneHeat;
 pub use model::load::EffectName;
 pub use model::method::Method;

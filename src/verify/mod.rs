@@ -56,6 +56,7 @@ pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
 pub use error::run::{Comparison, errors, resume, run};
 pub use error::run_result::RunResult;
+pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
@@ -69,7 +70,7 @@ pub use order::pairwise::observed_order;
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
-pub use outcome::{CaseOutcome, SuiteOutcome};
+pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
     Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,

@@ -52,9 +52,20 @@ pub struct CaseOutcome {
     pub unmet: Vec<String>,
     /// Everything that the case needs and its solver lacks; empty if the case applies.
     pub lacks: Vec<String>,
+    /// Why `run --gate` requires nothing of the case, if it does not.
+    pub exemption: Option<Exemption>,
     /// Results of its kind of study; absent if the case could not be set up, for the reason in
     /// `reason`.
     pub study: Option<Arc<dyn StudyResults>>,
+}
+
+/// Why `run --gate` requires nothing of a case; the words are in [`CaseOutcome::reason`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exemption {
+    /// The suite cannot test what is required.
+    NotGated,
+    /// The author of the solver excepts the case, which has not run.
+    Excepted,
 }
 
 impl SuiteOutcome {
@@ -76,6 +87,12 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
+    /// Whether the case has been tested, and is neither out of the solver's reach nor exempt from
+    /// the gate.
+    pub fn is_tested(&self) -> bool {
+        self.lacks.is_empty() && self.exemption.is_none()
+    }
+
     /// The setting of its method that is called so.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
@@ -86,11 +103,20 @@ impl CaseOutcome {
         self.study.as_deref().is_some_and(StudyResults::fails)
     }
 
-    /// One word: `pass`, `FAIL`, `explored` where nothing is expected, or `n/a` where the solver
-    /// lacks something.
+    /// Every value of [`CaseOutcome::result`].
+    pub const RESULTS: [&'static str; 6] =
+        ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
+
+    /// The result in a word: `pass`, `FAIL`, `explored` where nothing is expected, `n/a` where the
+    /// solver lacks something; under a gate also `not gated` and `excepted`.
     pub fn result(&self) -> &'static str {
         if !self.lacks.is_empty() {
             return "n/a";
+        }
+        match self.exemption {
+            Some(Exemption::NotGated) => return "not gated",
+            Some(Exemption::Excepted) => return "excepted",
+            None => {}
         }
         match (self.passed(), &self.expected) {
             (false, _) => "FAIL",
@@ -107,9 +133,24 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
+    /// The outcome of a case of which the gate requires nothing, for this reason.
+    #[must_use]
+    pub(crate) fn not_gated(self, reason: &str) -> Self {
+        let reason = format!("{reason}; {}", self.reason);
+        Self { reason, exemption: Some(Exemption::NotGated), ..self }
+    }
+
+    /// The outcome of a case that its solver's author excepts from the gate.
+    #[must_use]
+    pub(crate) fn excepted(self, reason: String) -> Self {
+        let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));
+        Self { verdict, reason, exemption, expected: None, ..self }
+    }
+
     /// The expectation and its reason, in one line.
     pub fn expectation(&self) -> String {
         match &self.expected {
+            _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
             Some(expected) => format!("{expected}, because {}", self.because),
             None => "nothing: the suite has no `expect`, and is no gate".to_owned(),
         }

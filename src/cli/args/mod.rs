@@ -12,7 +12,7 @@ pub(super) use compare::{CompareArgs, DiffArgs, Page};
 pub(super) use cost::{CostArgs, Vary};
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
-pub(super) use report::{ListArgs, MergeArgs, ReportArgs, RunArgs};
+pub(super) use report::{JudgedSolverArgs, ListArgs, MergeArgs, ReportArgs, RunArgs};
 pub(super) use shared::{ColorArgs, Format, FormatArgs, SolverArgs, Targets};
 
 pub(super) use shell::{CompletionsArgs, ManArgs};

@@ -88,10 +88,17 @@ pub(in crate::cli) struct MergeArgs {
 pub(in crate::cli) struct JudgedSolverArgs {
     #[command(flatten)]
     pub(in crate::cli) program: SolverArgs,
-    /// Expect the order that the solver of `--solver` claims of each case of which the suite says
-    /// nothing
+    /// Require of each case of the solver of `--solver` the order that theory gives it, or errors
+    /// within the bounds of the suite; exit status 1 unless every case passes or is excepted
     #[arg(long, requires = "solver")]
     pub(in crate::cli) gate: bool,
+    /// Formal order of the solver, and orders, bounds and exceptions for single suites (YAML)
+    #[arg(long, value_name = "FILE", requires = "gate")]
+    pub(in crate::cli) solver_config: Option<PathBuf>,
+    /// Let `--gate` pass although suites named one by one are not applicable to the solver, or are
+    /// not gated
+    #[arg(long, requires = "gate")]
+    pub(in crate::cli) allow_not_applicable: bool,
 }
 
 #[derive(Debug, Args)]

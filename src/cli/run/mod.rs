@@ -1,6 +1,8 @@
 //! `mpm-verify run`.
 
+mod config;
 mod files;
+mod gate;
 mod interrupt;
 mod page;
 mod printing;
@@ -10,6 +12,7 @@ use super::args::{ReportArgs, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::terminal::progress::RunProgress;
 use super::{output, select, solver, watch};
+use gate::SolverGate;
 use mpm_verify::external::SolverProgram;
 use mpm_verify::study::{ResultCache, Runner, StepWarning};
 use mpm_verify::suite::yaml::Source;
@@ -38,8 +41,11 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
     let solver = solver::greeted(&args.judged.program)?;
+    let mut gate = None;
     if let Some(solver) = &solver {
-        suites = solver::judged(suites, solver, args.judged.gate);
+        let named = |suites: &[Suite]| select::named_singly(&args.report.targets.targets, suites);
+        let found = gate::prepare(suites, solver, &args.judged, named);
+        (suites, gate) = found.map_err(|diagnostic| diagnostic.to_string())?;
     }
     if let Some(text) = &args.case {
         suites = cases_with(text, &suites);
@@ -55,7 +61,7 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
     }
     // Ctrl-C is the usual end of watching.
     let at_interrupt = (!args.watch).then(|| interrupt::note(args.resume.is_some()));
-    Ok((suites, Judging { kept, solver, series, at_interrupt }))
+    Ok((suites, Judging { kept, solver, gate, series, at_interrupt }))
 }
 
 /// The cases whose names contain `text`; suites without one are left out.
@@ -132,7 +138,7 @@ pub(super) fn report(
     if let Err(message) = &written {
         output::complain(message);
     }
-    let Judging { kept, solver, .. } = &judging;
+    let Judging { kept, solver, gate, .. } = &judging;
     let unkept = kept.as_ref().and_then(ResultCache::diagnostic);
     if let Some(diagnostic) = &unkept {
         output::complain(&format!("error: --resume {diagnostic}"));
@@ -142,7 +148,9 @@ pub(super) fn report(
     } else if solver.is_some() && !solver::is_applicable(&outcomes) {
         output::complain("error: no case is applicable to the solver");
         FAILED
-    } else if outcomes.iter().all(SuiteOutcome::passed) {
+    } else if outcomes.iter().all(SuiteOutcome::passed)
+        & gate.as_ref().is_none_or(|gate| gate.passes(&outcomes))
+    {
         PASSED
     } else {
         FAILED
@@ -167,6 +175,7 @@ fn extent(args: &ReportArgs) -> Extent {
 pub(super) struct Judging {
     kept: Option<ResultCache>,
     solver: Option<SolverProgram>,
+    gate: Option<SolverGate>,
     /// Cases to be shown as files for ParaView.
     series: Option<Series>,
     /// Note to who ends it by Ctrl-C.
@@ -176,7 +185,7 @@ pub(super) struct Judging {
 impl Judging {
     /// Results that are there.
     pub(super) fn of_kept(kept: ResultCache) -> Self {
-        Self { kept: Some(kept), solver: None, series: None, at_interrupt: None }
+        Self { kept: Some(kept), solver: None, gate: None, series: None, at_interrupt: None }
     }
 }
 

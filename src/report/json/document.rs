@@ -7,7 +7,7 @@
 //!     "case": "...", "subject": "mpm", "axis": "space", "formal_order": 2.0,
 //!     "judge": {"of": "displacement", "norm": "rms", "scale": null},
 //!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
-//!     "verdict": "converging", "expected": "...", "passed": true,
+//!     "verdict": "converging", "expected": "...", "result": "pass", "passed": true,
 //!     "reason": "...", "unmet": [], "lacks": [],
 //!     "profile": {"effects": ["gravity"], "particles": 20, "nodes": 26,
 //!         "passes": ["P2G(mass, momentum)", "G2P(stress)"],
@@ -59,7 +59,7 @@ use crate::report::study::KINDS;
 use crate::report::study::kind::members;
 use crate::report::text::cost::by_transfers;
 use crate::subject::{ColumnSize, Holder, Profile};
-use crate::verify::{CaseOutcome, SuiteOutcome};
+use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};
 
 /// The document for `outcomes`, indented, with a newline at its end.
@@ -97,7 +97,10 @@ fn case(outcome: &CaseOutcome) -> Value {
         "because": outcome.because,
         "verdict": outcome.verdict,
         "expected": outcome.expected,
-        "passed": outcome.passed() && outcome.lacks.is_empty(),
+        "result": outcome.result(),
+        "passed": outcome.passed()
+            && outcome.lacks.is_empty()
+            && outcome.exemption != Some(Exemption::Excepted),
         "lacks": outcome.lacks,
         "reason": outcome.reason,
         "unmet": outcome.unmet,

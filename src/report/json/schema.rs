@@ -2,7 +2,9 @@
 //! and the meanings of the columns that write them; tests hold the rest to documents.
 
 use crate::report::columns::{TableColumn, cost, force, level, stability};
-use crate::verify::{Axis, FloorCause, Quantity, Ranking, StabilityStudy, Verdict};
+use crate::verify::{
+    Axis, CaseOutcome, FloorCause, Quantity, Ranking, StabilityStudy, Verdict,
+};
 use serde_json::{Map, Value, json};
 
 /// The schema, as indented JSON.
@@ -54,7 +56,8 @@ fn case() -> Value {
         ("because", text(), "the reason of the expectation"),
         ("verdict", verdicts, "the verdict; suites write it with `_` for spaces and hyphens"),
         ("expected", or_null(text()), "the expectation; null where nothing is expected"),
-        ("passed", flag(), "whether the case came as expected"),
+        ("result", json!({"enum": CaseOutcome::RESULTS}), "the result in a word"),
+        ("passed", flag(), "whether the case ran and came as expected"),
         ("lacks", list(text()), "what the case needs and its solver lacks"),
         ("reason", text(), "figures that led to the verdict"),
         ("unmet", list(text()), "expectations that are not met"),

@@ -20,6 +20,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
         reason: word(),
         unmet: unmet.iter().map(|unmet| format!("{unmet}{words}")).collect(),
         lacks: Vec::new(),
+        exemption: None,
         study: Some(std::sync::Arc::new(InternalForce { rows: vec![row(0.0), row(1.0)] })),
     };
     SuiteOutcome {

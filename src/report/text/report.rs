@@ -113,7 +113,11 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
             case.convergence().and_then(|study| study.judgement.order).map(|order| order.shown())
         }),
         TableColumn::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| {
-            case.expected.clone().unwrap_or("nothing".to_owned())
+            Some(match &case.expected {
+                _ if !case.is_tested() => case.reason.clone(),
+                Some(expected) => expected.clone(),
+                None => "nothing".to_owned(),
+            })
         })
         .flush_left(),
     ]

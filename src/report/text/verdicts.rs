@@ -54,6 +54,8 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
         ("FAIL", "NOT AS EXPECTED"),
         ("explored", "of which nothing is expected"),
         ("n/a", "not applicable"),
+        ("not gated", "not gated"),
+        ("excepted", "excepted"),
     ];
     for (word, words) in others {
         let count = count(word);

@@ -4,7 +4,7 @@ use super::statement;
 use crate::study::describe::profiles;
 use crate::suite::model::{Case, ConvergencePlan};
 use crate::verify;
-use crate::verify::{CaseOutcome, Expectation};
+use crate::verify::{CaseOutcome, Expectation, Gating};
 
 /// The part of an outcome that is known before the case runs.
 pub(crate) fn described(
@@ -12,17 +12,27 @@ pub(crate) fn described(
     case: &Case,
     expectation: Option<&Expectation>,
 ) -> CaseOutcome {
+    let expected = expectation
+        .map(|expectation| (expectation.summary(), expectation.because.clone()))
+        .or_else(|| match &case.gating {
+            Some(Gating::Required(required)) => {
+                Some((required.summary(), required.because.clone()))
+            }
+            _ => None,
+        });
+    let (expected, because) = expected.unzip();
     CaseOutcome {
         case: case.name.clone(),
         subject: case.method.subject(),
         settings: statement::settings(plan, case),
         profile: profiles::of(plan, case),
-        expected: expectation.map(Expectation::summary),
-        because: expectation.map_or(String::new(), |expectation| expectation.because.clone()),
+        expected,
+        because: because.unwrap_or_default(),
         verdict: String::new(),
         reason: String::new(),
         unmet: Vec::new(),
         lacks: Vec::new(),
+        exemption: None,
         study: None,
     }
 }

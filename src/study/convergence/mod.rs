@@ -4,6 +4,7 @@ pub(crate) mod described;
 pub(crate) mod error_scale;
 pub(crate) mod fine_grid_reference;
 pub(crate) mod formal_order;
+pub(crate) mod gate;
 mod level_run;
 pub(crate) mod outcome;
 pub(crate) mod probe;

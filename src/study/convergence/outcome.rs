@@ -8,9 +8,9 @@ use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseFindings, CaseOutcome, ConservationError, Conserved, Convergence, ErrorScale,
-    Expectation, Floor, Interval, Judgement, LevelOutcome, Limits, Measured, OrderHypothesis,
-    Richardson, RunResult, Verdict, judge, larger,
+    Acceptance, Axis, CaseFindings, CaseOutcome, ConservationError, Conserved, Convergence,
+    ErrorScale, Expectation, Floor, GateResult, Interval, Judgement, LevelOutcome, Limits,
+    Measured, OrderHypothesis, Richardson, RunResult, Verdict, judge, larger,
 };
 use std::sync::Arc;
 
@@ -29,16 +29,24 @@ pub(crate) fn error_of(plan: &ConvergencePlan, run: &RunResult) -> f64 {
     plan.scale.map_or(error, |scale| error / scale)
 }
 
+/// Expectation of a case, or the result of its gate.
+#[derive(Clone, Copy)]
+pub(crate) struct CaseBinding<'a> {
+    pub(crate) expectation: Option<&'a Expectation>,
+    pub(crate) gate: Option<&'a GateResult>,
+}
+
 /// The outcome of a case whose levels have run.
 pub(crate) fn judged(
     plan: &ConvergencePlan,
     case: &Case,
-    expectation: Option<&Expectation>,
+    binding: CaseBinding<'_>,
     mut levels: Vec<LevelOutcome>,
     judgement: Judgement,
     floor: Option<Floor>,
     error_scale: ErrorScale,
 ) -> CaseOutcome {
+    let CaseBinding { expectation, gate } = binding;
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
     }
@@ -52,11 +60,18 @@ pub(crate) fn judged(
         measured,
         floor: floor.as_ref().and_then(Floor::cause),
     };
-    let unmet = expectation.map_or(Vec::new(), |expectation| expectation.unmet(&seen));
+    let unmet = match (expectation, gate) {
+        (Some(expectation), _) => expectation.unmet(&seen),
+        (None, Some(gate)) => gate.result.as_ref().err().cloned().into_iter().collect(),
+        (None, None) => Vec::new(),
+    };
     let (verdict, reason) = match expectation {
         Some(expectation) => headline(expectation, &judgement, &measured, &unmet),
         None => explored(plan, case, &judgement, &measured),
     };
+    let is_met = gate.and_then(|gate| gate.result.as_ref().ok());
+    let verdict = is_met.map_or(verdict, |met| met.verdict(judgement.verdict));
+    let remark = gate.and_then(|gate| gate.remark.clone());
     let drifts = match expectation {
         Some(expectation) => expectation.limits.drifts(),
         None => explored_drifts(plan, case),
@@ -64,7 +79,7 @@ pub(crate) fn judged(
     let found = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
     CaseOutcome {
         verdict,
-        reason: [Some(reason), found].into_iter().flatten().collect::<Vec<_>>().join("; "),
+        reason: [Some(reason), found, remark].into_iter().flatten().collect::<Vec<_>>().join("; "),
         unmet,
         study: Some(Arc::new(Convergence {
             axis: plan.refine.axis,
@@ -77,7 +92,9 @@ pub(crate) fn judged(
             scale: plan.scale,
             error_scale,
             compared: case.against != Against::Nothing,
-            bounded: expectation.is_some_and(|expectation| expectation.verdict.is_none()),
+            bounded: expectation.is_some_and(|expectation| expectation.verdict.is_none())
+                || is_met.is_some_and(|met| *met != Acceptance::Order)
+                || gate.is_some_and(|gate| gate.remark.is_some()),
             drifts,
             rated: expectation.is_some_and(|expected| expected.limits.energy_rate.is_some()),
             judgement,
@@ -96,6 +113,15 @@ pub(crate) fn to_judge(level: &LevelOutcome) -> verify::Level {
     }
 }
 
+/// The levels as the judge takes them, with those marked that do not count.
+pub(crate) fn series(levels: &[LevelOutcome]) -> Vec<verify::Level> {
+    let marked = |level: &LevelOutcome| {
+        let judged = to_judge(level);
+        if level.usable { judged } else { judged.unusable() }
+    };
+    levels.iter().map(marked).collect()
+}
+
 /// The judge's finding on levels that have run.
 pub(crate) fn judge_levels(
     plan: &ConvergencePlan,
@@ -107,17 +133,19 @@ pub(crate) fn judge_levels(
     if let Some(judgement) = truthless.then(|| conservation_only::judgement(levels)).flatten() {
         return judgement;
     }
-    let judged: Vec<verify::Level> = levels
-        .iter()
-        .map(|level| {
-            let judged = to_judge(level);
-            if level.usable { judged } else { judged.unusable() }
-        })
-        .collect();
+    judge_series(plan, case, expectation, &series(levels))
+}
+
+/// The judge's finding on a series of errors.
+pub(crate) fn judge_series(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: Option<&Expectation>,
+    levels: &[verify::Level],
+) -> Judgement {
     let (formal_order, axis) = (formal_order(plan, case), plan.refine.axis);
     let expected = expectation.and_then(|expectation| expectation.order);
-    let claim = OrderHypothesis { formal_order, expected, axis };
-    judge(&judged, &claim)
+    judge(levels, &OrderHypothesis { formal_order, expected, axis })
 }
 
 /// Figures that limits apply to: the worst of the levels that count, and the observed place on the

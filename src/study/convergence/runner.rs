@@ -1,14 +1,14 @@
 //! Running a convergence study: every level of every case, judged.
 
-use super::described::{not_applicable, refused};
+use super::described::{described, not_applicable, refused};
 use super::error_scale::error_scale;
 use super::fine_grid_reference::FineGrid;
 use super::level_run::{level_of, run_of};
-use super::outcome::{judge_levels, judged};
+use super::outcome::{CaseBinding, judge_levels, judged};
 use super::reference::Reference;
 use super::small_step_reference::FineSteps;
 use super::stable_step::StableSteps;
-use super::{probe, statement};
+use super::{gate, probe, statement};
 use crate::exact::Truth;
 use crate::external::ProblemNeeds;
 use crate::study::describe::profiles;
@@ -21,7 +21,7 @@ use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify::{
-    CaseOutcome, CheckpointStore, Convergence, Expectation, LevelOutcome, RunResult,
+    CaseOutcome, CheckpointStore, Convergence, Expectation, Gating, LevelOutcome, RunResult,
 };
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -143,7 +143,9 @@ impl<'a> ConvergenceRunner<'a> {
                 .unwrap_or_else(|reason| refused(plan, case, expectation, reason));
         };
         let lacks = solver.lacks(&needs(plan));
-        let mut outcome = if lacks.is_empty() {
+        let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
+            described(plan, case, None).excepted(reason.clone())
+        } else if lacks.is_empty() {
             // What a solver says it cannot do is no fault of it.
             self.run(case, expectation, progress).unwrap_or_else(|reason| {
                 not_applicable(plan, case, vec![reason], "cannot be put to it:")
@@ -193,7 +195,10 @@ impl<'a> ConvergenceRunner<'a> {
         let again = |level| self.level(case, truth, level, false);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
         let error_scale = error_scale(plan, case, truth);
-        Ok(judged(plan, case, expectation, levels, judgement, floor, error_scale))
+        let gate = gate::result((plan, case), (&levels, &judgement), truth, again);
+        let binding = CaseBinding { expectation, gate: gate.as_ref() };
+        let outcome = judged(plan, case, binding, levels, judgement, floor, error_scale);
+        Ok(gate::marked(outcome, case, count))
     }
 
     /// One level of a case against `truth`, which keeps its errors over the body or not.

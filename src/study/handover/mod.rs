@@ -23,4 +23,4 @@ pub(crate) use needs::of_scene;
 pub use needs::{lacking, needs};
 pub(crate) use particles::{is_deformed, start, unloaded};
 pub(crate) use under::subject_under;
-pub use under::under;
+pub use under::{under, under_on};

@@ -65,6 +65,7 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
         reason,
         unmet,
         lacks: Vec::new(),
+        exemption: None,
         study: Some(Arc::new(InternalForce { rows })),
     }
 }

@@ -8,7 +8,7 @@ use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::yaml::Diagnostic;
-use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy};
+use crate::verify::{CaseOutcome, Gating, Stability, StabilityRow, StabilityStudy};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -46,6 +46,9 @@ impl CaseRunner for StabilityRunner<'_> {
         let lacks = context.solver.map_or(Vec::new(), |solver| {
             plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
         });
+        if let Some(Gating::Excepted(reason)) = &case.gating {
+            return described(&run).excepted(reason.clone());
+        }
         if !lacks.is_empty() {
             return described(&run).not_applicable(lacks, "lacks");
         }
@@ -59,7 +62,13 @@ impl CaseRunner for StabilityRunner<'_> {
         let refused = rows.iter().find_map(|row| row.refused.clone());
         match refused.filter(|_| context.solver.is_some()) {
             Some(reason) => described(&run).not_applicable(vec![reason], "cannot be put to it:"),
-            None => outcome(&run, rows),
+            None => {
+                let outcome = outcome(&run, rows);
+                match &case.gating {
+                    Some(Gating::NotGated(reason)) => outcome.not_gated(reason),
+                    _ => outcome,
+                }
+            }
         }
     }
 
@@ -97,6 +106,7 @@ fn described(run: &CaseRun<'_, '_>) -> CaseOutcome {
         reason: String::new(),
         unmet: Vec::new(),
         lacks: Vec::new(),
+        exemption: None,
         study: None,
     }
 }

@@ -3,6 +3,7 @@
 
 use super::check::{fem_support, load_support, size, subject_support, sums};
 use super::evaluator::Evaluator;
+use super::expect::any_method::any_method;
 use super::expect::because::because;
 use super::path::Path;
 use super::run::{cases, refine, same_method, scatter, steps};
@@ -14,6 +15,7 @@ use crate::suite::grammar::{
     AcknowledgeSpec, ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName,
     WarningName, read,
 };
+use crate::suite::model::external_method::AnyMethod;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
 use crate::suite::yaml::{Diagnostic, NumberText, Source};
@@ -140,6 +142,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         sum: None,
         scale: scale.transpose()?,
         crossing_levels: spec.judge.crossing_levels,
+        any_method: AnyMethod::default(),
         cases: Vec::new(),
         acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
@@ -147,6 +150,9 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     size::refuse_unfit_levels(&evaluator, &spec, &plan, &places)?;
+    if let Some(spec) = &spec.any_method {
+        plan.any_method = any_method(&evaluator, spec, &plan)?;
+    }
     plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
     steps::refuse_unusable(&evaluator, &plan, &places)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;

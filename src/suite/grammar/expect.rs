@@ -43,6 +43,24 @@ pub(crate) struct ExpectSpec {
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 
+/// Accuracy that any method can reach on the problem.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AnyMethodSpec {
+    /// Highest order along the refined axis that the regularity of the solution allows.
+    pub(crate) order: Option<NumberText>,
+    /// Bound on errors that are accepted without an order.
+    pub(crate) error_below: Option<NumberText>,
+    /// Whether nothing deforms, so that a solver may use any law.
+    #[serde(default)]
+    pub(crate) any_law: bool,
+    /// Whether the gate requires anything of an external solver; it does unless stated.
+    pub(crate) gated: Option<bool>,
+    /// The reason.
+    pub(crate) because: String,
+}
+
 /// The names of verdicts, as suites spell them.
 #[cfg(feature = "schemas")]
 fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {

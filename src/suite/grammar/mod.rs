@@ -21,7 +21,7 @@ pub(crate) mod truth;
 pub(crate) use acknowledge::AcknowledgeSpec;
 pub use acknowledge::WarningName;
 pub(crate) use drift::DriftSpec;
-pub(crate) use expect::{CrossingsName, ExpectSpec};
+pub(crate) use expect::{AnyMethodSpec, CrossingsName, ExpectSpec};
 pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 pub(crate) use method::MethodSpec;
@@ -95,6 +95,8 @@ pub(crate) struct ConvergenceSpec {
     /// Warnings of `check` that the suite intends, each with its reason.
     #[serde(default)]
     pub(crate) acknowledge: Vec<AcknowledgeSpec>,
+    /// Accuracy that any method can reach, for the gate of external solvers.
+    pub(crate) any_method: Option<AnyMethodSpec>,
 }
 
 impl ConvergenceSpec {

@@ -1,44 +1,170 @@
-//! Suites under a solver that is not of this crate.
+//! Suites with an external solver in place of their methods.
 
-use super::external_method::ExternalMethod;
+use super::external_method::{ExternalMethod, GateTerms};
 use super::method::Method;
 use super::{Against, Case, ConvergencePlan, Suite};
-use crate::verify::{Axis, Expectation};
+use crate::verify::{Axis, Expectation, Gating, Quantity, Requirement, format_number};
+use std::sync::Arc;
 
 impl Suite {
-    /// The same study of one solver that is not of this crate; none of a study that looks inside a
-    /// method of this crate. Where a convergence study has cases of this solver, it has these only.
-    /// Otherwise it has a case for each of its truths and ends, of which the solver's formal order
-    /// in h is expected if this is a `gate`, and nothing if not. A stability study has one case, of
-    /// which nothing is expected.
+    /// The suite with an external solver in place of its methods; `None` for a study of the inside
+    /// of a method. A convergence study keeps the cases of this solver if it states any, and has
+    /// otherwise one case for each of its truths and ends. A `gate` requires an order or a bound of
+    /// each case without an expectation.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
-        let study = self.study.of_external(solver, gate)?;
+        self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
+    }
+
+    /// The suite of [`Suite::of_external`], gated on the `terms` of the solver's author, if any.
+    pub fn of_external_on(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Option<Self> {
+        let study = self.study.of_external(solver, terms)?;
         Some(Self { study, ..self.clone() })
+    }
+
+    /// The convergence study with nothing expected; `None` for another kind of study.
+    pub fn without_expectations(&self) -> Option<Self> {
+        let mut plan = self.plan::<ConvergencePlan>()?.clone();
+        for case in &mut plan.cases {
+            (case.expectation, case.expectation_in_full) = (None, None);
+        }
+        Some(Self { study: Arc::new(plan), ..self.clone() })
     }
 }
 
 impl ConvergencePlan {
-    /// The study of one solver.
-    pub(super) fn under(&self, solver: ExternalMethod<'_>, gate: bool) -> Self {
+    /// The study of one external solver.
+    pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let mut plan = self.clone();
         let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
         if plan.cases.iter().any(is_stated) {
             plan.cases.retain(is_stated);
         } else {
-            plan.cases = unstated(&plan, solver, gate);
+            plan.cases = unstated(&plan, solver);
+            // A reference solves the equation of the material, and formulas may be those of a
+            // simpler one.
+            let has_reference = plan.cases.iter().any(|case| case.against == Against::Reference);
+            if has_reference && terms.is_some() {
+                plan.cases.retain(|case| case.against != Against::Exact);
+            }
+        }
+        if let Some(terms) = terms {
+            for case in &mut plan.cases {
+                self.gate(case, solver, terms);
+            }
         }
         plan
+    }
+
+    /// Gates a case: a suite's own expectation of it remains, unless the author excepts the suite.
+    fn gate(&self, case: &mut Case, solver: ExternalMethod<'_>, terms: &GateTerms) {
+        let has_terms = terms.order.is_some() || terms.error_below.is_some();
+        if case.expectation.is_some() && terms.skip.is_none() && !has_terms {
+            return;
+        }
+        let formal_order = terms.formal_order.unwrap_or_else(|| match case.method {
+            // A suite that names the solver may state a lower order.
+            Method::External { formal_order, .. } => formal_order.min(solver.formal_order),
+            _ => solver.formal_order,
+        });
+        let gating = self.gating(case.against, formal_order, terms);
+        if let (
+            Gating::Required(Requirement { order: Some(order), .. }),
+            Method::External { precision, .. },
+        ) = (&gating, case.method)
+        {
+            case.method = Method::External { formal_order: *order, precision };
+        }
+        (case.expectation, case.expectation_in_full) = (None, None);
+        case.gating = Some(gating);
+    }
+
+    /// Treatment of a case by the gate, for a solver of this formal order.
+    fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
+        if let Some(reason) = &terms.skip {
+            return Gating::Excepted(reason.clone());
+        }
+        if against == Against::Nothing {
+            return Gating::NotGated("the suite states no solution to compare with".to_owned());
+        }
+        if !self.any_method.gated && terms.order.is_none() && terms.error_below.is_none() {
+            return Gating::NotGated(self.any_method.because.clone());
+        }
+        let stated = terms.order.map(|order| (order, terms.because.clone()));
+        let order = stated.or_else(|| self.required_order(formal_order));
+        let error_below = terms.error_below.or(self.any_method.error_below);
+        let error_below = error_below.or_else(|| self.smallest_own_bound());
+        let because = match order {
+            _ if terms.order.is_some() || terms.error_below.is_some() => terms.because.clone(),
+            Some((_, ref reason)) => reason.clone(),
+            None if !self.any_method.because.is_empty() => self.any_method.because.clone(),
+            None => "the suite bounds the errors of its own methods".to_owned(),
+        };
+        match order.map(|(order, _)| order) {
+            None if error_below.is_none() => Gating::NotGated(format!(
+                "the suite refines {}, and the solver states its order in space only",
+                self.refine.axis.name()
+            )),
+            order => Gating::Required(Requirement { order, error_below, because }),
+        }
+    }
+
+    /// The order that theory gives a solver of this formal order on the problem, and the reason;
+    /// `None` along another axis than space whose order the suite does not state.
+    fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
+        let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
+        let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
+            let of = format_number(formal_order);
+            let reason = format!("displacements have the order {of}, and their gradients one less");
+            (formal_order - 1.0, reason)
+        } else {
+            let of = format_number(formal_order);
+            (formal_order, format!("the solver has the formal order {of}"))
+        };
+        let in_space = self.refine.axis == Axis::Space;
+        match self.any_method.order {
+            Some(limit) if !in_space || limit < of_solver => {
+                Some((limit, self.any_method.because.clone()))
+            }
+            _ => in_space.then_some((of_solver, reason)),
+        }
+    }
+
+    /// The smallest `error_below` of the suite's own expectations, if these bound errors only; an
+    /// entry with `error_above` describes a method that fails.
+    fn smallest_own_bound(&self) -> Option<f64> {
+        let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
+        let bound = |expectation: &Expectation| {
+            let limits = &expectation.limits;
+            limits.error_below.filter(|_| limits.error_above.is_none())
+        };
+        let is_bound_only = |expectation: &Expectation| expectation.verdict.is_none();
+        if !expectations().all(is_bound_only) {
+            return None;
+        }
+        expectations().filter_map(bound).reduce(f64::min)
+    }
+}
+
+impl Case {
+    /// Summary of the expectation or of the requirement of the gate, and its reason.
+    pub(super) fn expected(&self) -> Option<(String, &str)> {
+        match (&self.expectation, &self.gating) {
+            (Some(expectation), _) => Some((expectation.summary(), &expectation.because)),
+            (None, Some(Gating::Required(required))) => {
+                Some((required.summary(), &required.because))
+            }
+            _ => None,
+        }
     }
 }
 
 /// A case of the solver for each truth and end.
-fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>, gate: bool) -> Vec<Case> {
+fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>) -> Vec<Case> {
     let ExternalMethod { name, formal_order, precision } = solver;
-    let in_space = plan.refine.axis == Axis::Space;
-    let expectation = |against: Against| {
-        (gate && in_space && against != Against::Nothing)
-            .then(|| Expectation::of_order(formal_order, "the solver claims this order"))
-    };
     let mut cases: Vec<Case> = Vec::new();
     for case in &plan.cases {
         let known = |other: &Case| (other.until, other.against) == (case.until, case.against);
@@ -50,7 +176,7 @@ fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>, gate: bool) -> V
             name: name.to_owned(),
             method: Method::External { formal_order, precision },
             solver: Some(name.to_owned()),
-            expectation: expectation(case.against),
+            expectation: None,
             expectation_in_full: None,
             ..case.clone()
         });

@@ -23,7 +23,7 @@ pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use same_method::SameMethod;
 pub use scene::{Scene, SceneFace};
 
-use self::external_method::ExternalMethod;
+use self::external_method::{AnyMethod, ExternalMethod, GateTerms};
 use self::lattice::LatticeOffsets;
 use self::method::Method;
 use self::refine_plan::{LevelPlan, RefinePlan};
@@ -33,7 +33,7 @@ use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
-use crate::verify::{Clock, Expectation, JudgedSum, Quantity};
+use crate::verify::{Clock, Expectation, Gating, JudgedSum, Quantity};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -89,6 +89,8 @@ pub struct ConvergencePlan {
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.
     pub crossing_levels: CrossingLevels,
+    /// Accuracy that any method can reach.
+    pub any_method: AnyMethod,
     /// Place to be observed (m).
     pub observe: Option<Vec<f64>>,
     /// The cases, in the order of the product.
@@ -114,6 +116,8 @@ pub struct Case {
     pub expectation: Option<Expectation>,
     /// Expectation on a full run, if that differs.
     pub expectation_in_full: Option<Expectation>,
+    /// Treatment by `run --gate`, of an external solver without an expectation.
+    pub gating: Option<Gating>,
 }
 
 /// Which truth.
@@ -193,7 +197,7 @@ impl Suite {
         self.study.case_names()
     }
 
-    /// The same suite with those cases only whose index `keep` holds for.
+    /// The suite with those cases only whose index `keep` holds for.
     #[must_use]
     pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
         Self { study: self.study.only(keep), ..self.clone() }
@@ -202,15 +206,6 @@ impl Suite {
     /// Whether nothing is expected of any case, so that the suite is no gate.
     pub fn explores(&self) -> bool {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
-    }
-
-    /// The same convergence study with nothing expected; none of another kind of study.
-    pub fn without_expectations(&self) -> Option<Self> {
-        let mut plan = self.plan::<ConvergencePlan>()?.clone();
-        for case in &mut plan.cases {
-            (case.expectation, case.expectation_in_full) = (None, None);
-        }
-        Some(Self { study: Arc::new(plan), ..self.clone() })
     }
 
     /// The plan, if the study is of this kind.
@@ -226,16 +221,19 @@ impl StudyPlan for ConvergencePlan {
     }
 
     fn expectation(&self, case: usize) -> Option<(String, &str)> {
-        let expectation = self.cases[case].expectation.as_ref()?;
-        Some((expectation.summary(), &expectation.because))
+        self.cases[case].expected()
     }
 
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
         Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
     }
 
-    fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Arc<dyn StudyPlan>> {
-        Some(Arc::new(self.under(solver, gate)))
+    fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Option<Arc<dyn StudyPlan>> {
+        Some(Arc::new(self.under(solver, terms)))
     }
 }
 

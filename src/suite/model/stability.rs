@@ -1,12 +1,12 @@
 //! A stability study whose every word has been checked.
 
-use super::external_method::ExternalMethod;
+use super::external_method::{ExternalMethod, GateTerms};
 use super::lattice::LatticeOffsets;
 use super::method::Method;
 use super::study_plan::{StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::yaml::Source;
-use crate::verify::{RunFigure, StabilityExpectation};
+use crate::verify::{Gating, RunFigure, StabilityExpectation};
 use std::sync::Arc;
 
 /// A stability study.
@@ -59,6 +59,8 @@ pub struct StabilityCase {
     pub summary: Option<String>,
     /// The reason for expecting it.
     pub because: String,
+    /// Treatment by `run --gate`, of an external solver.
+    pub gating: Option<Gating>,
 }
 
 impl StudyPlan for StabilityPlan {
@@ -75,7 +77,11 @@ impl StudyPlan for StabilityPlan {
         Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
     }
 
-    fn of_external(&self, solver: ExternalMethod<'_>, _gate: bool) -> Option<Arc<dyn StudyPlan>> {
+    fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Option<Arc<dyn StudyPlan>> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let case = StabilityCase {
             name: name.to_owned(),
@@ -83,6 +89,10 @@ impl StudyPlan for StabilityPlan {
             expected: Vec::new(),
             summary: None,
             because: String::new(),
+            gating: terms.map(|terms| match &terms.skip {
+                Some(reason) => Gating::Excepted(reason.clone()),
+                None => Gating::NotGated("a stability study has no order".to_owned()),
+            }),
         };
         Some(Arc::new(Self { cases: vec![case], ..self.clone() }))
     }

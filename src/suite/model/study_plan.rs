@@ -1,6 +1,6 @@
 //! Plan of a study, of any kind.
 
-use super::external_method::ExternalMethod;
+use super::external_method::{ExternalMethod, GateTerms};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -20,9 +20,13 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     /// The same study of those cases only whose index `keep` holds for.
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
 
-    /// The same study of one solver that is not of this crate; none of a study that looks inside a
-    /// method of this crate.
-    fn of_external(&self, _solver: ExternalMethod<'_>, _gate: bool) -> Option<Arc<dyn StudyPlan>> {
+    /// The study with an external solver in place of its methods, gated on `terms` if there are
+    /// any; `None` for a study of the inside of a method.
+    fn of_external(
+        &self,
+        _solver: ExternalMethod<'_>,
+        _terms: Option<&GateTerms>,
+    ) -> Option<Arc<dyn StudyPlan>> {
         None
     }
 }

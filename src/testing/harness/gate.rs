@@ -153,7 +153,7 @@ impl SharedSuite {
     /// Theory.
     fn hold(&self, index: usize) -> Result<Completion, Failed> {
         let outcome = self.case(index);
-        if !outcome.lacks.is_empty() {
+        if !outcome.is_tested() {
             return Ok(Completion::ignored_with(&outcome.reason));
         }
         if outcome.passed() {
@@ -173,7 +173,7 @@ impl SharedSuite {
     fn compare(&self) -> Result<Completion, Failed> {
         let outcome = self.outcome();
         if let [first, ..] = &outcome.cases[..]
-            && outcome.cases.iter().all(|case| !case.lacks.is_empty())
+            && !outcome.cases.iter().any(CaseOutcome::is_tested)
         {
             return Ok(Completion::ignored_with(&first.reason));
         }

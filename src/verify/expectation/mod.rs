@@ -1,6 +1,7 @@
 //! Expectations of a suite for a case, and their check.
 
 pub(crate) mod advice;
+pub(crate) mod gate;
 pub(crate) mod limits;
 pub(crate) mod observed;
 pub(crate) mod proposal;

@@ -6,7 +6,7 @@ use mpm_verify::report::report_schema;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-const CASE: [&str; 19] = [
+const CASE: [&str; 20] = [
     "case",
     "subject",
     "axis",
@@ -17,6 +17,7 @@ const CASE: [&str; 19] = [
     "verdict",
     "expected",
     "passed",
+    "result",
     "reason",
     "unmet",
     "profile",

@@ -1,6 +1,8 @@
 //! Solvers of other programs, as shell scripts: sound ones, and every way to misbehave.
 
 mod doctor;
+#[cfg(unix)]
+mod gate;
 mod library;
 #[cfg(unix)]
 mod misbehaving;

@@ -69,6 +69,7 @@ pub(crate) fn cases(
             against: draft.against,
             expectation,
             expectation_in_full: expectation_in_full.flatten(),
+            gating: None,
         }
     };
     Ok(drafts.into_iter().zip(expectations).map(with).collect())

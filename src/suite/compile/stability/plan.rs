@@ -191,7 +191,7 @@ fn cases(
     let case = |((name, method), owner): ((String, Method), Option<usize>)| {
         let (expected, because) = owner.map(|owner| expected[owner].clone()).unwrap_or_default();
         let summary = owner.map(|owner| expect::summary(&spec.expect[owner], predicted));
-        StabilityCase { name, method, expected, summary, because }
+        StabilityCase { name, method, expected, summary, because, gating: None }
     };
     Ok(drafts.into_iter().zip(owners).map(case).collect())
 }

@@ -13,6 +13,8 @@ const REASONS: &[(&str, &str)] = &[
     ("particles.perturb", "any place of a particle is right: errors are taken where it is"),
     ("particles.shift", "any place of a particle is right: errors are taken where it is"),
     ("internal_force.positions", "what is predicted holds wherever the particle is"),
+    ("any_method.error_below", "of an external solver: tests/it/external"),
+    ("any_method.order", "of an external solver: tests/it/external"),
     ("methods.external.formal_order", "of a solver of somebody else: tests/it/external"),
     ("equilibrium.linearised.tolerance", "one check serves this and exact"),
     ("equilibrium.temperature", "refused: a body in which heat flows is not at rest"),

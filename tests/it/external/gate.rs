@@ -1,0 +1,323 @@
+//! `run --gate`: each row of the table in `docs/gate.md`.
+
+use super::bar;
+use super::program::HELLO;
+use crate::cli::{BAD_INPUT, BAR, FAILED, Folder, SOUND, on_one_grid};
+use crate::common::folder::Answer;
+use rstest::rstest;
+
+/// The exact solution of the bar times `1 + ERROR`, in `h` (m) and the time step `d` (s).
+const OF_ERROR: &str = r#"
+read -r m; echo 'HELLO'
+read -r problem || exit 0
+case "$problem" in *'"bye"'*) exit 0;; esac
+echo '{"type":"ready"}'
+while read -r m; do
+    case "$m" in *'"bye"'*) exit 0;; esac
+    printf '%s\n%s\n' "$problem" "$m" | awk '
+        function number(name, rest) {
+            rest = substr($0, index($0, "\"" name "\":") + length(name) + 3)
+            return rest + 0
+        }
+        NR == 1 {
+            x = substr($0, index($0, "\"reference_position\":[") + 22)
+            n = split(substr(x, 1, index(x, "]") - 1), X, ",")
+            h = number("h")
+        }
+        NR == 2 {
+            pi = atan2(0, -1)
+            d = number("dt")
+            t = number("from") + number("steps") * d
+            for (p = 1; p <= n; p++) {
+                s = 1e-3 * sin(pi * X[p] / 2) * (1 + ERROR)
+                u = u (p > 1 ? "," : "") sprintf("%.17g", s * sin(5 * pi * t) / (5 * pi))
+                v = v (p > 1 ? "," : "") sprintf("%.17g", s * cos(5 * pi * t))
+            }
+            printf "{\"type\":\"state\",\"columns\":{\"displacement\":[%s],\"velocity\":[%s]}}\n", u, v
+        }'
+done
+"#;
+
+/// A folder with `bar.yaml`, and a solver in `solver.sh` whose errors are `error`.
+fn folder(error: &str) -> Folder {
+    let folder = Folder::new();
+    folder.write("bar.yaml", bar());
+    folder.write("solver.sh", OF_ERROR.replace("HELLO", HELLO).replace("ERROR", error));
+    folder
+}
+
+/// Runs the gate on `targets` with `options`.
+fn gate(folder: &Folder, targets: &[&str], options: &[&str]) -> Answer {
+    let start = ["run", "--gate", "--brief", "--solver", "sh solver.sh"];
+    folder.call(&[&start[..], options, targets].concat())
+}
+
+/// Without `methods` of its own that could be judged, the bar names a solver and expects nothing.
+fn naming_the_solver() -> String {
+    let text =
+        bar().replace("  - fem: {element: linear, mass: lumped}", "  - external: {name: odd}");
+    text[..text.find("expect:").expect("expectations")].to_owned()
+}
+
+fn with_any_method(text: &str, keys: &str) -> String {
+    text.replace("expect:", &format!("any_method: {{{keys}, because: theory}}\n\nexpect:"))
+}
+
+#[rstest]
+#[case::the_order("h*h", SOUND, "pass")]
+#[case::a_better_order("h*h*h*h", SOUND, "order reached")]
+#[case::a_lower_order("h", FAILED, "FAIL")]
+#[case::no_order("0.1", FAILED, "FAIL")]
+#[case::rounding("1e-16", SOUND, "at rounding")]
+#[case::nothing("0", SOUND, "at rounding")]
+fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] words: &str) {
+    let found = gate(&folder(error), &["bar.yaml"], &[]);
+    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    assert!(found.out.contains(words), "{}", found.out);
+}
+
+#[test]
+fn every_case_of_a_solver_that_a_suite_names_is_gated() {
+    for (error, code) in [("h*h", SOUND), ("h^0.2", FAILED)] {
+        let folder = folder(error);
+        folder.write("bar.yaml", naming_the_solver());
+        let found = gate(&folder, &["bar.yaml"], &[]);
+        assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    }
+}
+
+#[rstest]
+#[case::regularity("order: 1", "h", SOUND)]
+#[case::below_the_regularity("order: 1", "0.1", FAILED)]
+#[case::above_the_formal_order("order: 3", "h*h", SOUND)]
+#[case::a_bound("error_below: 1e-4", "0.1", SOUND)]
+#[case::above_the_bound("error_below: 1e-6", "0.1", FAILED)]
+fn a_suite_states_what_any_method_can_reach(
+    #[case] keys: &str,
+    #[case] error: &str,
+    #[case] code: i32,
+) {
+    let folder = folder(error);
+    folder.write("bar.yaml", with_any_method(&bar(), keys));
+    let found = gate(&folder, &["bar.yaml"], &[]);
+    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+}
+
+#[rstest]
+#[case::nothing("", "this states nothing that a method can reach")]
+#[case::no_order("order: 0,", "the order is 0, and must be above zero")]
+#[case::a_high_order("order: 21,", "expected an order up to 20")]
+#[case::no_bound("error_below: -1,", "the bound on errors is -1")]
+#[case::a_law_that_matters(
+    "any_law: true,",
+    "the law matters, because the solution is not a translation"
+)]
+#[case::not_gated_with_a_bound("gated: false, order: 1,", "a suite that is not gated has no order")]
+#[case::a_misspelt_key("orders: 1,", "did you mean `order`?")]
+fn a_mistake_in_any_method(#[case] keys: &str, #[case] words: &str) {
+    let folder = folder("h");
+    let stated = format!("any_method: {{{keys} because: theory}}\n\nexpect:");
+    folder.write("bar.yaml", bar().replace("expect:", &stated));
+    let found = gate(&folder, &["bar.yaml"], &[]);
+    assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
+    assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+}
+
+/// One level has no order; the suite is named, so that the gate does not pass it over.
+#[test]
+fn one_level_is_not_gated_unless_the_suite_has_bounds() {
+    let folder = folder("h*h");
+    let single = on_one_grid(&bar()).replace("short-bar", "single-bar");
+    folder.write("suites/single.yaml", &single);
+    folder.write("suites/bar.yaml", bar());
+    let found = gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &[]);
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("not gated  single-bar::odd"), "{}", found.out);
+    assert!(found.out.contains("one level, and an order needs 4"), "{}", found.out);
+    assert!(found.errors.contains("not applicable or not gated: single-bar"), "{}", found.errors);
+    let allowed = ["--allow-not-applicable"];
+    let found = gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &allowed);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    // A folder names no suite.
+    assert_eq!(gate(&folder, &["suites"], &[]).code, SOUND);
+    // Nothing is tested.
+    assert_eq!(gate(&folder, &["suites/single.yaml"], &allowed).code, FAILED);
+    for (bound, code) in [("1e-4", SOUND), ("1e-9", FAILED)] {
+        let expected = format!("- error_below: {bound}");
+        let bounded = single.replace("- order: [1.7, 2.3]", &expected);
+        folder.write("suites/single.yaml", bounded);
+        assert_eq!(gate(&folder, &["suites/single.yaml"], &[]).code, code, "{bound}");
+    }
+}
+
+#[test]
+fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
+    let folder = folder("h*h");
+    let foreign = bar().replace("short-bar", "hencky-bar").replace("linear_elastic:", "hencky:");
+    folder.write("foreign.yaml", foreign.replace("small_strain", "hencky\n  tolerance: 1e-2"));
+    let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]);
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    // What is lacking stands in the line of the case.
+    let line = found.out.lines().find(|line| line.contains("hencky-bar")).expect("a line");
+    assert!(line.contains("n/a") && line.contains("lacks laws: hencky"), "{line}");
+    assert!(found.errors.contains("hencky-bar; `--allow-not-applicable`"), "{}", found.errors);
+    let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &["--allow-not-applicable"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    assert_eq!(gate(&folder, &["foreign.yaml"], &["--allow-not-applicable"]).code, FAILED);
+}
+
+/// The suite keeps its time step on all levels: shorter steps show whether that limits the order.
+#[rstest]
+#[case::an_error_in_time("h*h + 7000*d*d", SOUND)]
+#[case::an_error_in_space("h + 7000*d*d", FAILED)]
+#[case::an_error_that_no_step_reduces("h*h + 0.03", FAILED)]
+fn shorter_steps_restore_the_order(#[case] error: &str, #[case] code: i32) {
+    let folder = folder(error);
+    folder.write("bar.yaml", BAR);
+    let found = gate(&folder, &["bar.yaml"], &[]);
+    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+}
+
+/// Steps that follow the cells are refined with them, and an error of first order in time is one.
+#[test]
+fn steps_that_follow_the_cells_are_not_shortened() {
+    let found = gate(&folder("h*h + 100*d"), &["bar.yaml"], &[]);
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+}
+
+/// A translation under a law that the solver lacks: it gets the problem with its own.
+#[test]
+fn a_translation_needs_no_particular_law() {
+    let folder = folder("0");
+    let moving = r#"suite: moving-block
+title: Translation
+source: a textbook
+scene:
+  dimension: 1
+  body: {box: {from: [0], to: [1]}}
+  grid: {from: [0], to: [2]}
+  material: {corotated: {young: 3, poisson: 0.25, density: 1}}
+  initial_velocity: [0.1]
+exact:
+  equation: corotated
+  displacement: ["0.1*t"]
+run: {until: 0.05, dt: 1e-2}
+refine: {cells: [4, 6, 8, 12], ppc: 4}
+methods:
+  - mpm: {basis: linear, transfer: flip, scheme: musl}
+expect:
+  - error_below: 1e-12
+    because: a uniform velocity is kept
+"#;
+    folder.write("moving.yaml", moving);
+    let script = folder.read("solver.sh");
+    let script = script.replace("s * sin(5 * pi * t) / (5 * pi)", "0.1 * t");
+    let script = script.replace("s * cos(5 * pi * t)", "0.1");
+    let logged = script.replace(
+        "echo '{\"type\":\"ready\"}'",
+        "echo \"$problem\" >>log; echo '{\"type\":\"ready\"}'",
+    );
+    folder.write("solver.sh", logged);
+    let found = gate(&folder, &["moving.yaml"], &[]);
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("lacks laws: corotated"), "{}", found.out);
+    folder.write("moving.yaml", with_any_method(moving, "any_law: true"));
+    let found = gate(&folder, &["moving.yaml"], &[]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    assert!(found.out.contains("at rounding"), "{}", found.out);
+    let problem = folder.read("log");
+    for words in [r#""law":"linear_elastic""#, r#""young":3"#, r#""poisson":0.25"#] {
+        assert!(problem.contains(words), "no `{words}` in\n{problem}");
+    }
+}
+
+#[rstest]
+#[case::a_formal_order("formal_order: 1\n", "h", SOUND, "order at least 0.90")]
+#[case::a_higher_formal_order("formal_order: 3\n", "h*h", FAILED, "order at least 2.90")]
+#[case::an_order(
+    "suites:\n  short-bar: {order: 1, because: of walls}\n",
+    "h",
+    SOUND,
+    "order at least 0.90"
+)]
+#[case::a_bound(
+    "suites:\n  short-*: {error_below: 1e-4, because: of walls}\n",
+    "0.1",
+    SOUND,
+    "within bounds"
+)]
+#[case::above_the_bound(
+    "suites:\n  short-*: {error_below: 1e-9, because: of walls}\n",
+    "0.1",
+    FAILED,
+    "FAIL"
+)]
+#[case::the_first_that_fits(
+    "suites:\n  short-bar: {order: 1, because: a}\n  '*': {order: 2, because: b}\n",
+    "h",
+    SOUND,
+    "pass"
+)]
+#[case::an_exception(
+    "suites:\n  short-bar: {skip: its walls are soft}\n",
+    "0.1",
+    SOUND,
+    "excepted  short-bar::odd"
+)]
+fn a_configuration_with(
+    #[case] text: &str,
+    #[case] error: &str,
+    #[case] code: i32,
+    #[case] words: &str,
+) {
+    let folder = folder(error);
+    folder.write("solver.yaml", text);
+    let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]);
+    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    if text.contains("skip") {
+        for text in [&found.out, &found.errors] {
+            assert!(text.contains("its walls are soft"), "{}{}", found.out, found.errors);
+        }
+    }
+}
+
+#[rstest]
+#[case::an_unknown_suite("suites:\n  short-baz: {skip: why}\n", &["solver.yaml:2:3", "no suite has the name `short-baz`", "did you mean `short-bar`?"])]
+#[case::an_unknown_pattern("suites:\n  long-*x: {skip: why}\n", &["no suite has the name `long-*x`", "`*` stands for any text"])]
+#[case::an_unknown_key("formal-order: 2\n", &["solver.yaml:1:1", "did you mean `formal_order`?"])]
+#[case::an_unknown_key_of_a_suite("suites:\n  short-bar: {skipp: why}\n", &["solver.yaml:2:15", "did you mean `skip`?"])]
+#[case::text_for_a_number("formal_order: two\n", &["solver.yaml:1:15", "two"])]
+#[case::no_order("formal_order: 0\n", &["the order is 0", "expected a number above 0 and up to 20"])]
+#[case::not_a_number("suites:\n  short-bar: {order: .nan, because: why}\n", &["solver.yaml:2:22", "a finite number is expected here"])]
+#[case::no_bound("suites:\n  short-bar: {error_below: 0, because: why}\n", &["the bound on errors is 0"])]
+#[case::no_terms("suites:\n  short-bar: {}\n", &["solver.yaml:2:3", "neither an order nor a bound"])]
+#[case::no_reason("suites:\n  short-bar: {order: 1}\n", &["an order or a bound for a suite needs its reason"])]
+#[case::an_empty_reason("suites:\n  short-bar: {skip: ''}\n", &["the reason is empty"])]
+#[case::an_order_that_is_skipped("suites:\n  short-bar: {order: 1, skip: why}\n", &["remove `skip`"])]
+#[case::a_suite_twice("suites:\n  short-bar: {skip: a}\n  short-bar: {skip: b}\n", &["short-bar"])]
+fn a_mistake_in_a_configuration(#[case] text: &str, #[case] words: &[&str]) {
+    let folder = folder("h");
+    folder.write("solver.yaml", text);
+    let found = gate(&folder, &["bar.yaml"], &["--solver-config", "solver.yaml"]);
+    assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
+    for words in words {
+        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    }
+}
+
+#[test]
+fn a_configuration_that_is_not_there_is_bad_input() {
+    let found = gate(&folder("h"), &["bar.yaml"], &["--solver-config", "none.yaml"]);
+    assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
+    assert!(found.errors.contains("none.yaml"), "{}", found.errors);
+}
+
+/// A study of the inside of a method is for no external solver.
+#[test]
+fn a_named_study_of_a_method_fails_unless_allowed() {
+    let folder = folder("h*h");
+    let targets = ["bar.yaml", "grid-crossing"];
+    assert_eq!(gate(&folder, &targets, &[]).code, FAILED);
+    assert_eq!(gate(&folder, &targets, &["--allow-not-applicable"]).code, SOUND);
+}
