@@ -60,7 +60,14 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         &|needs| needs.manufactured = true,
     )?;
     let asked = Questions::default();
-    let course = run(patient, &moving, &asked, |_, t| FORCE + RATE * t);
+    let mut course = run(patient, &moving, &asked, true, |_, t| FORCE + RATE * t);
+    // Requests for places outside of the body are refused: again, to see which they are.
+    if matches!(course, Err(Hindrance::Broke(_))) {
+        let again = run(patient, &moving, &asked, false, |_, t| FORCE + RATE * t);
+        if again.is_ok() {
+            course = again;
+        }
+    }
     // Requests at wrong places or times explain a run that breaks.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
@@ -78,7 +85,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut found = of_time(&asked, &course);
     let resting = BoxScene { velocity: AffineField::default(), steps: 1, ..moving.clone() };
     if found.is_none() {
-        let course = run(patient, &resting, &Questions::default(), |x, _| x / H)?;
+        let course = run(patient, &resting, &Questions::default(), true, |x, _| x / H)?;
         found = of_points(&course, resting.dt / H);
     }
     let count = asked.lock().unwrap_or_else(PoisonError::into_inner).len();
@@ -102,16 +109,20 @@ pub(super) fn ramp(problem: &mut LevelProblem) {
     problem.constant_body_force = None;
 }
 
-/// A run of `scene` with the force `force(x, t)` along the first axis.
+/// A run of `scene`, whose requests may be checked to be inside the body, with the force `force(x, t)` along the first axis.
 fn run(
     patient: &Patient<'_>,
     scene: &BoxScene,
     asked: &Questions,
+    checks_places: bool,
     force: ForceAlong,
 ) -> Result<Course, Hindrance> {
     let (mut problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
     let asked = Arc::clone(asked);
     problem.body_force = Some(BodyForceField(Arc::new(AskedForce { asked, force })));
+    if !checks_places {
+        problem.fields = None;
+    }
     let course = patient.run_problem(scene, problem)?;
     match course.failure {
         Some(failure) => Err(Hindrance::Broke(failure)),
