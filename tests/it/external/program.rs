@@ -171,3 +171,43 @@ fn the_kept_schema_is_that_of_the_messages() {
     let written = "`mpm-verify schema protocol > docs/protocol.schema.json` writes it anew";
     assert!(protocol_schema() == kept, "{written}");
 }
+
+/// A solver of order 1, on four levels.
+fn of_first_order() -> Folder {
+    let folder = folder();
+    folder.write("solver.sh", SECOND_ORDER.replace("HELLO", HELLO).replace("1 + h * h", "1 + h"));
+    folder
+}
+
+#[test]
+fn a_program_is_diagnosed_without_changes_of_its_method() {
+    let found = of_first_order().call(&["diagnose", "bar.yaml", "--solver", SOLVER]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    for words in [
+        "the verdict is too low",
+        "Settings of the method (start, scheme, basis, transfer, mass matrix, frame) are not changed",
+        "cells of half the size",
+    ] {
+        assert!(flat.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    assert!(!flat.contains("NaN") && !flat.contains("half_step_back"), "{}", found.out);
+}
+
+#[test]
+fn expectations_are_proposed_for_a_program() {
+    let found = folder().call(&["propose", "bar.yaml", "--solver", SOLVER]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    for words in ["- external: {name: odd}", "- case: [odd]", "order: [1.9, 2.1]  # from theory"] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+}
+
+#[test]
+fn a_case_that_a_program_cannot_take_is_not_diagnosed() {
+    let folder = folder();
+    folder.write("bar.yaml", bar().replace("left: fixed", "left: roller"));
+    let found = folder.call(&["diagnose", "bar.yaml", "--solver", SOLVER]);
+    assert_eq!(found.code, crate::cli::BAD_INPUT, "{}{}", found.out, found.errors);
+    assert!(found.errors.contains("is not applicable: the solver lacks"), "{}", found.errors);
+}
