@@ -6,6 +6,7 @@
 
 mod check;
 mod condition;
+mod correction;
 mod equation;
 mod expansion;
 mod face;
@@ -35,6 +36,7 @@ pub(crate) mod tests;
 pub use check::interface::{Interface, meets};
 pub use check::survey::{Magnitudes, Survey};
 pub use condition::{Condition, FacePoint};
+pub use correction::FirstCorrection;
 pub use expansion::Expansion;
 pub use face::Face;
 pub use forcing::{Forcing, SharedForces};

@@ -29,7 +29,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
             );
         }
         push(&mut rows, "amplitude", &amplitude(problem));
-        push(&mut rows, "linearised", &linearisation::row(problem));
+        push(&mut rows, "linearised", &linearisation::row(problem, plan.norm));
     }
     if let Some(fine) = &plan.reference {
         let (element, mass, law) = (fine.element.name(), fine.mass.name(), fine.equation.name());

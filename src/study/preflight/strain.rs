@@ -23,7 +23,9 @@ struct ModelError {
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
-    if let Some(Linearisation { residual, error }) = Linearisation::of(problem, motion, case.until)
+    let norm = preflight.plan.norm;
+    if let Some(Linearisation { residual, error }) =
+        Linearisation::of(problem, motion, case.until, norm)
     {
         let origin = format!(
             "the truth is linearised: of the terms of its equations {residual:.1e} is left"

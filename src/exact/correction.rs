@@ -1,0 +1,257 @@
+//! The first correction of a linearised motion: the linear response to the residual of its law.
+//!
+//! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
+//! tractions on faces. The motion that solves the problem is u + d, where to first order
+//! `rho0 d_tt = M d_XX + r`, with d = 0 where a face is held, and the residual traction on others.
+//! It is computed along the one axis along which the motion varies: on linear elements with a
+//! lumped mass matrix by central differences in time, and by integration for a body at rest.
+
+use super::check::event::Event;
+use super::condition::FacePoint;
+use super::face::Face;
+use super::formula::Formula;
+use super::motion::{Derivatives, variables};
+use super::problem::Problem;
+use super::violation::Violation;
+use crate::subject::PlaneState;
+use std::cell::Cell;
+
+/// Maximum number of residuals that are evaluated.
+const EVALUATIONS: f64 = 2e5;
+
+/// Minimum and maximum number of elements.
+const ELEMENTS: (f64, f64) = (32.0, 256.0);
+
+/// Time step, relative to the time in which a wave crosses an element.
+const COURANT: f64 = 0.9;
+
+/// What a condition demands at a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Demand {
+    /// The displacement or the velocity is given.
+    Held,
+    /// The difference of the given traction and the traction of the motion (Pa).
+    Traction(f64),
+    /// Another demand, for which no correction is computed.
+    Other,
+}
+
+/// A point of a face that records what its condition demands along the normal.
+struct DemandPoint<'a> {
+    problem: &'a Problem,
+    face: &'a Face,
+    event: Event,
+    now: Derivatives,
+    demand: Cell<Demand>,
+}
+
+impl DemandPoint<'_> {
+    fn record(&self, i: usize, demand: Demand) -> Result<(), Violation> {
+        if i == self.face.axis {
+            self.demand.set(demand);
+        }
+        Ok(())
+    }
+}
+
+impl FacePoint for DemandPoint<'_> {
+    fn dimension(&self) -> usize {
+        self.problem.dimension()
+    }
+
+    fn axis(&self) -> usize {
+        self.face.axis
+    }
+
+    fn value(&self, formula: &Formula) -> f64 {
+        let Event { label, t } = &self.event;
+        formula.eval(&variables(label, *t)[..=label.len()])
+    }
+
+    fn present_area(&self) -> [f64; 3] {
+        self.problem.equation.present_area(&self.now.grad, self.face.axis, self.face.high)
+    }
+
+    fn held(&self, i: usize, _: &str) -> Result<(), Violation> {
+        self.record(i, Demand::Held)
+    }
+
+    fn velocity(&self, i: usize, _: f64) -> Result<(), Violation> {
+        self.record(i, Demand::Held)
+    }
+
+    fn traction(&self, i: usize, _: &str, given: f64) -> Result<(), Violation> {
+        let normal = if self.face.high { 1.0 } else { -1.0 };
+        let piola = self.problem.piola(&self.event.label, self.event.t, &self.now);
+        self.record(i, Demand::Traction(given - normal * piola[i][self.face.axis]))
+    }
+
+    fn friction(&self, _: f64) -> Result<(), Violation> {
+        self.record(self.face.axis, Demand::Held)
+    }
+
+    fn continues_on_opposite_face(&self) -> Result<(), Violation> {
+        self.record(self.face.axis, Demand::Other)
+    }
+}
+
+/// The body along the axis along which its motion varies.
+struct Line<'a> {
+    problem: &'a Problem,
+    axis: usize,
+    elements: usize,
+    /// Length of an element (m).
+    h: f64,
+}
+
+impl Line<'_> {
+    fn label(&self, node: usize) -> Vec<f64> {
+        let Problem { from, to, .. } = self.problem;
+        let mut label: Vec<f64> = from.iter().zip(to).map(|(a, b)| 0.5 * (a + b)).collect();
+        label[self.axis] = from[self.axis] + self.h * node as f64;
+        label
+    }
+
+    /// Residual force (N/m3) at a node.
+    fn residual(&self, node: usize, t: f64) -> f64 {
+        let (problem, label, i) = (self.problem, self.label(node), self.axis);
+        let now = problem.derivatives(&label, t);
+        let force = problem.force(&label, problem.loaded(t), &now)[i];
+        problem.divergence(&label, t, &now)[i] + problem.density * (force - now.acceleration[i])
+    }
+
+    fn demand(&self, high: bool, t: f64) -> Demand {
+        let face = |face: &&Face| face.axis == self.axis && face.high == high;
+        let Some(face) = self.problem.faces.iter().find(face) else { return Demand::Other };
+        let event = Event { label: self.label(if high { self.elements } else { 0 }), t };
+        let now = self.problem.derivatives(&event.label, t);
+        let demand = Cell::new(Demand::Other);
+        let point = DemandPoint { problem: self.problem, face, event, now, demand };
+        if face.condition.check(&point).is_err() {
+            return Demand::Other;
+        }
+        point.demand.get()
+    }
+
+    /// Nodal forces (Pa) of the residual at a time, and whether both ends are held.
+    fn forces(&self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
+        let last = self.elements;
+        let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
+        let mut forces: Vec<f64> =
+            (0..=last).map(|node| weight(node) * self.h * self.residual(node, t)).collect();
+        let mut held = [false; 2];
+        for (end, node) in [0, last].into_iter().enumerate() {
+            match self.demand(end == 1, t) {
+                Demand::Held => held[end] = true,
+                Demand::Traction(traction) => forces[node] += traction,
+                Demand::Other => return None,
+            }
+        }
+        Some((forces, held))
+    }
+
+    /// The correction (m) of a state of rest: equilibrium of the nodal forces.
+    fn at_rest(&self, t: f64) -> Option<Vec<f64>> {
+        let (forces, held) = self.forces(t)?;
+        // The force in an element, but for that at the low end, is minus the sum of the nodal
+        // forces below it.
+        let mut below = 0.0;
+        let sums: Vec<f64> = forces[..self.elements]
+            .iter()
+            .map(|force| {
+                below -= force;
+                below
+            })
+            .collect();
+        let reaction = match held {
+            [true, true] => -sums.iter().sum::<f64>() / self.elements as f64,
+            [true, false] => forces[self.elements] - sums[self.elements - 1],
+            [false, true] => 0.0,
+            [false, false] => return None,
+        };
+        let stretch = |sum: &f64| (reaction + sum) * self.h / self.problem.equation.modulus();
+        let mut d = vec![0.0];
+        for sum in &sums {
+            d.push(d[d.len() - 1] + stretch(sum));
+        }
+        let shift = if held[0] { 0.0 } else { d[self.elements] };
+        Some(d.into_iter().map(|d| d - shift).collect())
+    }
+
+    /// The correction at a time `until`, of a motion that starts without one.
+    fn in_motion(&self, until: f64, steps: usize) -> Option<FirstCorrection> {
+        let (problem, last) = (self.problem, self.elements);
+        let (dt, stiffness) = (until / steps as f64, problem.equation.modulus() / self.h);
+        let mass = |node: usize| {
+            let share = if node == 0 || node == last { 0.5 } else { 1.0 };
+            share * self.h * problem.density
+        };
+        let (mut d, mut v) = (vec![0.0; last + 1], vec![0.0; last + 1]);
+        let mut largest = 0.0_f64;
+        for step in 0..steps {
+            let t = dt * step as f64;
+            let (mut forces, held) = self.forces(t)?;
+            for element in 0..last {
+                let pull = stiffness * (d[element + 1] - d[element]);
+                forces[element] += pull;
+                forces[element + 1] -= pull;
+            }
+            let rates = problem.terms.iter().map(|term| term.resistance(t, 1.0, &|| 0.0));
+            let damping = -rates.sum::<f64>();
+            // Velocities start half a step late.
+            let share = if step == 0 { 0.5 } else { 1.0 };
+            for node in 0..=last {
+                let is_held = (node == 0 && held[0]) || (node == last && held[1]);
+                let kick = share * dt * (forces[node] / mass(node) - damping * v[node]);
+                v[node] = if is_held { 0.0 } else { v[node] + kick };
+                d[node] += dt * v[node];
+            }
+            largest = largest.max(root_mean_square(&d));
+        }
+        Some(FirstCorrection { at_end: root_mean_square(&d), largest })
+    }
+}
+
+/// Root mean square over the body of the first correction (m) of a linearised motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstCorrection {
+    /// At the end of the run.
+    pub at_end: f64,
+    /// The largest of the run.
+    pub largest: f64,
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (squares / values.len() as f64).sqrt()
+}
+
+impl Problem {
+    /// The first correction of a linearised motion in a run until `t` (s). `None` for motions that vary along several axes, for bodies with a rim and
+    /// for several bodies.
+    pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
+        let d = self.dimension();
+        let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();
+        let [axis] = varying[..] else { return None };
+        let is_plain = d != 2 || self.plane == PlaneState::Strain;
+        if !is_plain || self.outline.is_some() || !self.bodies.is_empty() || self.heat.is_some() {
+            return None;
+        }
+        let length = self.to[axis] - self.from[axis];
+        let crossings = t * self.wave_speed() / (COURANT * length);
+        let affordable = if self.at_rest { ELEMENTS.1 } else { (EVALUATIONS / crossings).sqrt() };
+        let elements = affordable.clamp(ELEMENTS.0, ELEMENTS.1).floor();
+        let steps = (crossings * elements).ceil().max(elements);
+        if !(elements * steps <= 10.0 * EVALUATIONS) && !self.at_rest {
+            return None;
+        }
+        let line = Line { problem: self, axis, elements: elements as usize, h: length / elements };
+        let correction = if self.at_rest {
+            let at_end = root_mean_square(&line.at_rest(self.until)?);
+            FirstCorrection { at_end, largest: at_end }
+        } else {
+            line.in_motion(t, steps as usize)?
+        };
+        Some(correction).filter(|correction| correction.largest.is_finite())
+    }
+}
