@@ -60,15 +60,13 @@ impl CaseRunner for StabilityRunner<'_> {
         let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
         // What a solver says it cannot do is no fault of it.
         let refused = rows.iter().find_map(|row| row.refused.clone());
-        match refused.filter(|_| context.solver.is_some()) {
-            Some(reason) => described(&run).not_applicable(vec![reason], "cannot be put to it:"),
-            None => {
-                let outcome = outcome(&run, rows);
-                match &case.gating {
-                    Some(Gating::NotGated(reason)) => outcome.not_gated(reason),
-                    _ => outcome,
-                }
-            }
+        if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
+            return described(&run).not_applicable(vec![reason], "cannot be put to it:");
+        }
+        let outcome = outcome(&run, rows);
+        match &case.gating {
+            Some(Gating::NotGated(reason)) => outcome.not_gated(reason),
+            _ => outcome,
         }
     }
 
