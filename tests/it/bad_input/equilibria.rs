@@ -112,7 +112,8 @@ fn local_damping_of_finite_elements() {
 fn rest_is_asked_of_a_body_that_comes_to_rest() {
     let (order, bound) = ("    order: [1.5, 1.8]\n", "    ▸rest_below: 1e-6\n");
     let column = super::COLUMN;
-    let line = column.lines().find(|line| line.trim_start().starts_with("order: [")).unwrap_or(order);
+    let line =
+        column.lines().find(|line| line.trim_start().starts_with("order: [")).unwrap_or(order);
     let edit = format!("{line}\n{bound}");
     refused(
         column,
