@@ -25,7 +25,7 @@ const ELEMENTS: (f64, f64) = (32.0, 256.0);
 /// Time step, relative to the time in which a wave crosses an element.
 const COURANT: f64 = 0.9;
 
-/// What a condition demands at a face.
+/// Demand of a condition on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Demand {
     /// The displacement or the velocity is given.
@@ -227,8 +227,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 }
 
 impl Problem {
-    /// The first correction of a linearised motion in a run until `t` (s). `None` for motions that vary along several axes, for bodies with a rim and
-    /// for several bodies.
+    /// The first correction of a linearised motion in a run until `t` (s). `None` for motions that
+    /// vary along several axes, for bodies with a rim and for several bodies.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

@@ -30,7 +30,7 @@ pub struct Problem {
     pub bodies: Vec<Self>,
     /// State across the plane of a body in two dimensions.
     pub plane: PlaneState,
-    /// Reference density (kg/m^D).
+    /// Reference density (kg/m3).
     pub density: f64,
     /// The equation of motion.
     pub equation: Equation,

@@ -133,7 +133,7 @@ pub struct ProblemMaterial {
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, f64>"))]
     pub parameters: Vec<(&'static str, f64)>,
-    /// Reference density (kg/m^D).
+    /// Reference density (kg/m3).
     pub density: f64,
 }
 

@@ -56,7 +56,7 @@ pub struct Block<const D: usize> {
     pub from: Vector<D>,
     /// Highest corner (m).
     pub to: Vector<D>,
-    /// Density in the reference configuration (kg/m^D).
+    /// Density in the reference configuration (kg/m3).
     pub density: f64,
 }
 

@@ -31,7 +31,6 @@ struct Shape {
     lengths: &'static str,
     boundary: &'static str,
     held: &'static str,
-    density: &'static str,
     cells: &'static str,
     ppc: &'static str,
     instants: &'static str,
@@ -46,7 +45,6 @@ const BAR: Shape = Shape {
     lengths: "[L]",
     boundary: "{left: fixed, right: fixed}",
     held: "a face that is not named is free",
-    density: "kg/m",
     cells: "[8, 16, 32, 64]",
     ppc: "4",
     instants: "8",
@@ -59,7 +57,6 @@ const SQUARE: Shape = Shape {
     lengths: "[L, L]",
     boundary: "{left: roller, right: roller, bottom: roller, top: roller}",
     held: "a roller holds along its normal; a face that is not named is free",
-    density: "kg/m2",
     cells: "[8, 12, 16, 24]",
     ppc: "4",
     instants: "8",
@@ -72,7 +69,6 @@ const CUBE: Shape = Shape {
     lengths: "[L, L, L]",
     boundary: "{left: roller, right: roller, bottom: roller, top: roller, back: roller, front: roller}",
     held: "a roller holds along its normal; a face that is not named is free",
-    density: "kg/m3",
     cells: "[8, 10, 12, 16]",
     ppc: "8",
     instants: "4",
@@ -134,7 +130,7 @@ fn parameters(shape: &Shape, wave: bool) -> String {
     text += &line("  L: 1", &format!("edge of the {} (m)", shape.body));
     text += &line("  E: 1e4", "Young's modulus (Pa)");
     text += &line("  nu: 0.3", "Poisson's ratio");
-    text += &line("  rho: 1", &format!("density ({})", shape.density));
+    text += &line("  rho: 1", "density (kg/m3)");
     text += &line(&format!("  A: \"{amplitude}\""), "amplitude (m); strains are pi A/L");
     text += &line(&format!("  c: \"{speed}\""), "speed of waves (m/s)");
     text + &line("  omega: \"pi*c/L\"", "angular frequency (1/s)")

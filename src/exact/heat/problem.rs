@@ -30,7 +30,7 @@ pub struct Conduction {
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// Reference density (kg/m^D).
+    /// Reference density (kg/m3).
     pub density: f64,
     /// k (W/(m K), per m^(3-D)).
     pub conductivity: f64,

@@ -46,4 +46,4 @@ pub(super) const BULK: MaterialParameter =
 pub(super) const VISCOSITY: MaterialParameter =
     parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
 pub(super) const DENSITY: MaterialParameter =
-    parameter("the density", "rho0", "kg/m^D", Range::Positive);
+    parameter("the density", "rho0", "kg/m3", Range::Positive);

@@ -30,7 +30,7 @@ macro_rules! materials {
                         #[doc = concat!("See [`", stringify!($member), "::new`].")]
                         $field: N,
                     )*
-                    /// Reference density (kg/m^D).
+                    /// Reference density (kg/m3).
                     density: N,
                 },
             )+

@@ -15,7 +15,7 @@ pub struct Fragment<const D: usize> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Adds `fragments` of density `density` (kg/m^D) to a lattice, at rest and free of stress.
+    /// Adds `fragments` of density `density` (kg/m3) to a lattice, at rest and free of stress.
     /// The particles of the lattice keep their boxes as domains.
     pub fn add_fragments(&mut self, fragments: &[Fragment<D>], density: f64) {
         if fragments.is_empty() {

@@ -11,7 +11,7 @@ use crate::mpm::algebra::{Matrix, Vector, det};
 use crate::mpm::particles::{Block, Particles};
 
 impl<const D: usize> Particles<D> {
-    /// Fills a mapped box of density `density` (kg/m^D) with `counts` particles along its axes.
+    /// Fills a mapped box of density `density` (kg/m3) with `counts` particles along its axes.
     /// `map` gives the place (m) of a point of the unit box, and the slope there (m). At rest and
     /// free of stress.
     pub fn fill_mapped(

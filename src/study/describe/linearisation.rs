@@ -30,9 +30,9 @@ impl Linearisation {
     ///
     /// Inertia and stress are of the size of the acceleration a = omega^2 u each, so that a
     /// residual r is a force 2 r a per unit mass. It comes to r a t^2; later, where it swings with
-    /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. At rest it is
-    /// about a share r of u. A body so stiff
-    /// that it follows at once is moved by no more than a held bar of its length L, r a L^2/c^2.
+    /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. A body so
+    /// stiff that it follows at once is moved by no more than a held bar of its length L,
+    /// r a L^2/c^2. At rest the error is about a share r of u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());

@@ -26,7 +26,7 @@ pub struct Scene {
     pub plane: PlaneState,
     /// The material, but for its density.
     pub material: MaterialPlan,
-    /// Reference density (kg/m^D).
+    /// Reference density (kg/m3).
     pub density: f64,
     /// The 2 D faces of a box: low and high, axis by axis. A body with a free rim has none.
     pub faces: Vec<SceneFace>,

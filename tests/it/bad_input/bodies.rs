@@ -149,7 +149,12 @@ fn a_scene_without(#[case] missing: &str, #[case] words: &str) {
 #[case::bars_that_stick(
     IMPACT,
     &[("  contact: {friction: 0}\n", ""), ("[\"sign", "[▸\"sign")],
-    &["where two bodies meet along X, the same u_X on both"]
+    &["where two bodies meet along X, the same u_X on both", "add `contact: {friction: 0}` to `scene`"]
+)]
+#[case::bars_with_a_gap_and_one_velocity_field(
+    JOINED,
+    &[("- body: {box: {from: [a]", "- ▸body: {box: {from: [\"1.1*a\"]")],
+    &["bodies that share one velocity field and do not touch", "add `contact: {friction: 0}` to `scene`"]
 )]
 #[case::a_wall_with_friction(
     DISKS,

@@ -223,7 +223,7 @@ fn law(change: &Change, problem: &LevelProblem) -> Result<MaterialPlan, String> 
     let unit = |parameter: &MaterialParameter| match parameter.unit {
         "Pa" => stress,
         "Pa s" => stress * change.time,
-        "kg/m^D" => change.mass / change.length.powi(problem.dimension as i32),
+        "kg/m3" => change.mass / change.length.powi(problem.dimension as i32),
         _ => 1.0,
     };
     let keys = one.keyed_parameters().into_iter().map(|(key, _)| key);

@@ -53,7 +53,7 @@ struct SetForceLoad {
     value: Vec<Formula>,
     /// Of the set in the body (m^D).
     volume: f64,
-    /// Of the body (kg/m^D).
+    /// Of the body (kg/m3).
     density: f64,
 }
 

@@ -7,7 +7,7 @@ use crate::suite::compile::path::Path;
 use crate::suite::compile::wording::shown;
 use crate::suite::yaml::{Diagnostic, NumberText};
 
-/// The material and its density (kg/m^D).
+/// The material and its density (kg/m3).
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,

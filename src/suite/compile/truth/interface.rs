@@ -12,6 +12,10 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
+/// Help for two bodies that move as if they could part.
+const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
+                       they may part or slide, add `contact: {friction: 0}` to `scene`";
+
 /// Refuses truths that are those of one body.
 ///
 /// # Errors
@@ -51,7 +55,8 @@ pub(crate) fn refuse_violated_conditions(
         if apart && scene.contact.is_none() {
             let message = "bodies that share one velocity field and do not touch have no solution \
                            without h in it";
-            return Err(evaluator.diagnostic_at_key(&at.then(k).then("body"), message));
+            let diagnostic = evaluator.diagnostic_at_key(&at.then(k).then("body"), message);
+            return Err(diagnostic.with_help(CONTACT));
         }
         problems[i].faces[2 * axis + 1].condition = Arc::new(Interface);
         problems[k].faces[2 * axis].condition = Arc::new(Interface);
@@ -61,7 +66,16 @@ pub(crate) fn refuse_violated_conditions(
     problems.iter().zip(&surveys).try_for_each(|(problem, survey)| check(problem, survey))?;
     for (i, k, axis) in pairs {
         let largest = &surveys[i].largest;
-        meets(&problems[i], &problems[k], axis, scene.contact, largest).map_err(&diagnostic)?;
+        meets(&problems[i], &problems[k], axis, scene.contact, largest).map_err(|violation| {
+            let diagnostic = diagnostic(violation);
+            match (scene.contact, diagnostic.help()) {
+                (None, Some(help)) => {
+                    let help = format!("{help}; {CONTACT}");
+                    diagnostic.with_help(&help)
+                }
+                _ => diagnostic,
+            }
+        })?;
     }
     Ok(())
 }
