@@ -46,11 +46,10 @@ struct DemandPoint<'a> {
 }
 
 impl DemandPoint<'_> {
-    fn record(&self, i: usize, demand: Demand) -> Result<(), Violation> {
+    fn record(&self, i: usize, demand: Demand) {
         if i == self.face.axis {
             self.demand.set(demand);
         }
-        Ok(())
     }
 }
 
@@ -73,25 +72,30 @@ impl FacePoint for DemandPoint<'_> {
     }
 
     fn held(&self, i: usize, _: &str) -> Result<(), Violation> {
-        self.record(i, Demand::Held)
+        self.record(i, Demand::Held);
+        Ok(())
     }
 
     fn velocity(&self, i: usize, _: f64) -> Result<(), Violation> {
-        self.record(i, Demand::Held)
+        self.record(i, Demand::Held);
+        Ok(())
     }
 
     fn traction(&self, i: usize, _: &str, given: f64) -> Result<(), Violation> {
         let normal = if self.face.high { 1.0 } else { -1.0 };
         let piola = self.problem.piola(&self.event.label, self.event.t, &self.now);
-        self.record(i, Demand::Traction(given - normal * piola[i][self.face.axis]))
+        self.record(i, Demand::Traction(given - normal * piola[i][self.face.axis]));
+        Ok(())
     }
 
     fn friction(&self, _: f64) -> Result<(), Violation> {
-        self.record(self.face.axis, Demand::Held)
+        self.record(self.face.axis, Demand::Held);
+        Ok(())
     }
 
     fn continues_on_opposite_face(&self) -> Result<(), Violation> {
-        self.record(self.face.axis, Demand::Other)
+        self.record(self.face.axis, Demand::Other);
+        Ok(())
     }
 }
 

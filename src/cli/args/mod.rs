@@ -94,12 +94,8 @@ pub(super) struct CheckArgs {
     /// Exit status 1 if there are warnings
     #[arg(long)]
     pub(super) strict: bool,
-    /// Print nothing about sound suites, and no notes
-    #[arg(long, short)]
-    pub(super) quiet: bool,
-    /// Print all notes. Without this: the notes about suites that are named, and a count of others
-    #[arg(long, conflicts_with = "quiet")]
-    pub(super) notes: bool,
+    #[command(flatten)]
+    pub(super) print: CheckPrintArgs,
     #[command(flatten)]
     pub(super) format: FormatArgs,
     #[command(flatten)]
@@ -107,6 +103,17 @@ pub(super) struct CheckArgs {
     /// Check again whenever one of the files changes, until Ctrl-C
     #[arg(long)]
     pub(super) watch: bool,
+}
+
+/// Arguments for the extent of the findings that `check` prints.
+#[derive(Debug, Args)]
+pub(super) struct CheckPrintArgs {
+    /// Print nothing about sound suites, and no notes
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+    /// Print all notes. Without this: the notes about suites that are named, and a count of others
+    #[arg(long, conflicts_with = "quiet")]
+    pub(super) notes: bool,
 }
 
 #[derive(Debug, Args)]

@@ -22,8 +22,8 @@ impl CheckFindings {
         let is_named = count <= args.targets.targets.len();
         Self {
             is_json: args.format.is_json(),
-            is_quiet: args.quiet,
-            has_notes: args.notes || (is_named && !args.quiet),
+            is_quiet: args.print.quiet,
+            has_notes: args.print.notes || (is_named && !args.print.quiet),
             suites: Vec::new(),
         }
     }

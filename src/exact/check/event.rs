@@ -124,9 +124,9 @@ impl OnFace {
     pub(crate) fn of((from, to): (&[f64], &[f64]), axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {
-            from[axis] = to[axis]
+            from[axis] = to[axis];
         } else {
-            to[axis] = from[axis]
+            to[axis] = from[axis];
         }
         Self { from, to }
     }

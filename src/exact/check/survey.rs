@@ -140,7 +140,9 @@ impl Survey {
         let mut all: Vec<Self> = problems.iter().map(Self::of).collect();
         let none = Magnitudes::default();
         let largest = all.iter().fold(none, |most, survey| most.larger(survey.largest));
-        all.iter_mut().for_each(|survey| survey.largest = largest);
+        for survey in &mut all {
+            survey.largest = largest;
+        }
         all
     }
 

@@ -168,7 +168,8 @@ impl Sums {
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
-        !(fine.abs() <= TOLERANCE) && !((fine - before).abs() > 0.3 * fine.abs() || !same_size)
+        let same_share = (fine - before).abs() <= 0.3 * fine.abs();
+        fine.abs() > TOLERANCE && same_share && same_size
     }
 
     fn judge(&self, condition: &str, patch: &SpaceTimePatch) -> Result<(), Violation> {
