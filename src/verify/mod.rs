@@ -78,9 +78,7 @@ pub use stability::{
     spectral_radius, stability_limit, trial,
 };
 pub use study_results::StudyResults;
-pub use verdict::diagnosis::{
-    Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind,
-};
+pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};
 pub use verdict::floor::{Floor, FloorCause, Probe};
 pub use verdict::judge::{Judgement, judge};
 pub use verdict::name::{UnknownVerdict, Verdict};

@@ -148,7 +148,9 @@ impl<'a> Lexer<'a> {
         if !name.is_empty() {
             let message = format!("`{number}{name}` is neither a number nor a name");
             let after = name.trim_start_matches('_');
-            if name.starts_with('_') && after.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_') {
+            if name.starts_with('_')
+                && after.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_')
+            {
                 let whole = format!("{number}{}", name.replace('_', ""));
                 return Err(FormulaError::new(start..self.at, message)
                     .help(format!("digits are not grouped: write `{whole}`")));

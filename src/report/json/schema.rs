@@ -2,9 +2,7 @@
 //! and the meanings of the columns that write them; tests hold the rest to documents.
 
 use crate::report::columns::{TableColumn, cost, force, level, stability};
-use crate::verify::{
-    Axis, CaseOutcome, FloorCause, Quantity, Ranking, StabilityStudy, Verdict,
-};
+use crate::verify::{Axis, CaseOutcome, FloorCause, Quantity, Ranking, StabilityStudy, Verdict};
 use serde_json::{Map, Value, json};
 
 /// The schema, as indented JSON.

@@ -109,7 +109,8 @@ pub(super) fn ramp(problem: &mut LevelProblem) {
     problem.constant_body_force = None;
 }
 
-/// A run of `scene`, whose requests may be checked to be inside the body, with the force `force(x, t)` along the first axis.
+/// A run of `scene`, whose requests may be checked to be inside the body, with the force `force(x,
+/// t)` along the first axis.
 fn run(
     patient: &Patient<'_>,
     scene: &BoxScene,

@@ -94,7 +94,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// A slow motion that ends early: one that grows from step to step is a matter of the affine matrix.
+/// A slow motion that ends early: one that grows from step to step is a matter of the affine
+/// matrix.
 fn growing(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -116,8 +117,9 @@ fn growing(
     Ok(Examined::new(seen, vec![finding]))
 }
 
-/// Velocities after one step that are not those of the start: none, the same everywhere, in another
-/// layout, or those of other points. The last is left to `force`, if the solver requests forces.
+/// Velocities after one step that are not those of the start: none, the same everywhere, in
+/// another layout, or those of other points. The last is left to `force`, if the solver requests
+/// forces.
 fn initial_velocity(
     patient: &Patient<'_>,
     kind: Kind,
