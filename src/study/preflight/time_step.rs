@@ -18,11 +18,16 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// The rule itself keeps a step within the stable one.
+/// A rule is a share of the stable time step.
 fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let plan = preflight.plan;
     let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm { .. }));
-    if plan.refine.rule.is_some() || !moves {
+    if let Some(share) = plan.refine.rule {
+        let message = format!("the time step is {share} times the stable time step");
+        let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
+        return (share > 1.0).then(|| found.with_label("expected a share of at most 1"));
+    }
+    if !moves {
         return None;
     }
     let waves = plan.scene.fastest_wave();

@@ -76,6 +76,10 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
     &[("[6, 12, 18, 24]", "[6, 12, 18]")],
     Severity::Warning, ("cells", "3 levels support no order", "at least 4")
 )]
+#[case::a_multiple_of_the_stable_step(
+    &[("dt: \"0.2*h/c\"", "dt: {courant: 5}")],
+    Severity::Warning, ("dt", "the time step is 5 times the stable time step", "at most 1")
+)]
 #[case::too_few_that_count(
     &[("a: 1e-8", "a: 0.03")],
     Severity::Warning, ("cells", "change their cell on", "at least 4 levels that count")
