@@ -104,13 +104,13 @@ pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
 }
 
 /// A line through the body.
-struct FittedLine {
+struct LocalLine {
     axis: usize,
     from: Vec<f64>,
     to: f64,
 }
 
-impl FittedLine {
+impl LocalLine {
     fn place(&self, x: f64) -> Vec<f64> {
         let mut place = self.from.clone();
         place[self.axis] = x;
@@ -173,7 +173,7 @@ impl FittedLine {
 }
 
 /// Lines along every axis, evenly through the body.
-fn lines(problem: &Problem) -> Vec<FittedLine> {
+fn lines(problem: &Problem) -> Vec<LocalLine> {
     let d = problem.dimension();
     let count = LINES[d.clamp(1, 3) - 1];
     let mut lines = Vec::new();
@@ -186,7 +186,7 @@ fn lines(problem: &Problem) -> Vec<FittedLine> {
                 from[other] += (problem.to[other] - problem.from[other]) * share;
                 rest /= count;
             }
-            lines.push(FittedLine { axis, from, to: problem.to[axis] });
+            lines.push(LocalLine { axis, from, to: problem.to[axis] });
         }
     }
     lines

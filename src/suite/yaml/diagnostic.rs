@@ -6,7 +6,7 @@ use std::fmt;
 use std::ops::Range;
 
 /// Longer texts in a complaint are cut: a file may hold a key of 60 000 characters.
-const MAX_WORDS: usize = 240;
+const MAX_WORDS: usize = 300;
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -19,7 +19,16 @@ pub(super) const EXAMINATION: Examination = Examination {
 pub(super) const ENDS: Examination = Examination {
     name: "periodic-ends",
     expected: "two ends of a periodic axis that move towards each other stop each other",
-    after: &["conversation", "rest", "translation", "force", "transfer", "periodic", "stress"],
+    after: &[
+        "conversation",
+        "rest",
+        "translation",
+        "force",
+        "transfer",
+        "periodic",
+        "stress",
+        "walls",
+    ],
     examine: examine_ends,
 };
 

@@ -22,8 +22,16 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "transfer",
     expected: "a body without stress that turns or stretches slowly keeps its moment of momentum, or loses \
                the share that PIC loses",
-    after: &["conversation", "rest"],
+    after: &["conversation", "rest", "initial-velocity", "translation", "force"],
     examine,
+};
+
+pub(super) const INITIAL_VELOCITY: Examination = Examination {
+    name: "initial-velocity",
+    expected: "a body without stress that stretches slowly starts with the velocities of the problem, \
+               which do not grow",
+    after: &["conversation", "rest"],
+    examine: examine_initial_velocity,
 };
 
 /// Rate of rotation or stretch (1/s): no point moves by more than 1e-4 of a cell.
@@ -67,17 +75,20 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     }
     let mut scenes: Vec<BoxScene> = motions.iter().map(|motion| scene(kind, *motion)).collect();
     scenes.push(plain.scaled(0.125, 1.0, 1.0));
-    let courses = match patient.run_all(&scenes) {
-        Ok(courses) => courses,
-        Err(Hindrance::Broke(failure)) => return growing(patient, &scenes[0], failure),
-        Err(lacks) => return Err(lacks),
-    };
+    let courses = patient.run_all(&scenes)?;
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
     // The whole moment is gone in the first step, and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
-        return initial_velocity(patient, kind, &courses[0]);
+        let seen = "after one step the velocities of a stretched body belong to other places";
+        let finding = SolverFinding::defect(
+            "columns-in-another-order",
+            seen.to_owned(),
+            "the columns of a state are in another order than the particles or `points`",
+            "particles that are sorted by cells: columns have the order of the problem, or of `points`",
+        );
+        return Ok(Examined::new(seen.to_owned(), vec![finding]));
     }
     let averaging: Result<Vec<Losses>, String> =
         BASES.iter().map(|basis| Ok(losses_of(&plain.averaged(basis)?, &plain))).collect();
@@ -94,47 +105,38 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// A slow motion that ends early: one that grows from step to step is a matter of the affine
-/// matrix.
-fn growing(
-    patient: &Patient<'_>,
-    scene: &BoxScene,
-    failure: String,
-) -> Result<Examined, Hindrance> {
-    let course = patient.run(scene)?;
+/// Examines what becomes of the initial velocity of a stretched body: whether it is taken, in which
+/// layout, and whether it grows.
+fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
+    let course = patient.run(&scene)?;
     let speed = |k: usize| course.farthest(velocity, k, [0.0; 3]);
-    let (start, end) = (speed(0), speed(course.last()));
-    if !(end > 10.0 * start) {
-        return Err(Hindrance::Broke(failure));
-    }
-    let seen = format!("without stress, speeds grow from {} to {} m/s", shown(start), shown(end));
-    let finding = SolverFinding::defect(
-        "affine-matrix-scaled",
-        seen.clone(),
-        "velocity gradients grow from step to step: the affine matrix C is too large, by a power of h",
-        "the affine matrix C (B D^-1 in APIC; 4/h2 for quadratic and 3/h2 for cubic B-splines in MLS-MPM)",
+    let (start, first, end) = (speed(0), speed(1), speed(course.last()));
+    let measured = format!(
+        "speeds are up to {} m/s at the start, {} after one step and {} at the end",
+        shown(start),
+        shown(first),
+        shown(end)
     );
-    Ok(Examined::new(seen, vec![finding]))
-}
-
-/// Velocities after one step that are not those of the start: none, the same everywhere, in
-/// another layout, or those of other points. The last is left to `force`, if the solver requests
-/// forces.
-fn initial_velocity(
-    patient: &Patient<'_>,
-    kind: Kind,
-    course: &Course,
-) -> Result<Examined, Hindrance> {
-    let mean = course.mean(velocity, 1);
-    let scale = course.farthest(velocity, 0, [0.0; 3]);
-    let defect = |name, seen: &str, cause, look_at| {
-        let finding = SolverFinding::defect(name, seen.to_owned(), cause, look_at);
-        Ok(Examined::new(seen.to_owned(), vec![finding]))
+    let defect = |name, cause, look_at| {
+        let finding = SolverFinding::defect(name, measured.clone(), cause, look_at);
+        Ok(Examined::new(measured.clone(), vec![finding]))
     };
-    if course.farthest(velocity, 1, mean) <= 1e-2 * scale {
+    if !(end <= 10.0 * start) {
+        return defect(
+            "affine-matrix-scaled",
+            "velocity gradients grow from step to step without stress: the affine matrix C is too large, by \
+             a power of h, or x_i - x_p is not the distance of a node from its particle",
+            "the affine matrix C (B D^-1 in APIC; 4/h2 for quadratic and 3/h2 for cubic B-splines in \
+             MLS-MPM)",
+        );
+    }
+    if let Some(failure) = &course.failure {
+        return Err(Hindrance::Broke(failure.clone()));
+    }
+    if course.farthest(velocity, 1, course.mean(velocity, 1)) <= 1e-2 * start {
         return defect(
             "initial-velocity-dropped",
-            "after one step all points of a stretched body have one velocity",
             "the initial velocity is not taken, or one velocity is given to all particles",
             "`particles.velocity` of the problem, which has one vector for each particle",
         );
@@ -142,35 +144,21 @@ fn initial_velocity(
     let sorted = |numbers: &[f64], size: usize| {
         let mut all: Vec<Vec<i64>> = numbers
             .chunks_exact(size)
-            .map(|x| x.iter().map(|x| libm::round(1e6 * x / scale) as i64).collect())
+            .map(|x| x.iter().map(|x| libm::round(1e6 * x / start) as i64).collect())
             .collect();
         all.sort_unstable();
         all
     };
-    let (start, now) = (&course.states[0].velocity, &course.states[1].velocity);
-    let are_vectors_kept = sorted(start, kind.0) == sorted(now, kind.0);
-    if !are_vectors_kept && sorted(start, 1) == sorted(now, 1) {
+    let (before, after) = (&course.states[0].velocity, &course.states[1].velocity);
+    let d = scene.dimension;
+    if sorted(before, d) != sorted(after, d) && sorted(before, 1) == sorted(after, 1) {
         return defect(
             "vectors-in-another-layout",
-            "after one step the components of velocities are mixed between points",
             "columns of vectors are read or written component after component",
             "vectors are given point after point: x0 y0 x1 y1, not x0 x1 y0 y1",
         );
     }
-    let is_named_later = patient
-        .able_with(&[kind.0], &[kind.1], &|kind| scene(kind, SlowMotion::Stretch), &|needs| {
-            needs.manufactured = true;
-        })
-        .is_ok();
-    if is_named_later {
-        return Ok(Examined::new("velocities belong to other points".to_owned(), Vec::new()));
-    }
-    defect(
-        "columns-in-another-order",
-        "after one step the velocities of a stretched body belong to other places",
-        "the columns of a state are in another order than the particles or `points`",
-        "particles that are sorted by cells: columns have the order of the problem, or of `points`",
-    )
+    Ok(Examined::new(measured, Vec::new()))
 }
 
 /// A soft body with the motion about its centre.

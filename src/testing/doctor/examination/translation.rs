@@ -9,7 +9,7 @@ use crate::testing::doctor::vectors::AffineField;
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
     expected: "a body without stress moves on through four cells, with x = X + v t to rounding",
-    after: &["conversation", "rest", "transfer"],
+    after: &["conversation", "rest", "initial-velocity"],
     examine,
 };
 

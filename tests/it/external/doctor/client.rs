@@ -305,8 +305,8 @@ impl Subject for Client {
                 _ => 1.0,
             };
             let cell = self.cell(self.x[p]);
-            if defect == MeanVelocity {
-                v = [0, 1].map(|i| 0.5 * (v[i] + self.v[p][i]));
+            if defect == ParticleVelocity {
+                v = self.v[p];
             }
             for i in 0..2 {
                 self.v[p][i] += first * change[i];

@@ -58,7 +58,7 @@ pub(super) enum Defect {
     FixedHoldsNormal,
     LoadAfterWalls,
     HeldAcceleration,
-    MeanVelocity,
+    ParticleVelocity,
     PositionsShort,
     RoundedOutput,
     AbsoluteThreshold,
