@@ -139,8 +139,8 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
         asked.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (t, _)| {
             (low.min(*t), high.max(*t))
         });
-    let is_outside = !asked.is_empty() && !(first >= -scene.dt && last <= end + scene.dt);
-    is_outside.then(|| {
+    let is_inside = first >= -scene.dt && last <= end + scene.dt;
+    (!(asked.is_empty() || is_inside)).then(|| {
         SolverFinding::defect(
             "force-of-another-time",
             format!(

@@ -350,12 +350,9 @@ fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     Some(finding)
 }
 
-fn of_wall(wall: &Wall) -> Option<SolverFinding> {
-    let is_near = |force: f64| THROWN.contains(&force);
-    let is_none = |force: f64| force.abs() <= NONE;
-    let (pushed, pulled) = (wall.pushed, wall.pulled);
+/// The finding on a wall that moves particles, or that no force acts at.
+fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
     let seen = format!("forces over the expected ones are {}", wall.describe());
-    let thrown = || [pushed, pulled].into_iter().flatten();
     if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
         return Some(SolverFinding::defect(
             "position-limited",
@@ -364,7 +361,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
             "clamps on positions, margins at the ends of the grid: a wall is where the grid ends",
         ));
     }
-    if thrown().all(is_none) {
+    if [wall.pushed, wall.pulled].into_iter().flatten().all(|force| force.abs() <= NONE) {
         if wall.through.is_some_and(|through| through.abs() <= 0.5 * TRAVEL) {
             return Some(SolverFinding::defect(
                 "wall-holds-velocity-only",
@@ -393,6 +390,18 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
              the place; nodes beyond the wall, if the solver has some there",
         ));
     }
+    None
+}
+
+fn of_wall(wall: &Wall) -> Option<SolverFinding> {
+    if let Some(finding) = of_absent_wall(wall) {
+        return Some(finding);
+    }
+    let is_near = |force: f64| THROWN.contains(&force);
+    let is_none = |force: f64| force.abs() <= NONE;
+    let (pushed, pulled) = (wall.pushed, wall.pulled);
+    let seen = format!("forces over the expected ones are {}", wall.describe());
+    let thrown = || [pushed, pulled].into_iter().flatten();
     if pushed.is_some_and(is_near) && pulled.is_some_and(is_none) {
         return Some(SolverFinding::defect(
             "wall-lets-go",
