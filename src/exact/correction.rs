@@ -157,16 +157,14 @@ impl Line<'_> {
     /// The correction (m) of a state of rest: equilibrium of the nodal forces.
     fn at_rest(&self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
-        // The force in an element, but for that at the low end, is minus the sum of the nodal
+        // The force in an element, without the reaction at the low end, is minus the sum of the nodal
         // forces below it.
         let mut below = 0.0;
-        let sums: Vec<f64> = forces[..self.elements]
-            .iter()
-            .map(|force| {
-                below -= force;
-                below
-            })
-            .collect();
+        let mut sums = Vec::with_capacity(self.elements);
+        for force in &forces[..self.elements] {
+            below -= force;
+            sums.push(below);
+        }
         let reaction = match held {
             [true, true] => -sums.iter().sum::<f64>() / self.elements as f64,
             [true, false] => forces[self.elements] - sums[self.elements - 1],
