@@ -157,8 +157,8 @@ impl Line<'_> {
     /// The correction (m) of a state of rest: equilibrium of the nodal forces.
     fn at_rest(&self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
-        // The force in an element, without the reaction at the low end, is minus the sum of the nodal
-        // forces below it.
+        // Without the reaction at the low end, the force in an element is minus the sum of the
+        // nodal forces below it.
         let mut below = 0.0;
         let mut sums = Vec::with_capacity(self.elements);
         for force in &forces[..self.elements] {
