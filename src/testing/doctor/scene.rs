@@ -47,7 +47,7 @@ pub(super) struct BoxScene {
     /// Young's modulus (Pa).
     pub(super) young: f64,
     pub(super) poisson: f64,
-    /// Density (kg/m^D).
+    /// Density (kg/m3).
     pub(super) density: f64,
     /// Initial velocity (m/s).
     pub(super) velocity: AffineField,

@@ -221,6 +221,7 @@ impl Client {
 }
 
 impl Subject for Client {
+    #[expect(clippy::too_many_lines, reason = "one step, with a place for each defect")]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let defect = self.defect;
         let dt = if defect == OwnStep { 0.01 } else { dt };
