@@ -166,7 +166,7 @@ impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
     /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''. Far
-    /// away from a pulse such as `1/cosh(x)^2` it is constant, see [`is_overflow`].
+    /// away from a pulse such as `1/cosh(x)^2` it is constant, see `is_overflow`.
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;

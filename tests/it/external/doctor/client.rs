@@ -306,9 +306,6 @@ impl Subject for Client {
                 _ => 1.0,
             };
             let cell = self.cell(self.x[p]);
-            if defect == ParticleVelocity {
-                v = self.v[p];
-            }
             for i in 0..2 {
                 self.v[p][i] += first * change[i];
                 match defect {

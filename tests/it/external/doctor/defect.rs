@@ -58,7 +58,6 @@ pub(super) enum Defect {
     FixedHoldsNormal,
     LoadAfterWalls,
     HeldAcceleration,
-    ParticleVelocity,
     PositionsShort,
     RoundedOutput,
     AbsoluteThreshold,

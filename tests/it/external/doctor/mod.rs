@@ -72,7 +72,6 @@ fn found(defect: Defect) -> (Vec<&'static str>, Vec<&'static str>, String) {
 #[case(Defect::FixedHoldsNormal, "fixed-lets-slide")]
 #[case(Defect::LoadAfterWalls, "wall-moves-under-gravity")]
 #[case(Defect::HeldAcceleration, "wall-holds-acceleration-only")]
-#[case(Defect::ParticleVelocity, "particles-cross-wall")]
 #[case(Defect::PositionsShort, "displacement-scaled")]
 #[case(Defect::RoundedOutput, "single-precision")]
 #[case(Defect::AbsoluteThreshold, "depends-on-units")]
