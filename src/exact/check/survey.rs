@@ -15,6 +15,10 @@ const ROUNDS: usize = 8;
 /// Events that a round adds.
 const ADDED: usize = 16;
 
+/// Inverse of the share of events with a magnitude of at least half of the largest, above which no
+/// event is added.
+const RESOLVED: usize = 16;
+
 /// Largest distance of an added event in the first round, relative to the body and the run. Each
 /// round halves it.
 const REACH: f64 = 1.0 / 32.0;
@@ -209,7 +213,8 @@ fn concentrate(
             return;
         }
         let active: Vec<usize> = (0..values.len()).filter(|i| values[*i] >= 0.5 * most).collect();
-        if active.is_empty() {
+        // Terms that are large in much of the body and the run are resolved already.
+        if active.is_empty() || active.len() * RESOLVED > values.len() {
             return;
         }
         for _ in 0..ADDED {

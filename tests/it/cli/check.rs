@@ -86,10 +86,3 @@ fn an_acknowledgement_is_refused_with(#[case] entries: &str, #[case] words: &str
     assert_eq!(found.code, BAD_INPUT);
     assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
 }
-
-/// A new warning about a built-in suite would not be lost among others.
-#[test]
-fn built_in_suites_have_no_warning_that_they_do_not_acknowledge() {
-    let found = Folder::new().call(&["check", "--strict", "--quiet"]);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
-}

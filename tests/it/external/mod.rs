@@ -14,5 +14,5 @@ mod values;
 
 /// A suite of four levels in one dimension, with steps that follow the cells.
 fn bar() -> String {
-    crate::cli::BAR.replace("dt: 1e-3", "dt: \"h/250\"")
+    crate::cli::BAR.replace("until: 0.05, dt: 1e-3", "until: 0.004, dt: \"h/250\"")
 }

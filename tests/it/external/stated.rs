@@ -50,7 +50,8 @@ fn without_its_command_a_solver_is_not_applicable_and_others_are_judged() {
 
 #[test]
 fn a_share_of_the_step_is_one_of_what_a_wave_takes_to_cross_a_cell() {
-    let text = with_entry("{name: differences}").replace("dt: \"h/250\"", "dt: {courant: 0.05}");
+    let text = with_entry("{name: differences}")
+        .replace("until: 0.004, dt: \"h/250\"", "until: 0.05, dt: {courant: 0.05}");
     let cases = under(&Maker("differences"), &loaded(&text));
     let study = cases[0].convergence().expect("a study");
     for level in &study.levels {
