@@ -1,6 +1,6 @@
 //! Boundary conditions, checked at points of every face, and of every part whose motion is given.
 
-use super::event::{AXES, Event, FACE_EVENTS, OnFace, SpaceTimeBox};
+use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;
 use super::survey::{self, Magnitudes, Survey};
 use crate::exact::condition::FacePoint;
@@ -23,7 +23,7 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
         // A load may vary along an axis along which the motion does not.
-        for event in extent.spread(FACE_EVENTS, |_| true, &mut random) {
+        for event in extent.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             let (sizes, left) = (&survey.largest, &left);
             let point = MovingPoint { problem, face, event, now, sizes, left };
@@ -133,7 +133,7 @@ pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation
         let (from, to) = region.within((&problem.from, &problem.to));
         let part = SpaceTimeBox { from: &from, to: &to, ..survey::extent(problem) };
         let mut found = LargestViolation::default();
-        for event in part.spread(FACE_EVENTS, |_| true, &mut random) {
+        for event in part.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
                 let given = at(formula, &event);

@@ -65,11 +65,16 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Number of events spread over the body and the run.
+/// Number of events spread over the body and the run if terms are large in a small part of them.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events spread over a face, or over another part of a problem with fewer dimensions.
+/// Number of events spread over a face, or over another part of a problem with fewer dimensions, in
+/// that case.
 pub(crate) const FACE_EVENTS: usize = 1024;
+
+/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] for a motion whose terms are large in much of the body
+/// and the run.
+pub(crate) const BROAD: usize = 8;
 
 /// A box in space and time.
 pub(crate) struct SpaceTimeBox<'a> {

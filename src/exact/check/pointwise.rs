@@ -1,6 +1,6 @@
 //! Conditions checked point by point.
 
-use super::event::{AXES, Event, FACE_EVENTS};
+use super::event::{AXES, Event};
 use super::survey::{self, Magnitudes, Survey, SurveyPoint};
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
@@ -35,7 +35,7 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     }
     let Magnitudes { displacement, velocity, .. } = survey.largest;
     let mut found = [LargestViolation::default(), LargestViolation::default()];
-    for event in survey::events(problem, FACE_EVENTS, &mut Random::new(2)) {
+    for event in survey::events(problem, survey.face_events, &mut Random::new(2)) {
         let event = Event { t: 0.0, ..event };
         let now = problem.derivatives(&event.label, 0.0);
         for i in 0..problem.dimension() {

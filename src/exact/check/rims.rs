@@ -1,6 +1,6 @@
 //! The rims of a body that is no box: free of traction, P n = 0.
 
-use super::event::{AXES, Event, FACE_EVENTS};
+use super::event::{AXES, Event};
 use super::survey::Survey;
 use crate::exact::linearised::share;
 use crate::exact::problem::Problem;
@@ -16,9 +16,9 @@ pub(crate) fn free(problem: &Problem, survey: &Survey) -> Result<f64, Violation>
     let mut random = Random::new(7);
     for (number, rim) in outline.rims().into_iter().enumerate() {
         let mut found = LargestViolation::default();
-        for sample in 0..FACE_EVENTS {
+        for sample in 0..survey.face_events {
             let (label, normal) = outline.on_rim(number, &mut random);
-            let t = (sample as f64 + random.unit()) / FACE_EVENTS as f64 * problem.until;
+            let t = (sample as f64 + random.unit()) / survey.face_events as f64 * problem.until;
             let event = Event { label, t: problem.loaded(t) };
             let now = problem.derivatives(&event.label, event.t);
             let piola = problem.piola(&event.label, event.t, &now);

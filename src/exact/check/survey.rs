@@ -1,10 +1,11 @@
 //! Places and times at which a problem is checked, and the largest terms that occur there.
 //!
-//! Events are spread evenly over the body and the run. More are then placed close to those with the
-//! largest terms, so that a pulse much narrower than the body is resolved. A residual is compared
-//! with the largest term of the whole survey: far away from a pulse all terms are rounding.
+//! Events are spread evenly over the body and the run. If terms are large in a small part of them,
+//! there are more events, and others close to those with the largest terms, so that a pulse much
+//! narrower than the body is resolved. A residual is compared with the largest term of the whole
+//! survey: far away from a pulse all terms are rounding.
 
-use super::event::{EVENTS, Event, SpaceTimeBox, greatest, largest};
+use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -15,9 +16,9 @@ const ROUNDS: usize = 8;
 /// Events that a round adds.
 const ADDED: usize = 16;
 
-/// Inverse of the share of events with a magnitude of at least half of the largest, above which no
-/// event is added.
-const RESOLVED: usize = 16;
+/// Share of events with a magnitude of at least half of the largest, from which on evenly spread
+/// events resolve that magnitude.
+const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Largest distance of an added event in the first round, relative to the body and the run. Each
 /// round halves it.
@@ -123,29 +124,41 @@ pub struct Survey {
     pub(crate) points: Vec<SurveyPoint>,
     /// The largest magnitudes: those of all bodies of a scene.
     pub(crate) largest: Magnitudes,
+    /// Number of events at which conditions on a face are checked.
+    pub(crate) face_events: usize,
 }
 
 impl Survey {
     /// Evaluates the motion of `problem`.
     pub fn of(problem: &Problem) -> Self {
         let mut random = Random::new(1);
-        let events = events(problem, EVENTS, &mut random);
-        let mut points: Vec<_> = events.into_iter().map(|event| point(problem, event)).collect();
-        for quantity in 0..Magnitudes::COUNT {
-            concentrate(problem, &mut points, quantity, &mut random);
+        let mut spread = |count: usize| -> Vec<SurveyPoint> {
+            let events = events(problem, count, &mut random);
+            events.into_iter().map(|event| point(problem, event)).collect()
+        };
+        let mut points = spread(EVENTS / BROAD);
+        let mut face_events = FACE_EVENTS / BROAD;
+        if !(0..Magnitudes::COUNT).all(|quantity| is_broad(&points, quantity)) {
+            points = spread(EVENTS);
+            face_events = FACE_EVENTS;
+            for quantity in 0..Magnitudes::COUNT {
+                concentrate(problem, &mut points, quantity, &mut random);
+            }
         }
         let none = Magnitudes::default();
         let largest = points.iter().fold(none, |all, point| all.larger(point.sizes));
-        Self { points, largest }
+        Self { points, largest, face_events }
     }
 
-    /// Evaluates the motions of all bodies of a scene, which share their largest magnitudes.
+    /// Evaluates the motions of all bodies of a scene, which share their largest magnitudes and
+    /// the number of events on faces.
     pub fn of_each(problems: &[Problem]) -> Vec<Self> {
         let mut all: Vec<Self> = problems.iter().map(Self::of).collect();
         let none = Magnitudes::default();
         let largest = all.iter().fold(none, |most, survey| most.larger(survey.largest));
+        let face_events = all.iter().map(|survey| survey.face_events).max().unwrap_or(0);
         for survey in &mut all {
-            survey.largest = largest;
+            (survey.largest, survey.face_events) = (largest, face_events);
         }
         all
     }
@@ -196,6 +209,14 @@ fn point(problem: &Problem, event: Event) -> SurveyPoint {
     SurveyPoint { event, now, divergence, force, sizes }
 }
 
+/// Whether a quantity is zero, or at least half of its maximum at many of evenly spread events.
+fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
+    let values = || points.iter().map(|point| point.sizes.to_array()[quantity]);
+    let most = greatest(values());
+    let active = values().filter(|value| *value >= 0.5 * most).count();
+    active as f64 >= RESOLVED * points.len() as f64
+}
+
 /// Adds events close to those at which a quantity is at least half of its maximum, closer in each
 /// round.
 fn concentrate(
@@ -213,8 +234,7 @@ fn concentrate(
             return;
         }
         let active: Vec<usize> = (0..values.len()).filter(|i| values[*i] >= 0.5 * most).collect();
-        // Terms that are large in much of the body and the run are resolved already.
-        if active.is_empty() || active.len() * RESOLVED > values.len() {
+        if active.is_empty() {
             return;
         }
         for _ in 0..ADDED {

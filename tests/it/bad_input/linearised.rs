@@ -26,7 +26,7 @@ const STATED: &str = "  linearised:
 )]
 #[case::a_larger_strain(
     &[("eps: 1e-6", "eps: 1e-3"), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
-    &["2.01e-3 of the terms of the equations is left, and 5.00e-6 is stated as linearised"]
+    &["2.00e-3 of the terms of the equations is left, and 5.00e-6 is stated as linearised"]
 )]
 #[case::another_frequency(
     &[("cos(k*c*t)\"]", "cos(1.001*k*c*t)\"]"), ("[\"mode(X)*cos(", "[▸\"mode(X)*cos(")],
