@@ -222,7 +222,11 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        return if rotation.later > 1.2 * rotation.first {
+        // A transposed matrix loses twice what averaging does: from the second step on if it starts
+        // at zero, and in the first one too if it starts with the gradient of the velocity.
+        let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
+        let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
+        return if is_twice {
             defect(
                 "affine-matrix-transposed",
                 "the affine matrix C is transposed, or its skew part has the other sign",
