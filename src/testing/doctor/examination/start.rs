@@ -38,9 +38,10 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
-    // A shear keeps volumes: masses and volumes show in a stretch.
+    // A shear keeps volumes: masses and volumes show in a stretch, with a law of F if there is one.
     if first.dimension > 1 {
-        scenes.push(stretched((first.dimension, first.law)));
+        let law = scenes.last().map_or(first.law, |scene| scene.law);
+        scenes.push(stretched((first.dimension, law)));
     }
     let courses = patient.run_all(&scenes)?;
     let mut all = Examined::default();
@@ -79,9 +80,10 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// A body that starts stretched.
+/// A body that starts at 1.5 times its length: three particles per cell and axis become two.
 fn stretched(kind: Kind) -> BoxScene {
     let mut scene = scene(kind);
+    scene.ppc = 3;
     scene.displacement.gradient = [[0.0; 3]; 3];
     scene.displacement.gradient[0][0] = 0.5;
     scene
