@@ -1,0 +1,226 @@
+//! Findings on walls, by what the runs show of each.
+
+use super::measure::{SUNK, TRAVEL, Wall};
+use crate::testing::doctor::course::shown;
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::scene::FACES;
+/// Range of the force on a body that is thrown, over the expected one. It swings about its mean
+/// for a long time: with FLIP and cubic functions, 0.70 is the mean of the run.
+const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
+
+/// Force below which a wall lets go, or lets slide.
+const NONE: f64 = 0.2;
+
+/// Force below which there is no wall.
+const ABSENT: f64 = 0.1;
+
+/// Difference of the forces of walls that are mirror images, or that differ in their hold along
+/// the wall only.
+const UNEVEN: f64 = 0.05;
+
+/// Displacement of a pushed body through the wall, over that of a free body in the time of one
+/// cell.
+const THROUGH: f64 = 0.8;
+
+/// Relative error of the force under gravity, which begins smoothly: averaging (PIC) with cubic
+/// functions makes it 0.15.
+const SMOOTH: f64 = 0.2;
+
+/// Part of the weight of a cell that may be missing in the force of a wall under gravity.
+const WEIGHT: f64 = 0.3;
+
+/// Part of the weight of a cell that may be too much in that force: averaging (PIC) makes it 0.14.
+const CARRIED: f64 = 0.4;
+
+/// Kinds of findings, those that explain others first.
+const KINDS: [&str; 10] = [
+    "position-limited",
+    "wall-holds-acceleration-only",
+    "wall-holds-velocity-only",
+    "wall-lets-go",
+    "wall-missing",
+    "wall-force",
+    "fixed-lets-slide",
+    "particles-cross-wall",
+    "wall-moves-under-gravity",
+    "stress-column",
+];
+
+/// The finding that explains the others, with the faces that show it.
+pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
+    let of_walls: Vec<(&Wall, SolverFinding)> =
+        walls.iter().filter_map(|wall| Some((wall, of_wall(wall)?))).collect();
+    let first = KINDS.iter().find(|kind| of_walls.iter().any(|(_, found)| found.name == **kind))?;
+    let faces: Vec<String> = of_walls
+        .iter()
+        .filter(|(_, found)| found.name == *first)
+        .map(|(wall, _)| format!("{} {}", wall.condition, wall.face))
+        .collect();
+    let faces = if faces.len() == walls.len() { "all walls".to_owned() } else { faces.join(", ") };
+    let (_, mut finding) = of_walls.into_iter().find(|(_, found)| found.name == *first)?;
+    finding.seen = format!("{faces}: {}", finding.seen);
+    Some(finding)
+}
+
+/// The finding on two walls with different forces where the same are expected: opposite faces of
+/// one condition, or one face with two conditions, as nothing moves along it.
+pub(super) fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
+    let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
+    let differ =
+        |a: Option<f64>, b: Option<f64>| a.zip(b).is_some_and(|(a, b)| !((a - b).abs() <= UNEVEN));
+    let pairs = walls.iter().enumerate().flat_map(|(k, a)| walls[..k].iter().map(move |b| (a, b)));
+    let is_uneven = |(a, b): &(&Wall, &Wall)| {
+        let are_alike =
+            if a.condition == b.condition { axis(a) == axis(b) } else { a.face == b.face };
+        are_alike
+            && (differ(a.pushed, b.pushed)
+                || differ(a.pulled, b.pulled)
+                || differ(a.falling, b.falling)
+                || differ(a.offset, b.offset))
+    };
+    let (a, b) = pairs.into_iter().find(is_uneven)?;
+    let of = |wall: &Wall| format!("{} {}: {}", wall.condition, wall.face, wall.describe());
+    Some(SolverFinding::defect(
+        "wall-force",
+        format!("forces over the expected ones are, at {}; at {}", of(b), of(a)),
+        "two walls act with different forces on the same motion",
+        "nodes on the face of the body, on low and high ends; particles that are held in place of nodes",
+    ))
+}
+
+/// The finding on a wall that moves particles, or that no force acts at.
+fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
+    let seen = format!("forces over the expected ones are {}", wall.describe());
+    if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
+        return Some(SolverFinding::defect(
+            "position-limited",
+            format!("in the first step particles move by up to {} of v dt", shown(jump)),
+            "particles next to a wall are moved away from it, to a limit of the solver's own",
+            "clamps on positions, margins at the ends of the grid: a wall is where the grid ends",
+        ));
+    }
+    if [wall.pushed, wall.pulled].into_iter().flatten().all(|force| force.abs() <= ABSENT) {
+        if wall.through.is_some_and(|through| through.abs() <= 0.8 * TRAVEL) {
+            return Some(SolverFinding::defect(
+                "wall-holds-velocity-only",
+                seen,
+                "the velocity of the nodes at the wall is held and their acceleration is not: particles \
+                 get no force from the wall",
+                "accelerations of held nodes, or changes of their velocity, from which particles are \
+                 updated (FLIP): zero at the wall, or the change from the mapped velocity to zero",
+            ));
+        }
+        if wall.falling.is_some_and(|falling| falling > 0.5) {
+            return Some(SolverFinding::defect(
+                "wall-holds-acceleration-only",
+                seen,
+                "the acceleration of the nodes at the wall is held and their velocity is not: they keep the \
+                 velocity that is mapped to them",
+                "velocities of held nodes: zero after the mapping from particles, before they move \
+                 particles and strain them",
+            ));
+        }
+        return Some(SolverFinding::defect(
+            "wall-missing",
+            seen,
+            "no force acts at the wall",
+            "`faces` of the problem: `axis` and `high` give the side (every axis, low and high ends), `at` \
+             the place; nodes beyond the wall, if the solver has some there",
+        ));
+    }
+    None
+}
+
+fn of_wall(wall: &Wall) -> Option<SolverFinding> {
+    if let Some(finding) = of_absent_wall(wall) {
+        return Some(finding);
+    }
+    let is_near = |force: f64| THROWN.contains(&force);
+    let is_none = |force: f64| force.abs() <= NONE;
+    let (pushed, pulled) = (wall.pushed, wall.pulled);
+    let seen = format!("forces over the expected ones are {}", wall.describe());
+    let thrown = || [pushed, pulled].into_iter().flatten();
+    if pushed.is_some_and(is_near) && pulled.is_some_and(is_none) {
+        return Some(SolverFinding::defect(
+            "wall-lets-go",
+            seen,
+            "the wall holds a body that is pushed against it, and not one that is pulled from it",
+            "walls act in both directions here: a solver whose walls separate does not claim `fixed` or \
+             `roller`",
+        ));
+    }
+    let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
+    // A wall that carries more than the weight of its own nodes stands inside the body.
+    let is_inside = wall.offset.is_some_and(|offset| !(offset <= CARRIED));
+    let is_even = wall.along.is_none_or(|along| is_near(along) || along.abs() <= NONE);
+    if !(thrown().all(is_near) && is_even && !is_inside && wall.falling.is_none_or(is_smooth)) {
+        return Some(SolverFinding::defect(
+            "wall-force",
+            seen,
+            "the wall acts with another strength, or at another place",
+            "nodes on the face of the body: their normal velocity is zero, also in the velocities that move \
+             particles and strain them; functions at the wall",
+        ));
+    }
+    if wall.along.is_some_and(|along| along.abs() <= NONE) {
+        return Some(SolverFinding::defect(
+            "fixed-lets-slide",
+            seen,
+            "a fixed wall holds the normal component of the velocity only",
+            "at `fixed`, every component of the velocity of a node is zero; `roller` holds the one along \
+             `axis` of the face only",
+        ));
+    }
+    if let Some(through) = wall.through.filter(|through| !(through.abs() <= THROUGH)) {
+        return Some(SolverFinding::defect(
+            "particles-cross-wall",
+            format!(
+                "the force is right, but at the end the body is beyond the wall by {} times the free motion \
+                 in the time of a wave through a cell",
+                shown(through)
+            ),
+            "particles do not move with the velocity of the grid at their place, which is zero at a wall",
+            "the velocity that moves particles: the sum of the weights times the new velocities of nodes, \
+             not the particle's own velocity or a mean with it",
+        ));
+    }
+    of_sinking(wall, &seen).or_else(|| of_column(wall))
+}
+
+/// The finding on a wall that a body under gravity moves into.
+fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
+    let [sinking, halved] = wall.sinking?;
+    // Averaging (PIC) softens the wall too, but more with smaller steps.
+    let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
+    // The wall does not carry the weight of its own nodes: half a cell.
+    let is_missing = wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
+    if sinks_by_steps || is_missing {
+        return Some(SolverFinding::defect(
+            "wall-moves-under-gravity",
+            format!(
+                "{seen}; under gravity the body sinks at the wall by {} of g t times the time of a wave \
+                 through a cell, and by {} with half the step",
+                shown(sinking),
+                shown(halved)
+            ),
+            "gravity or another load is added to nodes after those at the wall were set to zero",
+            "the order of a step on the grid: forces, all loads, new velocities, and walls last",
+        ));
+    }
+    None
+}
+
+/// The finding on a column `stress` that does not show the force of a wall. Where the stress is
+/// uniform, the order of its points does not matter.
+fn of_column(wall: &Wall) -> Option<SolverFinding> {
+    let column = wall.column.filter(|column| !THROWN.contains(column))?;
+    Some(SolverFinding::defect(
+        "stress-column",
+        format!(
+            "the force of the wall is right, and next to it `stress` is {} of the stress of that force",
+            shown(column)
+        ),
+        "the column `stress` has another order than the particles or `points`",
+        "particles that are sorted by cells: columns have the order of the problem, or of `points`",
+    ))
+}

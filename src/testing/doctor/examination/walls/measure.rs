@@ -1,0 +1,267 @@
+//! Forces of walls, and motions next to them, by the momentum of the halves of a bar.
+
+use crate::testing::doctor::course::{Course, displacement, line, shown, velocity};
+use crate::testing::doctor::examination::stress::constant_and_rate;
+use crate::testing::doctor::patient::{Hindrance, Patient};
+use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
+use crate::testing::doctor::vectors::AffineField;
+/// Length of the bar, and distance that waves travel (cells).
+const CELLS: f64 = 16.0;
+pub(super) const TRAVEL: f64 = 7.0;
+
+/// Steps of a run: a quarter of a cell each.
+const STEPS: u64 = 28;
+
+/// Speed of the bar over that of waves.
+const SPEED: f64 = 1e-3;
+
+/// Gravity (m/s2): the speed that it gives in the run is of that order.
+const GRAVITY: f64 = 1e-3;
+
+/// Displacement into a wall, over g t times the time of one cell, that is examined with half the
+/// step.
+pub(super) const SUNK: f64 = 0.1;
+
+/// One wall, as the runs show it: `None` where no run does.
+#[derive(Debug, Clone)]
+pub(super) struct Wall {
+    pub(super) face: &'static str,
+    pub(super) condition: &'static str,
+    /// Force over the expected one of a body that is pushed against the wall.
+    pub(super) pushed: Option<f64>,
+    /// Force over the expected one of a body that is pulled from it.
+    pub(super) pulled: Option<f64>,
+    /// Force over the expected one of a body that moves along it.
+    pub(super) along: Option<f64>,
+    /// Force over the expected one under gravity.
+    pub(super) falling: Option<f64>,
+    /// Force at once under gravity, over that on the mass of one cell: what is missing at all
+    /// times.
+    pub(super) offset: Option<f64>,
+    /// Displacement of a pushed body through the wall, over that of a free body in the time of one
+    /// cell.
+    pub(super) through: Option<f64>,
+    /// Largest displacement in the first step, over that of the velocity.
+    pub(super) jump: Option<f64>,
+    /// Displacement along gravity at the wall, over g t times the time of one cell: with the steps
+    /// of the run, and with half of them.
+    pub(super) sinking: Option<[f64; 2]>,
+    /// Column `stress` next to the wall at the end of the first run, over the expected one.
+    pub(super) column: Option<f64>,
+}
+
+impl Wall {
+    /// The forces, for reports.
+    pub(super) fn describe(&self) -> String {
+        let forces = [
+            ("pushed", self.pushed),
+            ("pulled", self.pulled),
+            ("along it", self.along),
+            ("under gravity", self.falling),
+            ("under gravity at once", self.offset),
+        ];
+        let texts = forces
+            .into_iter()
+            .filter_map(|(name, force)| force.map(|force| format!("{name} {}", shown(force))));
+        texts.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The bar along `axis`, held at both ends.
+pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene {
+    let mut scene = BoxScene::of_cells(kind, [0.25; 3], if kind.0 == 3 { 3.0 } else { 4.0 }, 3.0);
+    scene.body.1[axis] = scene.body.0[axis] + CELLS * H;
+    scene.grid.0[axis] = scene.body.0[axis];
+    scene.grid.1[axis] = scene.body.1[axis];
+    (scene.young, scene.poisson) = (3.1, 0.0);
+    scene.faces = FACES[axis].map(|face| (face, condition)).to_vec();
+    scene.with_waves(TRAVEL, STEPS)
+}
+
+/// Both walls across `axis`: the bar is thrown, moves along the wall, and falls. On the first axis
+/// it is thrown both ways.
+pub(super) fn walls_across(
+    patient: &Patient<'_>,
+    kind: Kind,
+    axis: usize,
+    condition: &'static str,
+) -> Result<[Wall; 2], Hindrance> {
+    let plain = bar(kind, axis, condition);
+    let (c, d) = (plain.wave_speed(), kind.0);
+    let thrown = |way: f64| {
+        let velocity = std::array::from_fn(|i| if i == axis { way * SPEED * c } else { 0.0 });
+        BoxScene { velocity: AffineField::uniform(velocity), ..plain.clone() }
+    };
+    let mut scenes = vec![thrown(1.0)];
+    if axis == 0 {
+        scenes.push(thrown(-1.0));
+    }
+    let moves_along = condition == "fixed" && d > 1;
+    if moves_along {
+        scenes.push(broad(kind, axis, c));
+    }
+    let gravity = std::array::from_fn::<f64, 3, _>(|i| if i == axis { GRAVITY } else { 0.0 });
+    let falling = BoxScene { gravity: Some(gravity[..d].to_vec()), ..plain.clone() };
+    let (_, needs) = falling.problem().map_err(Hindrance::Lacks)?;
+    let falls = patient.solver.lacks(&needs).is_empty();
+    if falls {
+        scenes.push(falling.clone());
+    }
+    let courses = patient.run_all(&scenes)?;
+    let cell_time = H / c;
+    let sinking = |side: BarEnd, course: &Course| {
+        side.at_wall(course, &plain) / (GRAVITY * course.times[course.last()] * cell_time)
+    };
+    let sides = [false, true].map(|high| BarEnd { axis, high });
+    let fall = falls.then(|| &courses[courses.len() - 1]);
+    let sunk = fall.map(|course| sides.map(|side| sinking(side, course)));
+    // Only a body that sinks into the wall is examined again.
+    let halved = match sunk {
+        Some(sunk) if sunk.iter().any(|sunk| !(sunk.abs() <= SUNK)) => {
+            Some(patient.run_all(&[falling.with_half_the_step()])?)
+        }
+        _ => None,
+    };
+    Ok(sides.map(|side| {
+        let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
+        // The first run pushes the high wall and pulls the low one, the second one the reverse.
+        let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
+        let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
+        let run_along = if axis == 0 { 2 } else { 1 };
+        let other = (axis + 1) % d;
+        let through =
+            |course: &Course| side.sign() * side.at_wall(course, &plain) / (SPEED * c * cell_time);
+        let place = usize::from(side.high);
+        Wall {
+            face: FACES[axis][place],
+            condition,
+            pushed: of_run(push),
+            pulled: of_run(pull),
+            along: moves_along.then(|| {
+                let scene = &scenes[run_along];
+                side.force(&courses[run_along], scene, other, c / libm::sqrt(2.0))
+            }),
+            falling: fall.map(|course| side.force_under_gravity(course, &plain, c).1),
+            offset: fall.map(|course| side.force_under_gravity(course, &plain, c).0),
+            through: courses.get(push).filter(|_| push == 0 || axis == 0).map(through),
+            jump: Some(courses[0].farthest(displacement, 1, [0.0; 3]) / (SPEED * c * plain.dt)),
+            sinking: sunk.map(|sunk| {
+                let halved = halved.as_ref().and_then(|halved| halved.first());
+                [sunk[place], halved.map_or(sunk[place], |halved| sinking(side, halved))]
+            }),
+            column: side.stress_column(&courses[0], &plain).map(|stress| {
+                let expected = -side.sign() * SPEED * c * c * plain.density;
+                stress / expected
+            }),
+        }
+    }))
+}
+
+/// A broad body between two `fixed` walls across `axis`, which moves along them with a thousandth
+/// of `c` (m/s). It ends before waves have crossed it.
+fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
+    let mut scene = bar(kind, axis, "fixed");
+    let other = (axis + 1) % kind.0;
+    // As long along the walls, and half as long between them.
+    scene.body.1[axis] = scene.body.0[axis] + 0.5 * CELLS * H;
+    scene.grid.1[axis] = scene.body.1[axis];
+    scene.body.1[other] = scene.body.0[other] + CELLS * H;
+    scene.grid.1[other] = scene.body.1[other] + 4.0 * H;
+    let mut velocity = [0.0; 3];
+    velocity[other] = SPEED * c;
+    scene.velocity = AffineField::uniform(velocity);
+    scene.with_waves(0.5 * TRAVEL, STEPS / 2)
+}
+
+/// One end of the bar.
+#[derive(Debug, Clone, Copy)]
+struct BarEnd {
+    axis: usize,
+    high: bool,
+}
+
+impl BarEnd {
+    /// Sign of the outward normal.
+    fn sign(self) -> f64 {
+        if self.high { 1.0 } else { -1.0 }
+    }
+
+    /// Distance (m) of a place from the wall.
+    fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
+        let ends = (scene.body.0[self.axis], scene.body.1[self.axis]);
+        if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
+    }
+
+    /// Velocity component `along` gained by this half since the start, over the length of the bar:
+    /// the impulse of the wall per mass of the half times its length (m2/s).
+    fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
+        let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
+        let weights = &course.states[0].weight;
+        let (mut sum, mut volume) = (0.0, 0.0);
+        let start = course.points(velocity, 0);
+        for (((label, v), (_, v0)), weight) in course.points(velocity, k).zip(start).zip(weights) {
+            let inside = half - self.depth(scene, label);
+            // Points on the middle plane belong to both halves.
+            let share =
+                if inside.abs() <= 1e-9 * H { 0.5 } else { f64::from(u8::from(inside > 0.0)) };
+            sum += share * weight * (v[along] - v0[along]);
+            volume += share * weight;
+        }
+        half * sum / volume
+    }
+
+    /// Force of the wall on a body of uniform initial velocity, over `rho c v`, in the last three
+    /// quarters of the run: averaging (PIC) adds to it at the start.
+    fn force(self, course: &Course, scene: &BoxScene, along: usize, c: f64) -> f64 {
+        let last = course.last();
+        let late = last / 4..=last;
+        let time: Vec<f64> = late.clone().map(|k| course.times[k]).collect();
+        let gained: Vec<f64> = late.map(|k| self.gained(course, scene, along, k)).collect();
+        let (_, slope, _) = line(&time, &gained);
+        -slope / (c * scene.velocity.value[along])
+    }
+
+    /// Force of the wall under gravity from rest: the part that acts at once, over `rho h g`, and
+    /// the part that grows, over `rho c g t`.
+    fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> (f64, f64) {
+        let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
+        let held: Vec<f64> = (0..=course.last())
+            .map(|k| half * GRAVITY * course.times[k] - self.gained(course, scene, self.axis, k))
+            .collect();
+        let [constant, rate] = constant_and_rate(&course.times, &held);
+        (constant / (scene.h * GRAVITY), rate / (c * GRAVITY))
+    }
+
+    /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver gives the
+    /// column.
+    fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
+        let (last, d) = (course.last(), scene.dimension);
+        let stress = &course.states[last].stress;
+        let (mut sum, mut count) = (0.0, 0.0);
+        let labels = course.points(velocity, last).map(|(label, _)| label);
+        for (label, stress) in labels.zip(stress.chunks_exact(d * d)) {
+            if self.depth(scene, label) <= 2.0 * H {
+                sum += stress[self.axis * (d + 1)];
+                count += 1.0;
+            }
+        }
+        (count > 0.0).then(|| sum / count)
+    }
+
+    /// Displacement (m) along the axis at the wall at the end: the line through the points within
+    /// two cells.
+    fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
+        let (mut depth, mut out) = (Vec::new(), Vec::new());
+        for (label, u) in course.points(displacement, course.last()) {
+            let distance = self.depth(scene, label);
+            if distance <= 2.0 * H {
+                depth.push(distance);
+                out.push(u[self.axis]);
+            }
+        }
+        if depth.is_empty() {
+            return 0.0;
+        }
+        line(&depth, &out).0
+    }
+}

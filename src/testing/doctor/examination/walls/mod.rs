@@ -1,0 +1,98 @@
+//! Walls on every face: a body that is thrown against them, pulled from them, moves along them,
+//! and falls.
+//!
+//! A bar of modulus E without Poisson's effect that is held at one end and thrown with v stops
+//! there with the force `rho c v A`, c^2 = E/rho, until the wave has crossed it. Under the
+//! acceleration g from rest the force is `rho c g t A`. Both ends are held at once: one is pushed,
+//! the other one pulled. The momentum of one half shows the force of its wall as long as no wave
+//! arrives from the other.
+//!
+//! ```text
+//! measure   the scenes, and the forces and motions at each wall
+//! judge     the finding that explains them
+//! ```
+
+mod judge;
+mod measure;
+
+use super::translation::VELOCITY;
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::motion::uniform;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::vectors::AffineField;
+use judge::{finding, uneven};
+use measure::{Wall, bar, walls_across};
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "walls",
+    expected: "every wall holds a body that is pushed against it and one that is pulled from it with the \
+               force rho c v of an elastic bar, also under gravity, and a roller lets it slide",
+    after: &["conversation", "rest", "translation", "fall", "force", "transfer", "stress"],
+    examine,
+};
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let (mut walls, mut lacks) = (Vec::new(), Vec::new());
+    let mut sliding = Examined::default();
+    for condition in ["fixed", "roller"] {
+        let thrown = |kind| bar(kind, 0, condition);
+        match patient.able(&[2, 1, 3], &ELASTIC, &thrown) {
+            Ok(scene) => {
+                let kind = (scene.dimension, scene.law);
+                for axis in 0..kind.0 {
+                    walls.extend(walls_across(patient, kind, axis, condition)?);
+                    if condition == "roller" && kind.0 > 1 && sliding.findings.is_empty() {
+                        sliding = slide(patient, kind, axis)?;
+                    }
+                }
+            }
+            Err(Hindrance::Lacks(what)) => lacks.push(what),
+            Err(broke) => return Err(broke),
+        }
+    }
+    if walls.is_empty() {
+        lacks.dedup();
+        return Err(Hindrance::Lacks(lacks.join("; ")));
+    }
+    let name = |wall: &Wall| format!("{} {}: {}", wall.condition, wall.face, wall.describe());
+    let forces = walls.iter().map(name).collect::<Vec<_>>().join("; ");
+    let mut measured = vec![format!("forces over the expected ones: {forces}")];
+    if !sliding.measured.is_empty() {
+        measured.push(format!("sliding: {}", sliding.measured));
+    }
+    let found = finding(&walls).or_else(|| uneven(&walls));
+    let mut findings: Vec<SolverFinding> = found.into_iter().collect();
+    // A wall that moves or is missing explains a body that does not slide evenly.
+    if findings.is_empty() {
+        findings.extend(sliding.findings);
+    }
+    Ok(Examined::new(measured.join("; "), findings))
+}
+
+/// A body next to two rollers across `axis` moves along them as if there were none.
+fn slide(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<Examined, Hindrance> {
+    let other = (axis + 1) % kind.0;
+    // Particles pass cell faces at a distance.
+    let mut from = [0.25; 3];
+    from[other] += 0.1125 * H;
+    let mut scene = BoxScene::of_cells(kind, from, 4.0, 4.0);
+    scene.grid.0[axis] = scene.body.0[axis];
+    scene.grid.1[axis] = scene.body.1[axis];
+    scene.faces = FACES[axis].map(|face| (face, "roller")).to_vec();
+    let mut velocity = [0.0; 3];
+    velocity[other] = VELOCITY[0];
+    scene.velocity = AffineField::uniform(velocity);
+    let scene = BoxScene { steps: 40, dt: 0.025, ..scene };
+    let examined = uniform(patient, &scene)?;
+    let findings = examined.findings.into_iter().map(|finding| {
+        SolverFinding::defect(
+            "roller-holds-tangent",
+            format!("between {} and {}: {}", FACES[axis][0], FACES[axis][1], finding.seen),
+            "a roller slows a body that moves along it",
+            "at a roller only the velocity along `axis` of the face is zero",
+        )
+    });
+    Ok(Examined { findings: findings.collect(), ..examined })
+}
