@@ -1079,7 +1079,7 @@ EXPECTED = {
     "stress-sign": "stress-sign",
     "stress-updated-twice": "stress-scaled",
     "strain-halved": "stress-scaled",
-    "strain-from-old-velocity": "strain-of-another-time",
+    "strain-from-old-velocity": "vibration-grows",
     "strain-diagonal-only": "shear-missing",
     "shear-engineering": "shear-doubled",
     "lame-exchanged": "lame-parameters-exchanged",
@@ -1171,6 +1171,14 @@ EXPECTED = {
     "output-f-transposed": "deformation-gradient-transposed",
     "output-f-minus-one": "deformation-gradient-column",
     "output-f-inverse": "deformation-gradient-column",
+}
+
+# Fault -> why `doctor` does not name it.
+UNNAMED = {
+    "position-from-mean-velocity-2": "with quadratic functions and USL, the mean of the old and the new velocity is a "
+                                     "consistent update of positions, and no particle crosses a wall",
+    "affine-offset-of-cells": "a particle is inverted within six steps, so that the client stops in the first examination",
+    "gradient-half-cell-off": "a particle is inverted at finite strain, so that the client stops; small strains are right",
 }
 
 

@@ -12,6 +12,7 @@ mod stress;
 mod transfer;
 mod translation;
 mod units;
+mod vibration;
 mod walls;
 
 use super::question::Examination;
@@ -23,13 +24,14 @@ pub(super) const ALL: &[Examination] = &[
     transfer::INITIAL_VELOCITY,
     translation::EXAMINATION,
     faces::EXAMINATION,
-    periodic::EXAMINATION,
     fall::EXAMINATION,
     force::EXAMINATION,
     transfer::EXAMINATION,
     stress::EXAMINATION,
+    periodic::EXAMINATION,
     laws::EXAMINATION,
     start::EXAMINATION,
+    vibration::EXAMINATION,
     walls::EXAMINATION,
     periodic::ENDS,
     units::EXAMINATION,

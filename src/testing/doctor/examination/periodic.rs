@@ -12,7 +12,7 @@ use crate::testing::doctor::vectors::AffineField;
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",
     expected: "a body that fills a periodic axis moves along it, and displacements are not wrapped",
-    after: &["conversation", "rest", "translation"],
+    after: &["conversation", "rest", "translation", "stress"],
     examine,
 };
 

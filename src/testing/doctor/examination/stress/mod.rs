@@ -135,7 +135,7 @@ fn examine_scene(
 const UNNAMED: [&str; 2] = ["stress-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
-    SolverFinding::remark(
+    SolverFinding::defect(
         "viscosity",
         format!("stress has a part of {} m2/s times the rate of strain", shown(measured.viscosity)),
         "a viscosity acts that the problem does not have, and that vanishes with the stiffness",

@@ -1,0 +1,78 @@
+//! A free body that vibrates: its energy does not grow.
+//!
+//! A body that starts stretching at a uniform rate swings for two periods, in steps of a third of
+//! the stable one. Schemes that take the velocity after the forces for the strain (USL, MUSL), or
+//! the stress after the strain for the forces (USF), keep the kinetic energy below that of the
+//! start. If both are those of the beginning of the step, as in forward Euler, each step multiplies
+//! the amplitude of a mode of frequency w by `sqrt(1 + w2 dt2)`.
+
+use crate::testing::doctor::course::{Course, shown, velocity};
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
+use crate::testing::doctor::vectors::{AffineField, dot};
+
+pub(super) const EXAMINATION: Examination = Examination {
+    name: "vibration",
+    expected: "the kinetic energy of a free body that vibrates does not exceed that of the start",
+    after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
+    examine,
+};
+
+/// Length of the body (cells).
+const CELLS: f64 = 6.0;
+
+/// Periods of the lowest mode: waves travel to the other end and back in each.
+const PERIODS: f64 = 2.0;
+
+/// Distance (cells) that waves travel in one step.
+const COURANT: f64 = 0.3;
+
+/// Rate of stretch (1/s): strains stay below 1e-4.
+const RATE: f64 = 1e-5;
+
+/// Largest kinetic energy, relative to that of the start.
+const MOST: f64 = 1.3;
+
+fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+    let scene = patient.able(&[1, 2, 3], &ELASTIC, &scene)?;
+    let course = patient.run(&scene)?;
+    let start = kinetic_energy(&course, 0);
+    let most = (1..=course.last()).map(|k| kinetic_energy(&course, k) / start);
+    let most = most.fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { f64::max(a, b) });
+    let measured = format!(
+        "in {} of {} steps, the kinetic energy is at most {} of that of the start",
+        course.last(),
+        scene.steps,
+        shown(most)
+    );
+    let is_kept = course.failure.is_none() && most <= MOST;
+    let finding = (!is_kept).then(|| {
+        SolverFinding::defect(
+            "vibration-grows",
+            measured.clone(),
+            "vibrations gain energy in each step, as in forward Euler: strains are updated with the velocity \
+             before the forces act on it, and forces with the stress before that update",
+            "the velocity of the strain update: after the forces in USL and MUSL; in USF before them, and \
+             then the forces have the new stress",
+        )
+    });
+    Ok(Examined::new(measured, finding.into_iter().collect()))
+}
+
+fn scene(kind: Kind) -> BoxScene {
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], CELLS, 2.0);
+    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
+    field.gradient[0][0] = RATE;
+    scene.velocity = field;
+    scene.young = 3.1;
+    let travel = 2.0 * PERIODS * CELLS;
+    scene.with_waves(travel, libm::ceil(travel / COURANT) as u64)
+}
+
+/// Kinetic energy per density in state `k` (m5/s2 in 3-D).
+fn kinetic_energy(course: &Course, k: usize) -> f64 {
+    let weights = course.states[0].weight.iter();
+    weights.zip(course.points(velocity, k)).map(|(weight, (_, v))| 0.5 * weight * dot(v, v)).sum()
+}
