@@ -162,6 +162,9 @@ def test_points_in_another_order_have_the_same_answers():
 
 
 if __name__ == "__main__":
-    for name, problems in effects().items():
+    np.seterr(all="ignore")
+    changed_problems = effects()
+    for name, problems in changed_problems.items():
         print(f"{name:40} {', '.join(problems) or 'NO EFFECT'}")
     test_points_in_another_order_have_the_same_answers()
+    sys.exit(not all(changed_problems.values()))
