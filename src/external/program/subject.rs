@@ -48,7 +48,8 @@ pub(super) struct ProgramSubject {
     called: u64,
     taken: u64,
     inquiry: Inquiry,
-    /// Masses of the particles (kg), where these are the points.
+    /// Masses of the points (kg): those of the particles, or the weights of the solver's own points
+    /// times the reference density. `None` for own points in bodies of several materials.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
@@ -70,7 +71,8 @@ impl ProgramSubject {
         let (d, particles) = (problem.dimension, &problem.particles);
         let mut samples = Samples { dimension: d, ..Samples::default() };
         let has_stress = hello.capabilities.known.columns.iter().any(|column| column == "stress");
-        let mut mass = None;
+        let mass;
+        let has_own_points = points.is_some();
         if let Some(points) = points {
             let count = points.weight.count();
             samples.weight = points.weight.numbers("weight", count, bytes)?;
@@ -86,6 +88,12 @@ impl ProgramSubject {
             if has_stress {
                 samples.stress = inquiry.start(FieldName::Stress).unwrap_or_default();
             }
+            mass = match problem.materials.as_slice() {
+                [material] => {
+                    Some(samples.weight.iter().map(|volume| volume * material.density).collect())
+                }
+                _ => None,
+            };
         } else {
             let displaced = particles.position.iter().zip(&particles.reference_position);
             samples.displacement = displaced.map(|(x, label)| x - label).collect();
@@ -98,7 +106,7 @@ impl ProgramSubject {
             mass = Some(particles.mass.clone());
         }
         let counters = RunCounters {
-            particles: mass.is_some().then_some(particles.len() as u64),
+            particles: (!has_own_points).then_some(particles.len() as u64),
             ..RunCounters::new(0)
         };
         let mut instants = problem.instants.clone().into_iter();
@@ -183,7 +191,7 @@ impl Subject for ProgramSubject {
         self.counters
     }
 
-    /// Sums over the particles; none of a solver with places of its own.
+    /// Sums over the points; `None` if their masses are unknown.
     fn totals(&self) -> Option<Totals> {
         let masses = self.mass.as_ref()?;
         let d = self.dimension;

@@ -178,6 +178,29 @@ fn shorter_steps_restore_the_order(#[case] error: &str, #[case] code: i32) {
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
 }
 
+/// Own points have the mass of their weight: those of the particles here, and the energy is theirs.
+#[rstest]
+#[case::right_weights("", SOUND)]
+#[case::half_the_weights("0.5*", FAILED)]
+fn sums_over_points_of_the_solver_have_an_order(#[case] factor: &str, #[case] code: i32) {
+    let ready = r#"printf '%s\n' "$problem" | awk '{
+        x = substr($0, index($0, "\"reference_position\":[") + 22)
+        x = substr(x, 1, index(x, "]") - 1)
+        n = split(x, X, ",")
+        for (p = 1; p <= n; p++) w = w (p > 1 ? "," : "") sprintf("%.17g", FACTOR 1/n)
+        printf "{\"type\":\"ready\",\"points\":{\"reference_position\":[%s],\"weight\":[%s]}}\n", x, w
+    }'"#;
+    let folder = folder("h*h");
+    let script = OF_ERROR.replace("HELLO", HELLO).replace("ERROR", "h*h");
+    let ready = ready.replace("FACTOR", factor);
+    folder.write("solver.sh", script.replace("echo '{\"type\":\"ready\"}'", &ready));
+    let text = bar().replace("observe: {at: [0.5]}", "judge: {of: kinetic_energy}");
+    let text = text.replace("  - fem: {element: linear, mass: lumped}\n", "");
+    folder.write("bar.yaml", text);
+    let answer = gate(&folder, &["bar.yaml"], &[]);
+    assert_eq!(answer.code, code, "{}{}", answer.out, answer.errors);
+}
+
 /// Steps that follow the cells are refined with them, and an error of first order in time is one.
 #[test]
 fn steps_that_follow_the_cells_are_not_shortened() {
