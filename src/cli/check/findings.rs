@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
+    /// Whether an external solver runs in place of the methods: `run --gate` has an expectation.
+    has_solver: bool,
     /// Whether notes are printed in full.
     has_notes: bool,
     suites: Vec<Value>,
@@ -23,6 +25,7 @@ impl CheckFindings {
         Self {
             is_json: args.format.is_json(),
             is_quiet: args.print.quiet,
+            has_solver: args.solver.solver.is_some(),
             has_notes: args.print.notes || (is_named && !args.print.quiet),
             suites: Vec::new(),
         }
@@ -53,7 +56,8 @@ impl CheckFindings {
     pub(super) fn sound(&mut self, suite: &Suite, source: &Source, found: &[Diagnostic]) {
         if !self.is_json {
             if !self.is_quiet {
-                output::print(&sound(suite));
+                let is_explored = suite.explores() && !self.has_solver;
+                output::print(&sound(suite, is_explored));
             }
             let is_printed = |one: &&Diagnostic| self.has_notes || one.severity() != Severity::Note;
             return found.iter().filter(is_printed).for_each(output::diagnose);
@@ -141,10 +145,10 @@ impl Counts {
     }
 }
 
-fn sound(suite: &Suite) -> String {
+fn sound(suite: &Suite, is_explored: bool) -> String {
     let cases = suite.case_names().len();
     let noun = if cases == 1 { "case" } else { "cases" };
-    let gate = if suite.explores() { "; nothing is expected, it is no gate" } else { "" };
+    let gate = if is_explored { "; nothing is expected, it is no gate" } else { "" };
     let cost = study::estimate(suite).map_or(String::new(), |cost| {
         let (seconds, mb) = (rounded(cost.seconds), rounded(cost.bytes / 1e6));
         format!(", about {seconds} s of one thread and {mb} MB")

@@ -402,6 +402,8 @@ fn version_1_lacks_loads_and_conditions_with_numbers() {
     folder.write("solver.sh", script(&[]));
     let found = folder.call(&["check", "loaded.yaml", "--solver", "sh solver.sh"]);
     assert!(found.out.starts_with("loaded: sound"), "{}{}", found.out, found.errors);
+    // `run --gate` expects an order of the solver.
+    assert!(!found.out.contains("no gate"), "{}", found.out);
 }
 
 /// A name that means nothing is reported by every command, and where it is lacking.
