@@ -11,8 +11,6 @@ use serde_json::{Value, json};
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
-    /// Whether an external solver runs in place of the methods: `run --gate` has an expectation.
-    has_solver: bool,
     /// Whether notes are printed in full.
     has_notes: bool,
     suites: Vec<Value>,
@@ -25,7 +23,6 @@ impl CheckFindings {
         Self {
             is_json: args.format.is_json(),
             is_quiet: args.print.quiet,
-            has_solver: args.solver.solver.is_some(),
             has_notes: args.print.notes || (is_named && !args.print.quiet),
             suites: Vec::new(),
         }
@@ -52,11 +49,17 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// A suite that can run.
-    pub(super) fn sound(&mut self, suite: &Suite, source: &Source, found: &[Diagnostic]) {
+    /// A suite that can run. An external solver has an expectation, that of `run --gate`.
+    pub(super) fn sound(
+        &mut self,
+        suite: &Suite,
+        source: &Source,
+        found: &[Diagnostic],
+        has_solver: bool,
+    ) {
         if !self.is_json {
             if !self.is_quiet {
-                let is_explored = suite.explores() && !self.has_solver;
+                let is_explored = suite.explores() && !has_solver;
                 output::print(&sound(suite, is_explored));
             }
             let is_printed = |one: &&Diagnostic| self.has_notes || one.severity() != Severity::Note;

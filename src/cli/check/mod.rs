@@ -66,7 +66,7 @@ fn all(args: &CheckArgs) -> u8 {
         for diagnostic in &diagnostics {
             counts.add(diagnostic.severity());
         }
-        findings.sound(&suite, &source, &diagnostics);
+        findings.sound(&suite, &source, &diagnostics, solver.is_some());
     }
     findings.end(counts);
     match counts {
