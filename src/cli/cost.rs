@@ -1,12 +1,12 @@
 //! `mpm-verify cost`: what accuracy costs, measured on this machine.
 
-use super::args::{CostArgs, Vary};
+use super::args::CostArgs;
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, select, solver};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
-use mpm_verify::study::cost::{Over, best_candidate, price, variants};
+use mpm_verify::study::cost::{best_candidate, price};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
 use mpm_verify::verify::{BestCandidate, TimedSuite};
 use std::fs;
@@ -69,13 +69,12 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
 
 /// Errors and seconds of every level of each convergence suite; others have no error to pay for.
 fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> u8 {
-    let over: Vec<Over> = args.over.iter().map(|what| varied(*what)).collect();
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = PASSED;
     for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
-        let timed = one(suite, &over, solver, args);
+        let timed = one(suite, solver, args);
         if !args.format.is_json() {
-            output::print(&format!("{}\n", report::timed(&timed, !over.is_empty())));
+            output::print(&format!("{}\n", report::timed(&timed)));
         }
         if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &timed)) {
             output::complain(&error);
@@ -89,19 +88,11 @@ fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> 
     code
 }
 
-fn one(
-    suite: &Suite,
-    over: &[Over],
-    solver: Option<&SolverProgram>,
-    args: &CostArgs,
-) -> TimedSuite {
+fn one(suite: &Suite, solver: Option<&SolverProgram>, args: &CostArgs) -> TimedSuite {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
-    let variants = variants(suite, over);
-    let levels: usize = std::iter::once(suite)
-        .chain(&variants)
-        .filter_map(|suite| suite.plan::<ConvergencePlan>())
-        .map(|plan| plan.cases.len() * plan.refine.levels(extent).len())
-        .sum();
+    let levels = suite
+        .plan::<ConvergencePlan>()
+        .map_or(0, |plan| plan.cases.len() * plan.refine.levels(extent).len());
     // Each is run for its error, and timed.
     let bar = ProgressBar::with_draw_target(Some(2 * levels as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
@@ -109,17 +100,9 @@ fn one(
     }
     bar.set_message(suite.name.clone());
     let solver = solver.map(|solver| solver as &dyn SolverFactory);
-    let timed = price(suite, &variants, extent, solver, &|| bar.inc(1));
+    let timed = price(suite, extent, solver, &|| bar.inc(1));
     bar.finish_and_clear();
     timed
-}
-
-fn varied(what: Vary) -> Over {
-    match what {
-        Vary::Ppc => Over::Ppc,
-        Vary::Dt => Over::Dt,
-        Vary::Basis => Over::Basis,
-    }
 }
 
 fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), String> {

@@ -9,7 +9,7 @@ mod shared;
 mod shell;
 
 pub(super) use compare::{CompareArgs, DiffArgs, Page};
-pub(super) use cost::{CostArgs, Vary};
+pub(super) use cost::CostArgs;
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
 pub(super) use report::{JudgedSolverArgs, ListArgs, MergeArgs, ReportArgs, RunArgs};

@@ -112,34 +112,6 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
     ]
 }
 
-/// The cheapest setting for each target, of all that were varied.
-pub(crate) fn splits(ranking: &Ranking) -> [TableColumn<'_, usize>; 4] {
-    [
-        TableColumn::<usize>::text("best split for", "target error", |k| {
-            format!("<= {:e}", ranking.targets[*k])
-        })
-        .flush_left(),
-        TableColumn::<usize>::text("case", "method", |k| {
-            let found = cheapest(ranking, *k);
-            found.map_or("not reached", |row| &row.method.name).to_owned()
-        })
-        .flush_left(),
-        TableColumn::<usize>::text("h", "spacing", |k| {
-            cheapest(ranking, *k).and_then(|row| row.reaches[*k].spacing()).map(short)
-        }),
-        TableColumn::<usize>::text("seconds", "work", |k| {
-            cheapest(ranking, *k).map(|row| reach_text(row.reaches[*k]))
-        }),
-    ]
-}
-
-fn cheapest(ranking: &Ranking, target: usize) -> Option<&Ranked> {
-    let work = |row: &&Ranked| row.reaches[target].work();
-    let reached = ranking.rows.iter().filter(|row| work(row).is_some());
-    let cost = |row: &&Ranked| work(row).unwrap_or(f64::NAN);
-    reached.min_by(|a, b| cost(a).total_cmp(&cost(b)))
-}
-
 /// The terms of the cost model.
 pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     let column = |k: usize, (heading, key): (&'static str, &'static str)| {

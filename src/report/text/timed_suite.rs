@@ -5,9 +5,8 @@ use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
 use crate::verify::{BestCandidate, Interval, Machine, Model, TimedSuite};
 
-/// The report of a suite whose levels have been timed. `varied` says that there are cases besides
-/// the suite's own, whose best splits are shown.
-pub fn timed(timed: &TimedSuite, varied: bool) -> String {
+/// The report of a suite whose levels have been timed.
+pub fn timed(timed: &TimedSuite) -> String {
     let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
     text += &machine(&timed.machine);
     text += &row("seconds", SECONDS);
@@ -18,12 +17,6 @@ pub fn timed(timed: &TimedSuite, varied: bool) -> String {
     let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
-        if varied {
-            text += &format!(
-                "\n{}",
-                lines(&Table::new(&columns::splits(seconds), 0..seconds.targets.len()).lines())
-            );
-        }
         // A solver of another program has none to count.
         if timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0) {
             text += &format!("\n{}", cost(transfers, TRANSFERS));

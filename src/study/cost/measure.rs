@@ -14,7 +14,7 @@ use crate::subject::Subject;
 use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
+use crate::verify::{LevelOutcome, TimedSuite, Timing, Workload};
 
 /// Fewest repeats, and the time (s) that they must fill.
 const FEWEST: usize = 5;
@@ -81,41 +81,36 @@ fn seconds_of(
     })
 }
 
-/// Runs `suite` and its `variants`, whose cases count as cases of the suite, and times every level;
-/// calls `progress` after each level that ran and after each that was timed. `solver` is that of
-/// cases whose method is not of this crate. Only convergence studies have levels to time.
+/// Runs `suite` and times every level; calls `progress` after each level that ran and after each
+/// that was timed. `solver` runs cases of an external method. Only convergence studies have levels.
 pub fn price(
     suite: &Suite,
-    variants: &[Suite],
     extent: Extent,
     solver: Option<&dyn SolverFactory>,
     progress: &(dyn Fn() + Sync),
 ) -> TimedSuite {
-    let suites: Vec<&Suite> = std::iter::once(suite).chain(variants).collect();
-    let mut cases: Vec<CaseOutcome> = Vec::new();
     let mut jobs: Vec<TimingJob<'_>> = Vec::new();
-    for one in &suites {
-        let Some(plan) = one.plan::<ConvergencePlan>() else { continue };
-        for case in &plan.cases {
+    if let Some(plan) = suite.plan::<ConvergencePlan>() {
+        for (index, case) in plan.cases.iter().enumerate() {
             let levels = plan.refine.levels(extent).iter().enumerate();
             jobs.extend(levels.map(|(k, level)| {
-                let at = (cases.len() + index(plan, case), k);
-                let (suite, level, seconds) = (one.name.as_str(), *level, Vec::new());
-                TimingJob { suite, plan, case, level, solver, at, seconds }
+                let (suite, level, seconds) = (suite.name.as_str(), *level, Vec::new());
+                TimingJob { suite, plan, case, level, solver, at: (index, k), seconds }
             }));
         }
-        let runner = Runner::over(one, extent);
-        let runner = match solver {
-            Some(solver) => runner.judging(solver),
-            None => runner,
-        };
-        cases.extend(runner.run(progress).cases);
     }
+    let runner = Runner::over(suite, extent);
+    let runner = match solver {
+        Some(solver) => runner.judging(solver),
+        None => runner,
+    };
+    let outcome = runner.run(progress);
     let observed = alone(|| {
         let mut observed = Observed::new();
         time(&mut jobs, &mut observed, progress);
         observed
     });
+    let cases = &outcome.cases;
     let mut levels: Vec<Vec<(Workload, Option<Timing>)>> = vec![Vec::new(); cases.len()];
     for job in &jobs {
         let (case, level) = job.at;
@@ -123,12 +118,7 @@ pub fn price(
             levels[case].push((load(job.plan, outcome), Timing::of(&job.seconds)));
         }
     }
-    let outcome = Runner::over(suite, extent).outcome(cases);
     TimedSuite { outcome, levels, machine: observed.seen() }
-}
-
-fn index(plan: &ConvergencePlan, case: &Case) -> usize {
-    plan.cases.iter().position(|known| known.name == case.name).unwrap_or(0)
 }
 
 /// Round after round until every level has been timed often enough.

@@ -1,4 +1,4 @@
-//! Cost of suites in seconds: measured level by level, for variants, and within a budget.
+//! Cost of suites in seconds: measured level by level, and within a budget.
 //!
 //! Errors come from the same runs as reports, in parallel; then every level is run again, alone, by
 //! one thread, and its steps are timed, without set-up and without taking errors.
@@ -8,9 +8,7 @@ pub(crate) mod candidate;
 pub(crate) mod goal;
 pub(crate) mod machine;
 pub(crate) mod measure;
-pub(crate) mod variants;
 
 pub use budget::best_candidate;
 pub use goal::{Goal, goals};
 pub use measure::price;
-pub use variants::{Over, variants};

@@ -1,7 +1,7 @@
 //! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
 //! is what does not.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, on_one_grid};
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
 use serde_json::Value;
 
 fn document(folder: &Folder, arguments: &[&str]) -> Value {
@@ -35,7 +35,6 @@ fn the_report_has_levels_a_model_and_both_rankings() {
     // Four levels, a model, and two rows in each of two rankings; beside other tests a finer level can
     // take less time than a coarser one, and then seconds have no exponent.
     assert!((8..=9).contains(&rows("mpm-linear-flip-musl")), "{}", found.out);
-    assert!(!found.out.contains("best split"), "{}", found.out);
 }
 
 #[test]
@@ -65,49 +64,21 @@ fn every_level_has_its_seconds_and_its_work() {
     assert_eq!(works, ["seconds", "transfers"]);
 }
 
-/// Three settings of particles times three of steps; the FEM has no particles.
-#[test]
-fn what_is_varied_has_cases_of_its_own() {
-    let folder = Folder::new();
-    folder.write("one.yaml", on_one_grid(BAR));
-    let document = document(&folder, &["one.yaml", "--over", "ppc,dt"]);
-    let cases = list(&document["suites"][0]["cases"]);
-    let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();
-    assert_eq!(names.len(), 9 + 3, "{names:?}");
-    for name in ["mpm-linear-flip-musl-ppc-8-dt-x0.5", "fem-linear-lumped-dt-x2"] {
-        assert!(names.contains(&name), "no {name} among {names:?}");
-    }
-    folder.write("bar.yaml", BAR.replace("  - fem: {element: linear, mass: lumped}\n", ""));
-    let split = folder.call(&["cost", "bar.yaml", "--over", "ppc"]);
-    assert!(split.out.contains("best split for"), "{}", split.out);
-}
-
 /// With steps of twice its limit a method breaks; its levels are rows.
 #[test]
 fn what_breaks_is_a_row() {
     let folder = Folder::new();
     folder.write(
         "bar.yaml",
-        BAR.replace("until: 0.05, dt: 1e-3", "until: 4, dt: \"0.08*h\", instants: 1"),
+        BAR.replace("until: 0.05, dt: 1e-3", "until: 4, dt: \"0.16*h\", instants: 1"),
     );
-    let found = folder.call(&["cost", "bar.yaml", "--over", "dt", "--figures", "figures"]);
+    let found = folder.call(&["cost", "bar.yaml", "--figures", "figures"]);
     assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
     let broken = found.out.lines().filter(|line| line.split_whitespace().any(|w| w == "failed"));
     assert!(broken.count() > 0, "{}", found.out);
     let figure = folder.read("figures/short-bar-work-transfers.svg");
     assert!(figure.contains("failed or not finite"));
     assert!(folder.files("figures").contains(&"short-bar-work-seconds.svg".to_owned()));
-}
-
-#[test]
-fn other_bases_are_those_that_go_with_the_method() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", on_one_grid(BAR).replace("transfer: flip", "transfer: tls"));
-    let document = document(&folder, &["bar.yaml", "--over", "basis"]);
-    let cases = list(&document["suites"][0]["cases"]);
-    let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();
-    assert!(names.contains(&"mpm-quadratic-bspline-tls-musl"), "{names:?}");
-    assert!(!names.iter().any(|name| name.contains("gimp")), "{names:?}");
 }
 
 #[test]
@@ -162,11 +133,10 @@ fn words_that_are_not_known_are_answered() {
     let folder = Folder::new();
     folder.write("bar.yaml", BAR);
     for (arguments, words) in [
-        (&["--over", "pcc"][..], "'ppc'"),
-        (&["--budget", "10"], "such as `10s`"),
+        (&["--budget", "10"][..], "such as `10s`"),
         (&["--budget=-1s"], "such as `10s`"),
         (&["--budget", "nans"], "such as `10s`"),
-        (&["--budget", "1s", "--over", "dt"], "cannot be used with"),
+        (&["--budget", "1s", "--figures", "x"], "cannot be used with"),
         (&["--figures", "bar.yaml/x"], "--figures bar.yaml/x: "),
     ] {
         let arguments = [&["cost", "bar.yaml"], arguments].concat();
