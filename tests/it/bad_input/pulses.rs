@@ -47,7 +47,7 @@ const RIGHT: &str = "A/2*(f(X - 1 - t) + f(X - 1 + t))";
 #[rstest]
 fn a_right_pulse_is_accepted(
     #[values(GAUSS, SECH, WINDOW, TRIANGLE)] shape: &str,
-    #[values(0.03, 0.003)] w: f64,
+    #[values(0.03, 0.01, 0.003)] w: f64,
     #[values(1, 2)] dimension: usize,
 ) {
     let bar = split(shape, w, RIGHT);
@@ -66,7 +66,7 @@ fn a_right_pulse_is_accepted(
 fn a_wrong_pulse_is_refused(
     #[case] displacement: &str,
     #[values(GAUSS, SECH, WINDOW, TRIANGLE)] shape: &str,
-    #[values(0.1, 0.003)] w: f64,
+    #[values(0.1, 0.03, 0.01, 0.003)] w: f64,
 ) {
     let diagnostic = load(&split(shape, w, displacement)).expect_err("a wrong pulse");
     assert!(diagnostic.to_string().contains(" is violated at X = ("), "{diagnostic}");
