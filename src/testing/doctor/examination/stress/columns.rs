@@ -46,19 +46,29 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Mean of a tensor within a cell of the middle; none if it is not given.
+/// Mean of a tensor within a cell of the middle; `None` if the column is not given.
 pub(in crate::testing::doctor) fn inside(
     course: &Course,
     scene: &BoxScene,
     column: &[f64],
 ) -> Option<Vec<f64>> {
-    let d = scene.dimension;
+    mean_tensor(course, column, |label| {
+        let ends = scene.body.0.iter().zip(&scene.body.1);
+        label.iter().zip(ends).all(|(x, (low, high))| (x - 0.5 * (low + high)).abs() <= scene.h)
+    })
+}
+
+/// Mean of a tensor (`d * d` numbers per point) over points whose label `is_near`; `None` if the
+/// column is not given, NaN without such points.
+pub(in crate::testing::doctor) fn mean_tensor(
+    course: &Course,
+    column: &[f64],
+    is_near: impl Fn(&[f64]) -> bool,
+) -> Option<Vec<f64>> {
+    let d = course.problem.dimension;
     if column.is_empty() {
         return None;
     }
-    let is_near = |label: &[f64]| {
-        (0..d).all(|i| (label[i] - 0.5 * (scene.body.0[i] + scene.body.1[i])).abs() <= scene.h)
-    };
     let labels = course.states[0].label.chunks_exact(d);
     let (mut sum, mut count) = (vec![0.0; d * d], 0.0);
     for (_, tensor) in labels.zip(column.chunks_exact(d * d)).filter(|(label, _)| is_near(label)) {

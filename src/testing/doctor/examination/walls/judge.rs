@@ -4,6 +4,7 @@ use super::measure::{SUNK, TRAVEL, Wall};
 use crate::testing::doctor::course::shown;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::FACES;
+
 /// Range of the force on a body that is thrown, over the expected one. It swings about its mean
 /// for a long time: with FLIP and cubic functions, 0.70 is the mean of the run.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;

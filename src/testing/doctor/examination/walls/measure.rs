@@ -1,10 +1,11 @@
 //! Forces of walls, and motions next to them, by the momentum of the halves of a bar.
 
 use crate::testing::doctor::course::{Course, displacement, line, shown, velocity};
-use crate::testing::doctor::examination::stress::constant_and_rate;
+use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
 use crate::testing::doctor::patient::{Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 use crate::testing::doctor::vectors::AffineField;
+
 /// Length of the bar, and distance that waves travel (cells).
 const CELLS: f64 = 16.0;
 pub(super) const TRAVEL: f64 = 7.0;
@@ -132,6 +133,10 @@ pub(super) fn walls_across(
         let through =
             |course: &Course| side.sign() * side.at_wall(course, &plain) / (SPEED * c * cell_time);
         let place = usize::from(side.high);
+        let [offset, falling] = match fall {
+            Some(course) => side.force_under_gravity(course, &plain, c).map(Some),
+            None => [None; 2],
+        };
         Wall {
             face: FACES[axis][place],
             condition,
@@ -141,8 +146,8 @@ pub(super) fn walls_across(
                 let scene = &scenes[run_along];
                 side.force(&courses[run_along], scene, other, c / libm::sqrt(2.0))
             }),
-            falling: fall.map(|course| side.force_under_gravity(course, &plain, c).1),
-            offset: fall.map(|course| side.force_under_gravity(course, &plain, c).0),
+            falling,
+            offset,
             through: courses.get(push).filter(|_| push == 0 || axis == 0).map(through),
             jump: Some(courses[0].farthest(displacement, 1, [0.0; 3]) / (SPEED * c * plain.dt)),
             sinking: sunk.map(|sunk| {
@@ -223,29 +228,25 @@ impl BarEnd {
 
     /// Force of the wall under gravity from rest: the part that acts at once, over `rho h g`, and
     /// the part that grows, over `rho c g t`.
-    fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> (f64, f64) {
+    fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> [f64; 2] {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let held: Vec<f64> = (0..=course.last())
             .map(|k| half * GRAVITY * course.times[k] - self.gained(course, scene, self.axis, k))
             .collect();
         let [constant, rate] = constant_and_rate(&course.times, &held);
-        (constant / (scene.h * GRAVITY), rate / (c * GRAVITY))
+        [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
     /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver gives the
     /// column.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
-        let (last, d) = (course.last(), scene.dimension);
-        let stress = &course.states[last].stress;
-        let (mut sum, mut count) = (0.0, 0.0);
-        let labels = course.points(velocity, last).map(|(label, _)| label);
-        for (label, stress) in labels.zip(stress.chunks_exact(d * d)) {
-            if self.depth(scene, label) <= 2.0 * H {
-                sum += stress[self.axis * (d + 1)];
-                count += 1.0;
-            }
-        }
-        (count > 0.0).then(|| sum / count)
+        let d = scene.dimension;
+        let is_near = |label: &[f64]| {
+            let label = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
+            self.depth(scene, label) <= 2.0 * H
+        };
+        let mean = mean_tensor(course, &course.states[course.last()].stress, is_near)?;
+        Some(mean[self.axis * (d + 1)])
     }
 
     /// Displacement (m) along the axis at the wall at the end: the line through the points within
