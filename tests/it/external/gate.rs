@@ -38,11 +38,16 @@ while read -r m; do
 done
 "#;
 
+/// The script of a solver whose errors are `error`.
+fn script(error: &str) -> String {
+    OF_ERROR.replace("HELLO", HELLO).replace("ERROR", error)
+}
+
 /// A folder with `bar.yaml`, and a solver in `solver.sh` whose errors are `error`.
 fn folder(error: &str) -> Folder {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
-    folder.write("solver.sh", OF_ERROR.replace("HELLO", HELLO).replace("ERROR", error));
+    folder.write("solver.sh", script(error));
     folder
 }
 
@@ -178,7 +183,7 @@ fn shorter_steps_restore_the_order(#[case] error: &str, #[case] code: i32) {
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
 }
 
-/// Own points have the mass of their weight: those of the particles here, and the energy is theirs.
+/// The mass of a solver's own point is its weight times the density, in sums over the body.
 #[rstest]
 #[case::right_weights("", SOUND)]
 #[case::half_the_weights("0.5*", FAILED)]
@@ -190,10 +195,9 @@ fn sums_over_points_of_the_solver_have_an_order(#[case] factor: &str, #[case] co
         for (p = 1; p <= n; p++) w = w (p > 1 ? "," : "") sprintf("%.17g", FACTOR 1/n)
         printf "{\"type\":\"ready\",\"points\":{\"reference_position\":[%s],\"weight\":[%s]}}\n", x, w
     }'"#;
-    let folder = folder("h*h");
-    let script = OF_ERROR.replace("HELLO", HELLO).replace("ERROR", "h*h");
+    let folder = Folder::new();
     let ready = ready.replace("FACTOR", factor);
-    folder.write("solver.sh", script.replace("echo '{\"type\":\"ready\"}'", &ready));
+    folder.write("solver.sh", script("h*h").replace("echo '{\"type\":\"ready\"}'", &ready));
     let text = bar().replace("observe: {at: [0.5]}", "judge: {of: kinetic_energy}");
     let text = text.replace("  - fem: {element: linear, mass: lumped}\n", "");
     folder.write("bar.yaml", text);
