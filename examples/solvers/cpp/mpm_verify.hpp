@@ -257,7 +257,7 @@ struct Cannot : std::runtime_error {
 struct About {
     std::string name, version;
     int formal_order;
-    std::string capabilities;  // JSON
+    std::string capabilities;  // JSON on one line
 };
 
 inline void write(Channel& channel, const State& state) {
