@@ -11,9 +11,7 @@ use crate::subject::Precision;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan};
-use crate::verify::{
-    Axis, CaseOutcome, GateResult, Gating, Judgement, LevelOutcome, Quantity, Requirement,
-};
+use crate::verify::{Axis, GateResult, Gating, Judgement, LevelOutcome, Quantity, Requirement};
 use rayon::prelude::*;
 
 /// Roundings of a value in one step, for the prediction of rounding errors.
@@ -31,7 +29,16 @@ const LEAST_FALL: f64 = 0.05;
 /// The time step follows the cells if it shrinks with at least this power of h.
 const FOLLOWS: f64 = 0.5;
 
-/// Checks the requirement of a case, if it has one that so many levels can test.
+/// Reason for which the gate requires nothing of a case with these levels, if it does not.
+pub(super) fn exemption(case: &Case, levels: &[LevelOutcome]) -> Option<String> {
+    match &case.gating {
+        Some(Gating::NotGated(reason)) => Some(reason.clone()),
+        Some(Gating::Required(required)) => required.untestable(&series(levels)),
+        _ => None,
+    }
+}
+
+/// Checks the requirement of a case, if it has one that these levels can test.
 pub(super) fn result(
     (plan, case): (&ConvergencePlan, &Case),
     (levels, judgement): (&[LevelOutcome], &Judgement),
@@ -39,21 +46,8 @@ pub(super) fn result(
     run: impl Fn(LevelPlan) -> Result<LevelOutcome, String> + Sync,
 ) -> Option<GateResult> {
     let Some(Gating::Required(required)) = &case.gating else { return None };
-    let is_testable = required.untestable(levels.len()).is_none();
+    let is_testable = exemption(case, levels).is_none();
     is_testable.then(|| check((plan, case), required, (levels, judgement), truth, run))
-}
-
-/// The outcome of a case of so many levels, marked as not gated if nothing is required of it.
-pub(super) fn marked(outcome: CaseOutcome, case: &Case, levels: usize) -> CaseOutcome {
-    let reason = match &case.gating {
-        Some(Gating::NotGated(reason)) => Some(reason.clone()),
-        Some(Gating::Required(required)) => required.untestable(levels),
-        _ => None,
-    };
-    match reason {
-        Some(reason) => outcome.not_gated(&reason),
-        None => outcome,
-    }
 }
 
 /// Checks a requirement on levels that have run; `run` runs a level.

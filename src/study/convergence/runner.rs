@@ -197,8 +197,12 @@ impl<'a> ConvergenceRunner<'a> {
         let error_scale = error_scale(plan, case, truth);
         let gate = gate::result((plan, case), (&levels, &judgement), truth, again);
         let binding = CaseBinding { expectation, gate: gate.as_ref() };
+        let exemption = gate::exemption(case, &levels);
         let outcome = judged(plan, case, binding, levels, judgement, floor, error_scale);
-        Ok(gate::marked(outcome, case, count))
+        Ok(match exemption {
+            Some(reason) => outcome.not_gated(&reason),
+            None => outcome,
+        })
     }
 
     /// One level of a case against `truth`, which keeps its errors over the body or not.

@@ -96,7 +96,7 @@ impl ConvergencePlan {
         let stated = terms.order.map(|order| (order, terms.because.clone()));
         let order = stated.or_else(|| self.required_order(formal_order));
         let error_below = terms.error_below.or(self.any_method.error_below);
-        let error_below = error_below.or_else(|| self.smallest_own_bound());
+        let own_error_below = if error_below.is_none() { self.smallest_own_bound() } else { None };
         let because = match order {
             _ if terms.order.is_some() || terms.error_below.is_some() => terms.because.clone(),
             Some((_, ref reason)) => reason.clone(),
@@ -104,11 +104,13 @@ impl ConvergencePlan {
             None => "the suite bounds the errors of its own methods".to_owned(),
         };
         match order.map(|(order, _)| order) {
-            None if error_below.is_none() => Gating::NotGated(format!(
-                "the suite refines {}, and the solver states its order in space only",
-                self.refine.axis.name()
-            )),
-            order => Gating::Required(Requirement { order, error_below, because }),
+            None if error_below.is_none() && own_error_below.is_none() => {
+                Gating::NotGated(format!(
+                    "the suite refines {}, and the solver states its order in space only",
+                    self.refine.axis.name()
+                ))
+            }
+            order => Gating::Required(Requirement { order, error_below, own_error_below, because }),
         }
     }
 

@@ -37,6 +37,9 @@ pub struct Requirement {
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted without an order.
     pub error_below: Option<f64>,
+    /// Bound on the errors of the suite's own methods, if no other bound is stated. It is not
+    /// required of other methods where the levels are too few for an order.
+    pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
 }
@@ -82,16 +85,37 @@ impl Requirement {
     /// The requirement in one line.
     pub fn summary(&self) -> String {
         let order = self.lowest().map(|order| format!("order at least {order:.2}"));
-        let bound = self.error_below.map(|bound| format!("errors at most {:e}", rounded(bound, 4)));
+        let bound = self.bound().map(|bound| format!("errors at most {:e}", rounded(bound, 4)));
         let parts: Vec<String> = [order, bound].into_iter().flatten().collect();
         parts.join(", or ")
     }
 
-    /// Why so many levels cannot show what is required, if they cannot.
-    pub(crate) fn untestable(&self, levels: usize) -> Option<String> {
-        let is_testable = self.error_below.is_some() || levels >= FEWEST_LEVELS;
-        let levels = if levels == 1 { "one level".to_owned() } else { format!("{levels} levels") };
-        (!is_testable).then(|| format!("{levels}, and an order needs {FEWEST_LEVELS}"))
+    /// The bound at which errors are accepted without an order.
+    fn bound(&self) -> Option<f64> {
+        self.error_below.or(self.own_error_below)
+    }
+
+    /// Reason for which these levels cannot show what is required, if they cannot. The gate
+    /// rejects a level that fails, however many there are.
+    pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
+        let has_failed =
+            levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
+        let is_own = |bound: f64| has_failed || levels.iter().all(|level| level.error <= bound);
+        let is_testable = levels.len() >= FEWEST_LEVELS
+            || self.error_below.is_some()
+            || self.own_error_below.is_some_and(is_own);
+        if is_testable {
+            return None;
+        }
+        let count = levels.len();
+        let count = if count == 1 { "one level".to_owned() } else { format!("{count} levels") };
+        let own = self.own_error_below.map_or(String::new(), |bound| {
+            format!(
+                "; only the suite's own methods must have errors at most {:e}",
+                rounded(bound, 4)
+            )
+        });
+        Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
     /// How the requirement is met by the errors of `levels`, given the judgement of them and the
@@ -110,15 +134,19 @@ impl Requirement {
             return Err("expected every level to run to its end".to_owned());
         }
         let counted: Vec<&Level> = levels.iter().filter(|level| level.usable).collect();
-        let accepted = self.error_below.unwrap_or(0.0).max(rounding);
+        let bound = self.bound();
+        let accepted = bound.unwrap_or(0.0).max(rounding);
         let above = counted.iter().take_while(|level| !(level.error <= accepted)).count();
         let (coarse, fine) = counted.split_at(above);
         let ends_within = !fine.is_empty() && fine.iter().all(|level| level.error <= accepted);
         let is_met = ends_within
             && match above {
                 0 => true,
-                // Too few for an order: the errors must fall until they are within the bound.
-                1..FEWEST_LEVELS => coarse.windows(2).all(|pair| pair[1].error <= pair[0].error),
+                // Coarse levels that are too few for an order may be pre-asymptotic. Without a
+                // bound they must fall until they are rounding errors.
+                1..FEWEST_LEVELS => {
+                    bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
+                }
                 _ => {
                     let coarse: Vec<Level> = coarse.iter().map(|level| (*level).clone()).collect();
                     self.has_order(&judge(&coarse, &self.hypothesis(axis)))
@@ -153,7 +181,7 @@ impl Requirement {
         let largest = largest.map_or("none".to_owned(), format_number);
         let order = judgement.order.map_or("none".to_owned(), |order: Interval| order.shown());
         let verdict = judgement.verdict;
-        let observed = match (self.order, self.error_below) {
+        let observed = match (self.order, self.bound()) {
             (Some(_), None) => format!("`{verdict}` with the order {order}"),
             (None, _) => format!("a largest error of {largest}"),
             _ => format!("`{verdict}` with the order {order} and a largest error of {largest}"),
@@ -172,8 +200,12 @@ mod tests {
         errors.iter().enumerate().map(|(k, error)| Level::new(h(k), *error)).collect()
     }
 
+    fn requirement(order: Option<f64>, error_below: Option<f64>) -> Requirement {
+        Requirement { order, error_below, own_error_below: None, because: String::new() }
+    }
+
     fn check(order: Option<f64>, bound: Option<f64>, errors: &[f64]) -> Result<Acceptance, String> {
-        let requirement = Requirement { order, error_below: bound, because: String::new() };
+        let requirement = requirement(order, bound);
         let levels = levels(errors);
         let judgement = judge(&levels, &requirement.hypothesis(Axis::Space));
         requirement.check(&levels, Axis::Space, &judgement, 1e-14)
@@ -225,6 +257,8 @@ mod tests {
     #[case::one_level_above(&[1.1e-3], None)]
     #[case::all_levels(&[1e-4, 2e-4, 1e-4, 3e-4], Some(Acceptance::Bound))]
     #[case::a_floor_behind_the_order(&[0.256, 0.064, 0.016, 0.004, 1e-3, 9e-4, 9e-4], Some(Acceptance::Bound))]
+    #[case::a_rise_on_coarse_levels(&[1.7e-3, 2.4e-3, 1.3e-3, 8.1e-4], Some(Acceptance::Bound))]
+    #[case::a_rise_above_the_bound(&[1e-4, 2e-3], None)]
     #[case::a_floor_behind_a_lower_order(&[0.016, 0.008, 0.004, 0.002, 1e-3, 9e-4, 9e-4], None)]
     fn a_bound_needs_no_order(#[case] errors: &[f64], #[case] met: Option<Acceptance>) {
         assert_eq!(check(Some(2.0), Some(1e-3), errors).ok(), met);
@@ -246,11 +280,31 @@ mod tests {
 
     #[test]
     fn an_order_needs_four_levels() {
-        let requirement =
-            Requirement { order: Some(2.0), error_below: None, because: String::new() };
-        assert_eq!(requirement.untestable(1).as_deref(), Some("one level, and an order needs 4"));
-        assert_eq!(requirement.untestable(3).as_deref(), Some("3 levels, and an order needs 4"));
-        assert_eq!(requirement.untestable(4), None);
-        assert_eq!(Requirement { error_below: Some(1.0), ..requirement }.untestable(1), None);
+        let of_order_2 = requirement(Some(2.0), None);
+        let untestable = |required: &Requirement, errors: &[f64]| {
+            required.untestable(&levels(errors)).unwrap_or_default()
+        };
+        assert_eq!(untestable(&of_order_2, &[1.0]), "one level, and an order needs 4");
+        assert_eq!(untestable(&of_order_2, &[1.0; 3]), "3 levels, and an order needs 4");
+        assert_eq!(untestable(&of_order_2, &[1.0; 4]), "");
+        assert_eq!(untestable(&requirement(Some(2.0), Some(1e-3)), &[1.0]), "");
+    }
+
+    /// A bound of the suite's own methods is required of no other method.
+    #[rstest]
+    #[case::within(&[1e-13], "")]
+    #[case::above(&[0.2], "one level, and an order needs 4; only the suite's own methods must have errors at most 1e-12")]
+    #[case::not_a_number(&[f64::NAN], "")]
+    #[case::enough_levels(&[0.2; 4], "")]
+    fn a_bound_of_own_methods_accepts_only(#[case] errors: &[f64], #[case] reason: &str) {
+        let required = Requirement { own_error_below: Some(1e-12), ..requirement(Some(2.0), None) };
+        assert_eq!(required.untestable(&levels(errors)).unwrap_or_default(), reason);
+    }
+
+    #[test]
+    fn a_level_that_fails_is_testable_on_one_level() {
+        let required = Requirement { own_error_below: Some(1e-12), ..requirement(Some(2.0), None) };
+        let failed = [Level::new(1.0, f64::NAN).failing("a particle left the grid".to_owned())];
+        assert_eq!(required.untestable(&failed), None);
     }
 }
