@@ -87,6 +87,7 @@ class TotalLagrangian:
     v: Array
     a: Array | None
     time_order = 2
+    longest_step = np.inf  # s; longer steps are divided
 
     def acceleration(self, time: float) -> Array:
         """Accelerations (m/s2) at the displacements `u`, zero where a point is held."""
@@ -96,8 +97,9 @@ class TotalLagrangian:
         if self.a is None:
             self.a = self.acceleration(time)
         take = {2: self.verlet, 4: self.nystrom}[self.time_order]
-        for step in range(steps):
-            take(dt, time + step * dt)
+        parts = int(np.ceil(dt / self.longest_step)) or 1
+        for step in range(steps * parts):
+            take(dt / parts, time + step * dt / parts)
 
     def verlet(self, dt: float, time: float) -> None:
         """Velocity Verlet."""

@@ -9,7 +9,8 @@ conserved.
 Orders in h of the displacement, for particles on a lattice: 2 inside the body, and at rollers and
 periodic ends, where images of the particles complete the neighbourhood. A free face cuts the
 neighbourhood off: the gradient has order 1 there, in a layer as wide as the kernel. In the weak form
-this is an error of order 2, and suites with free faces show order 2. Off a lattice the order is 0, and
+this is an error of order 2, and suites with free faces show order 2. Images at a fixed end are odd, so that a
+displacement with a curvature there, as under gravity, has order 1 (sph.yaml). Off a lattice the order is 0, and
 `setup` refuses.
 
 The shortest wave of the lattice has no energy and is not damped. Smooth initial data do not excite it.
@@ -57,6 +58,9 @@ class Sph(TotalLagrangian):
         self.weigh_pairs()
         self.f = self.deformation_gradient()
         self.law = LAWS[material["law"]](material["parameters"])
+        # Half of the limit of a lattice at rest, because compression stiffens it.
+        wave_speed = np.sqrt((self.law.lam + 2 * self.law.mu) / material["density"])
+        self.longest_step = 0.5 * self.volume.min() ** (1 / self.d) / wave_speed
         self.law.start(self.f, problem.stress)
         self.piola = self.law.piola(self.f)
 

@@ -2,6 +2,7 @@
 !>
 !>     gfortran -O2 -o bar mpm_verify.f90 bar.f90
 !>     mpm-verify run vibrating-bar --solver ./bar
+!>     mpm-verify run bar-under-gravity --solver './bar --start-half-step-back'
 !>
 !> Sulsky, Chen & Schreyer (1994) and Sulsky, Zhou & Schreyer (1995), with a lumped mass matrix.
 program bar
@@ -17,8 +18,12 @@ program bar
   integer, allocatable :: low(:), high(:), cell(:)
   real(dp) :: h, origin, modulus, min_j
   integer :: cells, crossings
-  logical :: periodic, is_held(2)
+  logical :: periodic, is_held(2), starts_half_back, is_started
   character(:), allocatable :: failure
+  character(32) :: option
+
+  call get_command_argument(1, option)
+  starts_half_back = option == '--start-half-step-back'
 
   call open_channel
   do
@@ -71,6 +76,7 @@ contains
         is_held(merge(2, 1, text_of(problem, at // '.high') == 'true')) = .true.
     end do
     crossings = 0
+    is_started = .false.
     min_j = minval(vol / vol0)
     allocate (xi(size(x)), low(size(x)), high(size(x)))
     allocate (cell(size(x)), source=0)
@@ -107,6 +113,9 @@ contains
     do step = 0, steps - 1
       mass = mapped(m, 0 * m)
       acceleration = per_mass(mapped(m * body_force(problem, from + step * dt), -vol * sigma), mass)
+      ! Velocities at half steps: the first step starts from half a step before t = 0.
+      if (starts_half_back .and. .not. is_started) v = v - dt / 2 * at_particles(acceleration)
+      is_started = .true.
       v = v + dt * at_particles(acceleration)
       velocity = per_mass(mapped(m * v, 0 * v), mass)
       change = dt * (velocity(high) - velocity(low)) / h
