@@ -48,6 +48,12 @@ def apic_configurations():
         yield Configuration("APIC client", name, command, start == "half_step_back")
 
 
+def jaumann_configurations():
+    for basis, scheme in itertools.product(BASES, SCHEMES):
+        yield Configuration("NumPy client with the Jaumann rate", f"jaumann-{basis}-{scheme}",
+                            [*VARIANT, "--fault", "jaumann-rate", "--basis", basis, "--scheme", scheme], False)
+
+
 def cpp_configurations():
     for basis, scheme, start in itertools.product(BASES, SCHEMES, STARTS):
         yield Configuration("C++ client", f"cpp-{basis}-{scheme}-{start}",
@@ -61,6 +67,7 @@ CONFIGURATIONS = [
     *numpy_configurations("shuffled", BLENDS),
     *numpy_configurations("nodes", [1.0, 0.95]),
     *apic_configurations(),
+    *jaumann_configurations(),
     *cpp_configurations(),
     Configuration("Fortran client", "fortran", ["{fortran}"], False),
 ]

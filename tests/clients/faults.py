@@ -347,6 +347,21 @@ AFFINE = [
           [QUADRATIC, f"{QUADRATIC} {HALF_BACK} --gradient affine"],
           {'self.by_moment)\n': 'self.by_moment) / 4\n'},
           client="apic", source="B4: taichi #4450, variant"),
+    Fault("affine-three-quarters",
+          "Uses 3/h^2, the inverse moment of cubic B-splines, with quadratic ones, and starts with the affine matrix "
+          "of the velocity. The velocity gradient of the strain is this matrix.",
+          "the affine matrix and the strain have a factor of 3/4",
+          [QUADRATIC, f"{QUADRATIC} {HALF_BACK} --gradient affine"],
+          {'self.by_moment)\n': 'self.by_moment) * 0.75\n'},
+          patch="""
+              def step(self, dt, time):
+                  self.dt = dt
+                  super().step(dt, time)
+
+              def strain(self, _):
+                  super().strain(self.dt * self.affine)
+          """,
+          client="apic", source="a reader of the guide"),
     Fault("affine-moment-of-other-basis",
           "Uses the moment h^2/4 of quadratic B-splines with cubic ones, whose moment is h^2/3.",
           "the inverse moment belongs to another basis",
@@ -750,6 +765,11 @@ GRID = [
           "Ignores nodes whose mass is below 1e-3 kg.",
           "nodes with a small mass are ignored: results depend on units",
           [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {"where=mass > 0": "where=mass > 1e-3"}),
+    Fault("mass-threshold-relative",
+          "Ignores nodes whose mass is below 1e-12 of the largest.",
+          "nodes with a small mass are ignored, and linear functions have a gradient beside them",
+          [f"{LINEAR} {MUSL}", f"{LINEAR} {USL} {HALF_BACK}"], {"where=mass > 0": "where=mass > 1e-12 * mass.max()"},
+          source="a reader of the guide"),
     Fault("mass-regularised",
           "Divides by the nodal mass plus 1e-3 kg to avoid division by zero.",
           "nodal velocities are too small by an absolute mass",
@@ -1064,6 +1084,7 @@ EXPECTED = {
     "affine-over-h": "affine-matrix-scaled",
     "affine-transposed": "affine-matrix-transposed",
     "affine-quarter": "momentum-spreads",
+    "affine-three-quarters": "velocity-gradient-scaled affine-matrix-scaled",
     "affine-moment-of-other-basis": "affine-matrix-scaled",
     "affine-offset-sign": "affine-matrix-scaled",
     "affine-offset-of-cells": "affine-matrix-scaled",
@@ -1078,7 +1099,7 @@ EXPECTED = {
     "stress-shear-of-full-left-tensor": "stress-at-finite-strain stress-at-rest",
     "stress-sign": "stress-sign",
     "stress-updated-twice": "stress-scaled",
-    "strain-halved": "stress-scaled",
+    "strain-halved": "velocity-gradient-scaled stress-scaled",
     "strain-from-old-velocity": "vibration-grows",
     "strain-diagonal-only": "shear-missing",
     "shear-engineering": "shear-doubled",
@@ -1120,8 +1141,8 @@ EXPECTED = {
     "own-seeding": "displaced-from-the-start",
     "origin-ignored": "does-not-get-through",
     "square-grid-assumed": "does-not-get-through",
-    "gradient-per-cell": "stress-scaled mass-or-volume-scaled",
-    "gradient-of-one-axis": "stress-scaled mass-or-volume-scaled",
+    "gradient-per-cell": "velocity-gradient-scaled stress-scaled mass-or-volume-scaled",
+    "gradient-of-one-axis": "velocity-gradient-scaled stress-scaled mass-or-volume-scaled",
     "gradient-third-axis-copied": "stress-not-symmetric",
     "gradient-half-cell-off": "gradients-do-not-sum-to-zero",
     "weights-truncated": "weights-do-not-sum-to-one",
@@ -1130,6 +1151,7 @@ EXPECTED = {
     "cells-found-once-per-message": "steps-depend-on-messages",
     "mass-of-the-first-step": "weights-do-not-sum-to-one",
     "mass-threshold-absolute": "light-nodes-left-out depends-on-units",
+    "mass-threshold-relative": "light-nodes-left-out",
     "mass-regularised": "weights-do-not-sum-to-one",
     "sums-lose-duplicates": "momentum-lost",
     "sums-race": "another-way-each-time",
@@ -1195,3 +1217,17 @@ def variants(fault):
 FAMILIES = {"positions": POSITIONS, "loads": LOADS, "walls": WALLS, "affine transfer": AFFINE, "materials": MATERIALS,
             "initial state": INITIAL, "grid and basis": GRID, "time": TIME, "output": OUTPUT}
 FAULTS = {fault.name: fault for family in FAMILIES.values() for each in family for fault in variants(each)}
+
+# Solvers that differ from the definitions of the protocol and are sound.
+VARIATIONS = {variation.name: variation for variation in [
+    Fault("jaumann-rate",
+          "Integrates linear elasticity with the Jaumann rate.",
+          "another definition of the law",
+          patch="""
+              def rate(self, step):
+                  spin = 0.5 * (step - step.transpose(0, 2, 1))
+                  turned = spin @ self.sigma - self.sigma @ spin
+                  super().rate(step)
+                  self.sigma += turned
+          """, source="a reader of the guide"),
+]}

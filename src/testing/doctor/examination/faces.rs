@@ -1,11 +1,13 @@
 //! A rigid body at constant speed whose particles lie on faces of cells, again and again.
 
+use super::stress::largest_entry;
 use super::translation::VELOCITY;
+use crate::testing::doctor::course::shown;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
-use crate::testing::doctor::scene::{ANY, BoxScene, H};
+use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, H};
 use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -14,6 +16,13 @@ pub(super) const EXAMINATION: Examination = Examination {
     after: &["conversation", "rest", "translation"],
     examine,
 };
+
+/// Distance (cells) by which particles reach beyond a face, so that a node there has a mass of this
+/// share only.
+const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
+
+/// Largest strain of a rigid body, from rounding.
+const RIGID: f64 = 1e-6;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     // Every eighth step all particles lie on faces again: no number here has more than a few bits.
@@ -35,6 +44,12 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         );
         return Ok(Examined::new(found.measured, vec![finding]));
     }
+    let mut beyond = scene.soft();
+    let ends = beyond.body.0.iter_mut().chain(&mut beyond.body.1);
+    ends.for_each(|end| *end += SLIVER * H);
+    if let Some(finding) = strained(patient, &beyond)? {
+        return Ok(Examined::new(found.measured, vec![finding]));
+    }
     let stiff = uniform(patient, &scene)?;
     let finding = stiff.findings.first().map(|_| {
         SolverFinding::remark(
@@ -47,4 +62,37 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         )
     });
     Ok(Examined::new(stiff.measured, finding.into_iter().collect()))
+}
+
+/// The finding on a rigid motion of a soft body that has a strain, by its columns.
+fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
+    let course = patient.run(scene)?;
+    let d = scene.dimension;
+    let (lambda, mu) = scene.lame();
+    let mut most = 0.0_f64;
+    for state in &course.states[1..] {
+        let mut strain = state.deformation_gradient.clone();
+        for f in strain.chunks_exact_mut(d * d) {
+            (0..d).for_each(|i| f[i * d + i] -= 1.0);
+        }
+        most = most.max(largest_entry(&strain));
+        // The stress of a fluid that does not move apart has no scale here.
+        if ELASTIC.contains(&scene.law) {
+            most = most.max(largest_entry(&state.stress) / (lambda + 2.0 * mu));
+        }
+    }
+    Ok((!(most <= RIGID)).then(|| {
+        SolverFinding::defect(
+            "light-nodes-left-out",
+            format!(
+                "particles that reach {SLIVER:.0e} cells beyond a face have a strain of {}, although the \
+                 body is rigid",
+                shown(most)
+            ),
+            "a node with little mass is left out and has no velocity, so that linear functions have a \
+             gradient beside it",
+            "a threshold on the mass of nodes, below which they get no velocity: it must be zero, or far \
+             below the mass of a particle times the smallest weight",
+        )
+    }))
 }

@@ -15,6 +15,7 @@ use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind, SOFT};
 use crate::testing::doctor::vectors::AffineField;
 use crate::testing::doctor::vectors::{minus, size};
+use nalgebra::Matrix3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "laws",
@@ -246,6 +247,20 @@ fn of_stress(
         list(&mean.iter().map(|s| s / scene.young).collect::<Vec<_>>()),
         list(&stress.iter().map(|s| s / scene.young).collect::<Vec<_>>())
     );
+    let of_rate = |rate: &[f64]| {
+        let off = error(mean, rate);
+        off <= 2.0 * NEAR && off <= 0.5 * error(mean, stress)
+    };
+    if scene.law == "linear_elastic" && of_rate(&of_jaumann_rate(scene, f)) {
+        return Ok(SolverFinding::remark(
+            "objective-rate",
+            seen,
+            "the stress is that of the Jaumann rate. The law `linear_elastic` has the plain rate, sigma' = C : D, \
+             without the terms of the spin",
+            "suites with large rotations and this law will differ; a solver can offer it without these terms, \
+             or leave it out of its `laws`",
+        ));
+    }
     // The stress of F^T in place of F: isotropic laws have it from F^T F in place of F F^T.
     let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
     let factor = mean[0] / stress[0];
@@ -270,9 +285,37 @@ fn of_stress(
         finding,
         seen,
         cause,
-        "the equation of the law (`mpm-verify explain SUITE` prints it); Cauchy's stress, row after row; \
-         left and right Cauchy-Green tensors",
+        "the equation of the law (`mpm-verify explain SUITE` prints it; that of `linear_elastic` is \
+         sigma' = C : D); Cauchy's stress, row after row; left and right Cauchy-Green tensors",
     ))
+}
+
+/// Stress (Pa), row after row, where the displacement gradient has grown in proportion to time up to
+/// the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D + W sigma
+/// - sigma W, with the spin W.
+fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Vec<f64> {
+    const PARTS: u64 = 400;
+    let d = scene.dimension;
+    let (lambda, mu) = scene.lame();
+    let identity = Matrix3::identity();
+    let end =
+        Matrix3::from_fn(
+            |i, j| {
+                if i < d && j < d { f[i * d + j] } else { f64::from(u8::from(i == j)) }
+            },
+        );
+    let change = (end - identity) / PARTS as f64;
+    let mut sigma = Matrix3::zeros();
+    for part in 0..PARTS {
+        let middle = identity + (part as f64 + 0.5) * change;
+        let Some(inverse) = middle.try_inverse() else { return Vec::new() };
+        let step = change * inverse;
+        let strain = 0.5 * (step + step.transpose());
+        let spin = step - strain;
+        let law = lambda * strain.trace() * identity + 2.0 * mu * strain;
+        sigma += law + spin * sigma - sigma * spin;
+    }
+    (0..d * d).map(|k| sigma[(k / d, k % d)]).collect()
 }
 
 fn list(tensor: &[f64]) -> String {

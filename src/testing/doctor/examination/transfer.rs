@@ -276,7 +276,7 @@ fn cause(
         seen,
         "velocities are averaged over cells in each step (PIC, or a share of PIC)",
         "the blend of PIC and FLIP; the smaller the step, the larger the viscosity: waves are damped, and \
-         orders of convergence fall. In an affine transfer (APIC), a matrix C that is almost zero",
+         orders of convergence fall. In an affine transfer (APIC, MLS-MPM), the factor of the affine matrix C",
     ))
 }
 

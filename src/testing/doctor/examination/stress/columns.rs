@@ -18,6 +18,14 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
+/// Ratio of F_00 - 1 of the column `deformation_gradient` to that of the motion; `None` if the
+/// column is not given.
+pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
+    let last = course.last();
+    let f = inside(course, scene, &course.states[last].deformation_gradient)?;
+    Some((f[0] - 1.0) / (STRETCH * course.times[last]))
+}
+
 /// Columns that do not agree with the motion.
 pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> {
     let (d, last) = (scene.dimension, course.last());
@@ -76,6 +84,11 @@ pub(in crate::testing::doctor) fn mean_tensor(
         count += 1.0;
     }
     Some(sum.into_iter().map(|sum| sum / count).collect())
+}
+
+/// Largest entry of tensors by magnitude; infinite if one is not a number.
+pub(in crate::testing::doctor) fn largest_entry(tensors: &[f64]) -> f64 {
+    tensors.iter().fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { x.abs().max(most) })
 }
 
 /// Whether `seen` is `factor` times `wanted`.

@@ -16,7 +16,7 @@ mod columns;
 mod measure;
 mod moduli;
 
-pub(super) use columns::{inside, mean_tensor};
+pub(super) use columns::{inside, largest_entry, mean_tensor};
 pub(super) use measure::{STEPS, TRAVEL, constant_and_rate, impulses, spreading};
 
 use crate::subject::Precision;

@@ -169,7 +169,20 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     let column = columns::factor(course, scene);
     let is_right = column.is_some_and(|column| (column - 1.0).abs() <= 0.25 * (factor - 1.0).abs());
     let is_alike = column.is_some_and(|column| (column / factor - 1.0).abs() <= columns::NEAR);
-    let (name, what, look_at) = if is_right {
+    let strain = columns::strain_factor(course, scene);
+    let is_strain = strain.is_some_and(|strain| (strain / factor - 1.0).abs() <= NEAR);
+    let (name, what, look_at) = if is_alike && is_strain {
+        (
+            "velocity-gradient-scaled",
+            format!(
+                "F - I has the factor {} too, and the stress follows: velocity gradients are wrong by \
+                 this factor",
+                shown(factor)
+            ),
+            "the factor 1/h of the gradients of basis functions; in MLS-MPM the factor of the affine matrix \
+             C, which is 4/h2 for quadratic and 3/h2 for cubic B-splines; the time step in F <- (I + dt L) F",
+        )
+    } else if is_right {
         (
             "mass-or-volume-scaled",
             format!(
@@ -189,7 +202,8 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
                 "the stress itself has the factor {}, and accelerations with it",
                 shown(factor)
             ),
-            "Young's modulus and its unit (Pa), the strain, the factor 1/h of velocity gradients",
+            "Young's modulus and its unit (Pa), the strain, the factor 1/h of velocity gradients; if \
+             `transfer` remarks `momentum-spreads`, the factor of the affine matrix C",
         )
     } else {
         (

@@ -29,7 +29,16 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "walls",
     expected: "every wall holds a body that is pushed against it and one that is pulled from it with the \
                force rho c v of an elastic bar, also under gravity, and a roller lets it slide",
-    after: &["conversation", "rest", "translation", "fall", "force", "transfer", "stress"],
+    after: &[
+        "conversation",
+        "rest",
+        "translation",
+        "fall",
+        "force",
+        "transfer",
+        "stress",
+        "vibration",
+    ],
     examine,
 };
 
