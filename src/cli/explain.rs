@@ -68,6 +68,10 @@ fn named(name: &str) -> Result<Dispensable, String> {
     Err(format!("error: --without {name}: there is no such effect\nhelp: {hint}"))
 }
 
+/// How solvers integrate linear elasticity, which the equation of small strain leaves open.
+const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
+                          objective rate";
+
 fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());
     for (row, text) in sketch_text(suite).iter().enumerate() {
@@ -85,6 +89,9 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     page += &line("source", &suite.source);
     for (key, value) in study::statement(suite) {
         page += &line(&key, &value);
+        if key.trim() == "material" && value.starts_with("linear elastic") {
+            page += &line("", PLAIN_RATE);
+        }
     }
     for (i, case) in suite.case_names().into_iter().enumerate() {
         page += &format!("\n{case}\n");

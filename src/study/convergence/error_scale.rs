@@ -29,7 +29,7 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
 }
 
 /// Largest exact value of the judged quantity over the body and the run.
-pub(super) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
+pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     // Shorter steps know their own labels only; a formula of the same motion knows every place.
     let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
     let is_same = matches!(case.against, Against::SameMethod(_));

@@ -1,7 +1,9 @@
-//! Levels that are too coarse for the exact solution, and a body that nothing brings to rest.
+//! Levels that are too coarse for the exact solution, a body that nothing brings to rest, and errors
+//! of the size of the solution.
 
 use super::jumps::sizes;
 use super::session::Known;
+use crate::study::convergence::error_scale::largest_exact;
 use crate::study::convergence::outcome::to_judge;
 use crate::study::preflight::extremes::Extremes;
 use crate::study::preflight::undamped;
@@ -18,6 +20,12 @@ const CLOSER: f64 = 0.5;
 /// Distance of the order between the finest two levels from that of theory, at most, if the coarse
 /// levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
+
+/// Errors that are at least this share of the largest exact value have the size of the solution.
+const WHOLE: f64 = 0.1;
+
+/// Largest error over the smallest one, at most, of errors that do not change with the cells.
+const CONSTANT: f64 = 1.5;
 
 /// Cell size over the length on which the solution changes, from which on a level is too coarse.
 const COARSE: f64 = 0.5;
@@ -121,6 +129,36 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
             finest.error
         ),
         remedy: Some(undamped::HELP.to_owned()),
+        order: None,
+        explains: true,
+    })
+}
+
+/// A finding about an external solver whose errors are of the size of the solution and do not fall.
+pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
+    let (plan, case) = (known.plan, known.session.case);
+    if !matches!(case.method, Method::External { .. }) || known.levels.len() < FEWEST_LEVELS {
+        return None;
+    }
+    let scale = plan.scale.unwrap_or(1.0);
+    let errors = || known.levels.iter().map(|level| level.error * scale);
+    let (least, most) = (errors().fold(f64::INFINITY, f64::min), errors().fold(0.0_f64, f64::max));
+    let size = largest_exact(plan, case, plan.exact.as_ref()?);
+    let is_whole = least >= WHOLE * size && most <= CONSTANT * least && size > 0.0;
+    is_whole.then(|| KnownCause {
+        kind: KnownCauseKind::AnotherProblem,
+        cause: "the solver solves another problem: its errors are of the size of the solution on all \
+                levels"
+            .to_owned(),
+        evidence: format!(
+            "The errors lie between {least:.3e} and {most:.3e} on all levels, and the largest exact value \
+             is {size:.3e}. Discretisation errors fall with the cells."
+        ),
+        remedy: Some(
+            "`mpm-verify doctor` with the same `--solver`, which looks for such faults: signs and factors \
+             of loads, mass, volume and stiffness, and boundary conditions"
+                .to_owned(),
+        ),
         order: None,
         explains: true,
     })

@@ -68,8 +68,14 @@ const PROBES: [&ProbeKind; 14] = [
 ];
 
 /// Every search for a cause that needs no change of the method.
-const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 5] =
-    [steps::check, walls::check, levels::undamped, levels::coarse, regularity::check];
+const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
+    steps::check,
+    walls::check,
+    levels::undamped,
+    levels::another_problem,
+    levels::coarse,
+    regularity::check,
+];
 
 /// The diagnosis of case number `index` of a suite, within a predicted time (s) for all changed
 /// runs. With `solver`, `suite` is that of [`under`](crate::study::under). `None` for a case that

@@ -67,6 +67,8 @@ pub enum KnownCauseKind {
     OutsideGrid,
     /// An equilibrium is asked for, and nothing in the scene removes energy.
     NoDamping,
+    /// The errors of an external solver are of the size of the solution on all levels.
+    AnotherProblem,
     /// The coarsest levels do not resolve the exact solution.
     CoarseLevels,
     /// The exact solution is not smooth enough for the order of theory.

@@ -353,3 +353,16 @@ fn a_named_study_of_a_method_fails_unless_allowed() {
     assert_eq!(gate(&folder, &targets, &[]).code, FAILED);
     assert_eq!(gate(&folder, &targets, &["--allow-not-applicable"]).code, SOUND);
 }
+
+/// Errors of the size of the solution are a fault of the solver, and not of levels or smoothness.
+#[test]
+fn a_diagnosis_sends_a_solver_of_another_problem_to_doctor() {
+    let folder = folder("-2");
+    folder.write("bar.yaml", naming_the_solver());
+    let found = folder.call(&["diagnose", "bar.yaml", "--solver", "sh solver.sh"]);
+    assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
+    let words = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("the solver solves another problem"), "{words}");
+    assert!(words.contains("`mpm-verify doctor` with the same `--solver`"), "{words}");
+    assert!(!words.contains("not smooth"), "{words}");
+}

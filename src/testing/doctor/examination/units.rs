@@ -12,7 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "units",
     expected: "a thousandth of each length, of each time, and 1e-12 of each mass change nothing but the \
                units of the answer",
-    after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
+    after: &["conversation", "rest", "translation", "faces", "force", "transfer", "stress"],
     examine,
 };
 

@@ -74,7 +74,7 @@ fn found(defect: Defect) -> (Vec<&'static str>, Vec<&'static str>, String) {
 #[case(Defect::HeldAcceleration, "wall-holds-acceleration-only")]
 #[case(Defect::PositionsShort, "displacement-scaled")]
 #[case(Defect::RoundedOutput, "single-precision")]
-#[case(Defect::AbsoluteThreshold, "depends-on-units")]
+#[case(Defect::AbsoluteThreshold, "light-nodes-left-out")]
 fn a_defect_is_named_and_no_other(#[case] defect: Defect, #[case] name: &str) {
     let (defects, _, page) = found(defect);
     assert_eq!(defects, [name], "{page}");
