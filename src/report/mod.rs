@@ -31,5 +31,6 @@ pub use text::overview::{glance, overview};
 pub use text::profile::{difference, profile};
 pub use text::profiles::profiles;
 pub use text::proposal::proposals;
+pub use text::prose::indented;
 pub use text::report::{case, summary, text};
 pub use text::timed_suite::{best_candidate, timed};

@@ -2,10 +2,12 @@
 
 use crate::cli::args::CheckArgs;
 use crate::cli::output;
+use mpm_verify::report::indented;
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// The findings so far: text is printed at once, JSON in the end.
 pub(super) struct CheckFindings {
@@ -14,18 +16,59 @@ pub(super) struct CheckFindings {
     /// Whether notes are printed in full.
     has_notes: bool,
     suites: Vec<Value>,
+    /// With an external solver: what it can take.
+    applicable: Option<ApplicableSuites>,
 }
+
+/// Suites that an external solver can take, and what it lacks for others.
+#[derive(Default)]
+struct ApplicableSuites {
+    names: Vec<String>,
+    /// Number of suites by what they need.
+    lacking: BTreeMap<String, usize>,
+    /// Number of suites that are not applicable.
+    others: usize,
+}
+
+impl ApplicableSuites {
+    /// A summary in a few lines.
+    fn text(mut self) -> String {
+        self.names.sort_unstable();
+        let (count, all) = (self.names.len(), self.names.len() + self.others);
+        let mut text = format!("\nthe solver can take {count} of {all} suites:\n");
+        text += &indented(&self.names.join(", "));
+        let mut lacking: Vec<(String, usize)> = self.lacking.into_iter().collect();
+        lacking.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        if !lacking.is_empty() {
+            let written = |(what, count): &(String, usize)| format!("{what} ({count})");
+            let lacking: Vec<String> = lacking.iter().take(MOST_LACKING).map(written).collect();
+            text += "it lacks most often, with the number of suites:\n";
+            text += &indented(&lacking.join(", "));
+        }
+        text
+    }
+}
+
+/// Number of lacking capabilities in the summary.
+const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
     /// Findings about `count` suites. Notes are printed if every target names one suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
+        let applicable = args.solver.solver.is_some() && count > 1;
         let is_named = count <= args.targets.targets.len();
         Self {
             is_json: args.format.is_json(),
             is_quiet: args.print.quiet,
             has_notes: args.print.notes || (is_named && !args.print.quiet),
             suites: Vec::new(),
+            applicable: applicable.then(ApplicableSuites::default),
         }
+    }
+
+    /// Whether the end is a summary of what a solver can take, instead of warnings and notes.
+    pub(super) fn has_summary(&self) -> bool {
+        self.applicable.is_some()
     }
 
     /// A file that cannot be used.
@@ -40,10 +83,18 @@ impl CheckFindings {
     /// A suite for which the solver lacks something.
     pub(super) fn lacking(&mut self, suite: &Suite, source: &Source, lacks: &[String]) {
         let name = &suite.name;
+        if let Some(applicable) = &mut self.applicable {
+            applicable.others += 1;
+            for lacking in lacks {
+                *applicable.lacking.entry(lacking.clone()).or_default() += 1;
+            }
+        }
         if !self.is_json {
-            let lacks = lacks.join(", ");
-            let text = format!("{name}: not applicable, the solver lacks {lacks}\n");
-            return output::print(&text);
+            if !(self.is_quiet && self.applicable.is_some()) {
+                let lacks = lacks.join(", ");
+                output::print(&format!("{name}: not applicable, the solver lacks {lacks}\n"));
+            }
+            return;
         }
         let file = source.name();
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
@@ -57,6 +108,9 @@ impl CheckFindings {
         found: &[Diagnostic],
         has_solver: bool,
     ) {
+        if let Some(applicable) = &mut self.applicable {
+            applicable.names.push(suite.name.clone());
+        }
         if !self.is_json {
             if !self.is_quiet {
                 let is_explored = suite.explores() && !has_solver;
@@ -85,6 +139,9 @@ impl CheckFindings {
     /// Says how many complaints there are.
     pub(super) fn end(self, counts: Counts) {
         if !self.is_json {
+            if let Some(applicable) = self.applicable {
+                output::print(&applicable.text());
+            }
             let counts = if self.is_quiet { Counts { notes: 0, ..counts } } else { counts };
             return counts.print(self.has_notes);
         }

@@ -63,6 +63,9 @@ fn all(args: &CheckArgs) -> u8 {
         }
         let earlier = names.insert(suite.name.clone(), source.name().to_owned());
         diagnostics.extend(earlier.map(|earlier| named_twice(&suite, &source, &earlier)));
+        if findings.has_summary() {
+            diagnostics.retain(|diagnostic| diagnostic.severity() == Severity::Error);
+        }
         for diagnostic in &diagnostics {
             counts.add(diagnostic.severity());
         }

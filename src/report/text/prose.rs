@@ -8,6 +8,13 @@ pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
     wrap(lines, WIDTH, paragraph);
 }
 
+/// `text` in lines of at most 100 characters, with two blanks before each.
+pub fn indented(text: &str) -> String {
+    let mut lines = Vec::new();
+    wrap(&mut lines, WIDTH - 2, text);
+    lines.iter().map(|line| format!("  {line}\n")).collect()
+}
+
 /// `key` in the first column, `value` wrapped beside it.
 pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     beside(lines, 14, key, value);

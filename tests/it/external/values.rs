@@ -406,6 +406,23 @@ fn version_1_lacks_loads_and_conditions_with_numbers() {
     assert!(!found.out.contains("no gate"), "{}", found.out);
 }
 
+/// With several suites, a summary ends the output, and is all of it with `--quiet`.
+#[test]
+fn a_check_lists_what_a_solver_can_take() {
+    let folder = Folder::new();
+    folder.write("suites/loaded.yaml", LOADED);
+    folder.write("suites/bar.yaml", super::bar());
+    let older = script(&[]).replace(r#""protocol":2"#, r#""protocol":1"#);
+    folder.write("solver.sh", older);
+    let check = ["check", "suites", "--solver", "sh solver.sh"];
+    let found = folder.call(&check);
+    assert!(found.out.contains("loaded: not applicable"), "{}", found.out);
+    let quiet = folder.call(&[&check[..], &["--quiet"]].concat());
+    let expected = "\nthe solver can take 1 of 2 suites:\n  short-bar\nit lacks most often, with the number of suites:\n";
+    assert!(quiet.out.starts_with(expected), "{}", quiet.out);
+    assert!(found.out.ends_with(&quiet.out), "{}", found.out);
+}
+
 /// A name that means nothing is reported by every command, and where it is lacking.
 #[rstest]
 #[case::check("check", SOUND)]
