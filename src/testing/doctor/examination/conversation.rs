@@ -51,7 +51,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         findings.extend(halved_step(&stepwise, &patient.run(&halved)?));
     }
     let (n, d, law) = (stepwise.states[0].len(), scene.dimension, scene.law);
-    Ok(Examined::new(format!("{n} points in {d} dimensions, law {law}, {STEPS} steps"), findings))
+    Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
 }
 
 /// Largest difference of a column at the end, relative to its largest value.

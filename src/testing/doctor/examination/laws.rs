@@ -93,7 +93,11 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     }
     if findings.is_empty() {
         let (ratio, finding) = volumes(patient, (first.dimension, first.law))?;
-        measured.push(format!("force at a stretch of 1.5: {} of the expected one", shown(ratio)));
+        measured.push(format!(
+            "the force of a body that is stretched to 1.5 of its length is {} of the expected one, and sound from \
+             0.85 to 1.15",
+            shown(ratio)
+        ));
         findings.extend(finding);
     }
     Ok(Examined::new(measured.join("; "), findings))

@@ -51,11 +51,12 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             all.measured.push_str("; ");
         }
         all.measured.push_str(&format!(
-            "{}: the stress of the start has {} of its force, off by {}, from {} steps on",
+            "{}: the force of the initial stress is {} of the expected one, with a difference of {}, and \
+             begins {} steps after the start",
             scene.law,
             shown(forces.ratio),
             shown(forces.error),
-            shown(forces.late)
+            forces.shown_delay()
         ));
         let finding = cause(course, scene, &forces);
         let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
@@ -135,6 +136,11 @@ impl Forces {
             late: start / t,
         }
     }
+
+    /// The delay in tenths of a step.
+    fn shown_delay(&self) -> String {
+        shown(libm::round(10.0 * self.late) / 10.0 + 0.0)
+    }
 }
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
@@ -165,9 +171,9 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     let mean = inside(course, scene, &course.states[1].deformation_gradient);
     let f_is_lost = mean.as_ref().is_some_and(|mean| !(largest(mean, f) <= 0.5 * size_of_f));
     let force = format!(
-        "{law}: the stress of the start has {} of its force, from {} steps on",
+        "{law}: the force of the initial stress is {} of the expected one, and begins {} steps after the start",
         shown(forces.ratio),
-        shown(forces.late)
+        forces.shown_delay()
     );
     let turned: Vec<f64> = (0..d * d).map(|k| f[(k % d) * d + k / d]).collect();
     if mean.as_ref().is_some_and(|mean| f_is_lost && largest(mean, &turned) <= 0.2 * size_of_f) {

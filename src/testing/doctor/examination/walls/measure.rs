@@ -57,9 +57,9 @@ impl Wall {
         let forces = [
             ("pushed", self.pushed),
             ("pulled", self.pulled),
-            ("along it", self.along),
-            ("under gravity", self.falling),
-            ("under gravity at once", self.offset),
+            ("slides", self.along),
+            ("falls", self.falling),
+            ("first step of a fall", self.offset),
         ];
         let texts = forces
             .into_iter()

@@ -67,7 +67,10 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     }
     let name = |wall: &Wall| format!("{} {}: {}", wall.condition, wall.face, wall.describe());
     let forces = walls.iter().map(name).collect::<Vec<_>>().join("; ");
-    let mut measured = vec![format!("forces over the expected ones: {forces}")];
+    let mut measured = vec![format!(
+        "forces over the expected ones (sound walls: 1 for a body that is pushed, is pulled, or falls; 1 for one \
+         that slides along a fixed wall, and 0 along a roller; 0 in the first step of a fall): {forces}"
+    )];
     if !sliding.measured.is_empty() {
         measured.push(format!("sliding: {}", sliding.measured));
     }
