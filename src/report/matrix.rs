@@ -93,6 +93,9 @@ fn word(case: &CaseOutcome) -> Option<String> {
 }
 
 fn of_verdict(study: &Convergence) -> Option<&'static str> {
+    if study.order_reached {
+        return None;
+    }
     match study.judgement.verdict {
         Verdict::Converging | Verdict::TooLow | Verdict::TooGood => None,
         Verdict::AtFloor => Some("floor"),

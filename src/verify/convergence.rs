@@ -35,6 +35,8 @@ pub struct Convergence {
     /// Whether bounds on figures are all that binds the case: then no order is asked for, and
     /// every usable level counts.
     pub bounded: bool,
+    /// Whether an order was required of an external solver, and the observed one is enough.
+    pub order_reached: bool,
     /// The totals whose drift was asked for.
     pub drifts: Vec<Conserved>,
     /// Whether the rate of the energy was asked for.
@@ -83,7 +85,7 @@ impl StudyResults for Convergence {
     fn fails(&self) -> bool {
         use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
         let failures = [TooLow, AtFloor, Oscillatory, Divergent, Failed];
-        !self.bounded && failures.contains(&self.judgement.verdict)
+        !self.bounded && !self.order_reached && failures.contains(&self.judgement.verdict)
     }
 }
 
@@ -186,6 +188,7 @@ pub(in crate::verify) mod tests {
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,
             bounded: false,
+            order_reached: false,
             drifts: Vec::new(),
             rated: false,
             judgement: judge(&levels, &OrderHypothesis::formal(2.0)),

@@ -232,6 +232,14 @@ fn a_small_error_with_an_order_counts() {
     assert_eq!(rank(&found), Some(Rank::LessAccurate));
 }
 
+/// Roundings that have an order by chance.
+#[test]
+fn an_order_of_roundings_is_none() {
+    let mut before = case("a", 1e-12, 1.0);
+    set("/verdict", json!("at rounding"))(&mut before);
+    assert_eq!(rank(&after(&before, set("/levels/3/judged", json!(3e-16)))), None);
+}
+
 #[rstest]
 #[case::same(["stable", "unstable"], ["stable", "unstable"], None)]
 #[case::worse(["stable", "stable"], ["stable", "unstable"], Some(Rank::WorseVerdict))]

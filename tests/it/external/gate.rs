@@ -76,9 +76,13 @@ fn with_any_method(text: &str, keys: &str) -> String {
 #[case::rounding("1e-16", SOUND, "at rounding")]
 #[case::nothing("0", SOUND, "at rounding")]
 fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] words: &str) {
-    let found = gate(&folder(error), &["bar.yaml"], &[]);
+    let folder = folder(error);
+    let found = gate(&folder, &["bar.yaml"], &[]);
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
     assert!(found.out.contains(words), "{}", found.out);
+    // A case that passes is not one that is expected to fail.
+    let report = folder.call(&["run", "--gate", "--solver", "sh solver.sh", "bar.yaml"]);
+    assert_eq!(report.out.contains("1 case as expected\n"), code == SOUND, "{}", report.out);
 }
 
 #[test]
