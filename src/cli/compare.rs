@@ -4,11 +4,11 @@ use super::args::{CompareArgs, Page};
 use super::output;
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use mpm_verify::report::compare;
-use mpm_verify::report::compare::{Pictures, ReportComparison, ReportDocument, Unreadable};
+use mpm_verify::report::compare::{ReportComparison, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;
+use std::fs;
 use std::ops::Range;
 use std::path::Path;
-use std::{fs, io};
 
 /// Prints what moved between two runs. Both files are read first: who has two bad ones learns of
 /// both.
@@ -28,27 +28,7 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
             return BAD_INPUT;
         }
     };
-    let found = compare::compare(&old, &new, tolerance);
-    let Some(folder) = &args.pictures else { return print(&found, args.format) };
-    let pictures = Pictures::draw(&found, &old, &new);
-    if let Err(error) = write(folder, &pictures) {
-        output::complain(&format!("error: --pictures {}: {error}", folder.display()));
-        return BAD_INPUT;
-    }
-    match args.format {
-        Page::Markdown => {
-            let at = args.pictures_at.clone();
-            let at = at.unwrap_or_else(|| folder.display().to_string());
-            output::print(&compare::illustrated(&found, &pictures, &at));
-            status(&found)
-        }
-        format => print(&found, format),
-    }
-}
-
-fn write(folder: &Path, pictures: &Pictures) -> io::Result<()> {
-    fs::create_dir_all(folder)?;
-    pictures.figures().try_for_each(|figure| fs::write(folder.join(&figure.file), &figure.svg))
+    print(&compare::compare(&old, &new, tolerance), args.format)
 }
 
 /// Prints a comparison, and gives the exit status that it stands for.
@@ -58,10 +38,6 @@ pub(super) fn print(found: &ReportComparison, format: Page) -> u8 {
         Page::Markdown => compare::markdown(found),
         Page::Json => compare::json(found),
     });
-    status(found)
-}
-
-fn status(found: &ReportComparison) -> u8 {
     if found.is_worse() { FAILED } else { PASSED }
 }
 

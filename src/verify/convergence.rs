@@ -133,22 +133,19 @@ impl Convergence {
 
     /// The judged error in words, with its unit.
     pub fn judged(&self) -> String {
-        judged_error(self.norm, self.of, self.scale)
+        let (norm, name, unit) = (self.norm.replace('_', " "), self.of.words(), self.of.unit());
+        match self.scale.map(|scale| self.of.shown_scale(scale)) {
+            Some(scale) => {
+                format!("{norm} error of {name} over {scale} {unit}").trim_end().to_owned()
+            }
+            None if unit.is_empty() => format!("{norm} error of {name}"),
+            None => format!("{norm} error of {name} ({unit})"),
+        }
     }
 
     /// The observed label's history on the finest level that has one.
     pub fn history(&self) -> Option<&History> {
         self.levels.iter().rev().find_map(|level| level.run.history.as_ref())
-    }
-}
-
-/// An error in words, with its unit: a norm of a quantity, over a scale if there is one.
-pub(crate) fn judged_error(norm: &str, of: Quantity, scale: Option<f64>) -> String {
-    let (norm, name, unit) = (norm.replace('_', " "), of.words(), of.unit());
-    match scale.map(|scale| of.shown_scale(scale)) {
-        Some(scale) => format!("{norm} error of {name} over {scale} {unit}").trim_end().to_owned(),
-        None if unit.is_empty() => format!("{norm} error of {name}"),
-        None => format!("{norm} error of {name} ({unit})"),
     }
 }
 

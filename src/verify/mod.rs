@@ -36,7 +36,6 @@ mod study_results;
 pub(crate) mod verdict;
 
 pub use conservation::{ConservationError, Conserved};
-pub(crate) use convergence::judged_error;
 pub use convergence::{Convergence, LevelOutcome};
 pub use cost::{
     Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model,

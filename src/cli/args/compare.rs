@@ -19,13 +19,6 @@ pub(in crate::cli) struct CompareArgs {
     /// Largest relative change of a figure that counts as none
     #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
     pub(in crate::cli) tolerance: f64,
-    /// Draws errors that moved, before and after, as SVG files in this folder; a comment
-    /// (`--format markdown`) shows them side by side
-    #[arg(long, value_name = "DIR")]
-    pub(in crate::cli) pictures: Option<PathBuf>,
-    /// Address of that folder for readers of the comment [default: DIR]
-    #[arg(long, value_name = "URL", requires = "pictures")]
-    pub(in crate::cli) pictures_at: Option<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

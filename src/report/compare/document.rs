@@ -96,8 +96,6 @@ pub(super) struct LevelDocument {
     /// Whether it counts for the verdict.
     pub(super) counts: Option<bool>,
     pub(super) failure: Option<String>,
-    /// Changes of cell by particles.
-    pub(super) crossings: Option<u64>,
 }
 
 #[derive(Debug, Clone, Deserialize)]

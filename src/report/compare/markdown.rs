@@ -5,7 +5,6 @@
 
 use super::changes::{CheapestMove, Moved, Rank, ReportComparison};
 use super::escape::{code, prose};
-use super::pictures::Pictures;
 use super::row::{cases, notes, targets};
 use crate::report::columns::TableColumn;
 
@@ -14,15 +13,6 @@ const MOST_ROWS: usize = 40;
 
 /// The comment.
 pub fn markdown(comparison: &ReportComparison) -> String {
-    comment(comparison, "")
-}
-
-/// The comment with pictures side by side, whose files are found at the address `at`.
-pub fn illustrated(comparison: &ReportComparison, pictures: &Pictures, at: &str) -> String {
-    comment(comparison, &pictures.markdown(at))
-}
-
-fn comment(comparison: &ReportComparison, pictures: &str) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
     if let Some(line) = comparison.in_common() {
@@ -51,7 +41,6 @@ fn comment(comparison: &ReportComparison, pictures: &str) -> String {
         };
     }
     page += &cheapest(comparison);
-    page += pictures;
     let share = comparison.tolerance;
     page + &format!(
         "\n<sub>Figures count as equal within a share of {share}. Transfers between particles and nodes are the measure of work.</sub>\n"

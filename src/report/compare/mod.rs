@@ -18,7 +18,6 @@ mod json;
 mod markdown;
 mod number;
 mod pairs;
-mod pictures;
 mod problem;
 mod row;
 mod shared_words;
@@ -32,8 +31,7 @@ mod tests;
 pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use json::json;
-pub use markdown::{illustrated, markdown};
-pub use pictures::Pictures;
+pub use markdown::markdown;
 pub use text::text;
 
 /// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of

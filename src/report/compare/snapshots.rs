@@ -65,7 +65,6 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
         judged: error.parse().ok().map(JsonNumber),
         counts: None,
         failure: (error == "failed").then(String::new),
-        crossings: None,
     };
     CaseDocument {
         name: name.to_owned(),

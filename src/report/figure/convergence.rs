@@ -58,29 +58,18 @@ struct Arrangement {
 impl ConvergencePlot {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
-        self.drawn(&[self], &[self])
+        self.to_svg_among(std::slice::from_ref(self))
     }
 
     /// The figure with the axes that hold all of `figures`, itself among them.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
-        self.drawn(&figures.iter().collect::<Vec<_>>(), &[self])
-    }
-
-    /// The figure with axes, legend and slope triangles where they are in all of `figures`, itself
-    /// among them: drawings of the same series that are compared by eye.
-    pub(crate) fn to_svg_beside(&self, figures: &[&Self]) -> String {
-        self.drawn(figures, figures)
-    }
-
-    /// The figure with the axes of `among`, and legend and triangles where they hide nothing in any
-    /// of `beside`.
-    fn drawn(&self, among: &[&Self], beside: &[&Self]) -> String {
-        let all = plotted(beside);
-        let PlottedLines { lines, failures } = PlottedLines::new(self);
-        let plot = self.plot(&plotted(among));
-        let paths: Vec<Vec<Pt>> = all.iter().flat_map(|one| one.paths(&plot)).collect();
+        let plotted: Vec<_> = figures.iter().map(PlottedLines::new).collect();
+        let own = PlottedLines::new(self);
+        let plot = self.plot(&plotted);
+        let paths: Vec<Vec<Pt>> = own.paths(&plot);
+        let PlottedLines { lines, failures } = own;
         let mut entries = series::names(&lines);
-        entries.extend(series::marks(all.iter().flat_map(|one| &one.lines)));
+        entries.extend(series::marks(&lines));
         let legend = Legend::new(entries);
         let orders = self.orders();
         let arrangement = arrange(&plot, &paths, legend.as_ref(), &orders);
@@ -122,10 +111,6 @@ impl ConvergencePlot {
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
         Plot::new(titles, x, y)
     }
-}
-
-fn plotted<'a>(figures: &[&'a ConvergencePlot]) -> Vec<PlottedLines<'a>> {
-    figures.iter().map(|figure| PlottedLines::new(figure)).collect()
 }
 
 fn omission(count: usize) -> String {

@@ -8,7 +8,7 @@ use crate::verify::{
 };
 
 /// Most curves in one plot: a reader cannot tell more apart.
-pub(crate) const MOST_SERIES: usize = 6;
+const MOST_SERIES: usize = 6;
 
 /// Most panels in one figure of errors over bodies.
 const MOST_PANELS: usize = 24;
@@ -73,7 +73,7 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Convergence
 }
 
 /// Label of the axis of spacings.
-pub(crate) fn spacing(axis: Axis) -> &'static str {
+fn spacing(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",
         Axis::Time => "time step dt (s)",
@@ -113,7 +113,7 @@ fn order(study: &Convergence) -> Option<f64> {
 }
 
 /// Slopes of observed orders: the simple fractions next to them, each once.
-pub(crate) fn slopes(orders: impl Iterator<Item = f64>) -> Vec<f64> {
+fn slopes(orders: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut slopes: Vec<f64> = orders.map(|order| libm::round(order * 3.0) / 3.0).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
