@@ -9,9 +9,24 @@ use mpm_verify::suite::yaml::Diagnostic;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
+use std::process::Command;
 
-/// Prints what moved between two runs. Both files are read first: who has two bad ones learns of
-/// both.
+/// Name of the snapshot of all cases.
+const OVERVIEW: &str = "OVERVIEW.snap";
+
+/// Name of the results in a folder of `run --out`.
+const REPORT: &str = "report.json";
+
+/// Results of one side.
+enum Side {
+    /// Of a run, with all levels.
+    Run(ReportDocument),
+    /// Of snapshots, with the finest level.
+    Snapshots(ReportDocument),
+}
+
+/// Prints what moved between two runs. Both sides are read first, so that mistakes in both are
+/// reported.
 pub(super) fn compare(args: &CompareArgs) -> u8 {
     let tolerance = args.tolerance;
     if !(tolerance.is_finite() && tolerance >= 0.0) {
@@ -19,8 +34,17 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
         output::complain(&format!("error: --tolerance {tolerance}: {message}"));
         return BAD_INPUT;
     }
-    let (old, new) = match (document(&args.old), document(&args.new)) {
-        (Ok(old), Ok(new)) => (old, new),
+    let (old, new) = match (side(&args.old, &args.folder), side(&args.new, &args.folder)) {
+        (Ok(Side::Run(old)), Ok(Side::Run(new)))
+        | (Ok(Side::Snapshots(old)), Ok(Side::Snapshots(new))) => (old, new),
+        (Ok(_), Ok(_)) => {
+            output::complain(&format!(
+                "error: `{}` and `{}` are the results of a run and snapshots, which have other figures\n\
+                 help: compare two runs (JSON), or two sets of snapshots (folders or commits)",
+                args.old, args.new
+            ));
+            return BAD_INPUT;
+        }
         (old, new) => {
             for diagnostic in [old.err(), new.err()].into_iter().flatten() {
                 output::diagnose(&diagnostic);
@@ -32,7 +56,7 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
 }
 
 /// Prints a comparison, and gives the exit status that it stands for.
-pub(super) fn print(found: &ReportComparison, format: Page) -> u8 {
+fn print(found: &ReportComparison, format: Page) -> u8 {
     output::print(&match format {
         Page::Text => compare::text(found),
         Page::Markdown => compare::markdown(found),
@@ -41,7 +65,57 @@ pub(super) fn print(found: &ReportComparison, format: Page) -> u8 {
     if found.is_worse() { FAILED } else { PASSED }
 }
 
-fn document(path: &Path) -> Result<ReportDocument, Diagnostic> {
+/// The results at `place`: a file, a folder or a commit, in whose tree snapshots are in `folder`.
+fn side(place: &str, folder: &str) -> Result<Side, Diagnostic> {
+    let path = Path::new(place);
+    if path.is_dir() {
+        return match fs::read_to_string(path.join(OVERVIEW)) {
+            Ok(overview) => {
+                Ok(snapshots(&overview, |file| fs::read_to_string(path.join(file)).ok()))
+            }
+            Err(_) if path.join(REPORT).is_file() => run(&path.join(REPORT)).map(Side::Run),
+            Err(_) => {
+                let message = format!("the folder `{place}` has neither {REPORT} nor {OVERVIEW}");
+                let help = "expected a folder of `mpm-verify run --out`, or of snapshots";
+                Err(Diagnostic::about(place, &message).with_help(help))
+            }
+        };
+    }
+    let is_file = path.is_file() || path.extension().is_some_and(|extension| extension == "json");
+    if is_file {
+        return run(path).map(Side::Run);
+    }
+    let overview = committed(place, &format!("{folder}/{OVERVIEW}")).map_err(|why| {
+        let message =
+            format!("`{place}` is no file and no folder, and no commit with snapshots: {why}");
+        let help = format!("expected a commit whose tree has {folder}/{OVERVIEW}; see `--folder`");
+        Diagnostic::about(place, &message).with_help(&help)
+    })?;
+    Ok(snapshots(&overview, |file| committed(place, &format!("{folder}/{file}")).ok()))
+}
+
+/// The results in snapshots, of which `read` gives the text of a file.
+fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> Side {
+    let report = |group: &str, suite: &str| read(&format!("{group}/{suite}.snap"));
+    Side::Snapshots(ReportDocument::of_snapshots(overview, report))
+}
+
+/// The text of a file as a commit has it.
+fn committed(commit: &str, file: &str) -> Result<String, String> {
+    if commit.starts_with('-') {
+        return Err("a commit does not begin with a dash".to_owned());
+    }
+    let output = Command::new("git").args(["show", &format!("{commit}:./{file}")]).output();
+    let output = output.map_err(|error| format!("git cannot be run: {error}"))?;
+    if output.status.success() {
+        String::from_utf8(output.stdout).map_err(|error| error.to_string())
+    } else {
+        Err(String::from_utf8_lossy(&output.stderr).trim().to_owned())
+    }
+}
+
+/// The results of a run, from its JSON.
+fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|error| {
         let message = format!("this file cannot be read: {error}");

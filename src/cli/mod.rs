@@ -7,7 +7,6 @@ mod command_line;
 mod compare;
 mod cost;
 mod diagnose;
-mod diff;
 mod doctor;
 mod explain;
 mod list;
@@ -86,7 +85,6 @@ fn done(command: Command) -> u8 {
         Command::Problem(args) => problem::problem(&args),
         Command::Cost(args) => cost::cost(&args),
         Command::Compare(args) => compare::compare(&args),
-        Command::Diff(args) => diff::diff(&args),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),
     }

@@ -1,18 +1,21 @@
-//! Words of the commands that hold two runs side by side.
+//! Arguments of `compare`.
 
 use super::shared::share;
 use clap::{Args, ValueEnum};
 use mpm_verify::report::compare;
-use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CompareArgs {
-    /// JSON of the run before: `mpm-verify run --format json`, or `report.json` of `run --out`
-    #[arg(value_name = "OLD.json")]
-    pub(in crate::cli) old: PathBuf,
-    /// JSON of the run after
-    #[arg(value_name = "NEW.json")]
-    pub(in crate::cli) new: PathBuf,
+    /// Results before: the JSON of `mpm-verify run --format json`, a folder of `run --out`, a folder of
+    /// snapshots, or a commit that has snapshots
+    #[arg(value_name = "OLD")]
+    pub(in crate::cli) old: String,
+    /// Results after
+    #[arg(value_name = "NEW", default_value = "verification")]
+    pub(in crate::cli) new: String,
+    /// Folder of the snapshots in the tree of a commit
+    #[arg(long, default_value = "verification")]
+    pub(in crate::cli) folder: String,
     /// Format of the output
     #[arg(long, value_enum, default_value_t = Page::Text)]
     pub(in crate::cli) format: Page,
@@ -29,20 +32,4 @@ pub(in crate::cli) enum Page {
     Markdown,
     /// One JSON document
     Json,
-}
-
-#[derive(Debug, Args)]
-pub(in crate::cli) struct DiffArgs {
-    /// Snapshots before: a folder that has an OVERVIEW.snap, or a commit
-    #[arg(value_name = "OLD")]
-    pub(in crate::cli) old: String,
-    /// Snapshots after
-    #[arg(value_name = "NEW", default_value = "verification")]
-    pub(in crate::cli) new: String,
-    /// Folder of the snapshots in the tree of a commit
-    #[arg(long, default_value = "verification")]
-    pub(in crate::cli) folder: String,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = Page::Text)]
-    pub(in crate::cli) format: Page,
 }

@@ -8,7 +8,7 @@ mod report;
 mod shared;
 mod shell;
 
-pub(super) use compare::{CompareArgs, DiffArgs, Page};
+pub(super) use compare::{CompareArgs, Page};
 pub(super) use cost::CostArgs;
 pub(super) use doctor::DoctorArgs;
 pub(super) use problem::ProblemArgs;
@@ -78,9 +78,6 @@ pub(super) enum Command {
     /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
     /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
     Compare(CompareArgs),
-    /// Hold two sets of snapshots side by side, of folders or of commits, in the words of
-    /// `compare`; exit status 1 if something got worse, 2 on bad input
-    Diff(DiffArgs),
     /// Print a script with which a shell completes the words of this command line
     Completions(CompletionsArgs),
     /// Print the page of this program for `man`

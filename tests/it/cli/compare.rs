@@ -114,7 +114,7 @@ fn the_workflow_comments_what_moved() {
 
 #[rstest]
 #[case::missing("nix.json", None, "this file cannot be read: ")]
-#[case::a_folder(".", None, "this file cannot be read: ")]
+#[case::a_folder(".", None, "the folder `.` has neither report.json nor OVERVIEW.snap")]
 #[case::not_json("bad.json", Some("verdicts"), "bad.json:1:1")]
 #[case::another_document("bad.json", Some("{\"levels\": []}"), "missing field `suites`")]
 #[case::a_wrong_type("bad.json", Some("{\n  \"suites\": 3\n}"), "bad.json:2:13")]
@@ -153,4 +153,77 @@ fn the_tolerance_is_a_share() {
     assert_eq!(folder.call(&["compare", "old.json", "new.json"]).code, FAILED);
     let found = folder.call(&["compare", "old.json", "new.json", "--tolerance", "10"]);
     assert_eq!(found.code, SOUND, "{}", found.out);
+}
+
+const OVERVIEW: &str = "---\nsource: a\n---\nOverview of all suites\n\n  result        1 case as expected\n\n\
+    == bars ==\n\n  bar: A bar\n\
+    \x20 case           verdict     order  95 %          finest error  floor  result\n\
+    \x20 mpm-flip-musl  converging   1.99  [1.95, 2.03]     1.000e-04  -      pass\n";
+
+const REPORT: &str = "---\nsource: a\n---\nbar: A bar\n\n  source        a book\n\
+    \x20 parameters    E = 100\n\
+    \x20 problem       body (0) to (1) m; left fixed; dt\n\
+    \x20               0.1*h/c\n\
+    \x20 methods       until: t = 1 s\n";
+
+/// A folder with the snapshots of an old and a new run.
+fn snapshots(overview: &str, report: &str) -> Folder {
+    let folder = Folder::new();
+    for (name, overview, report) in [("old", OVERVIEW, REPORT), ("new", overview, report)] {
+        folder.write(&format!("{name}/OVERVIEW.snap"), overview);
+        folder.write(&format!("{name}/bars/bar.snap"), report);
+    }
+    folder
+}
+
+#[test]
+fn changes_of_snapshots_are_listed() {
+    let found = snapshots(OVERVIEW, REPORT).call(&["compare", "old", "new"]);
+    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    assert!(found.out.starts_with("nothing worse: 1 unchanged"), "{}", found.out);
+    let worse = OVERVIEW.replace("1.000e-04", "2.000e-04");
+    let found = snapshots(&worse, REPORT).call(&["compare", "old", "new"]);
+    assert_eq!(found.code, FAILED);
+    for words in ["bar::mpm-flip-musl", "1.000e-4 -> 2.000e-4", "2.00 x", "the finest level"] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    let failing = OVERVIEW.replace("  pass", "  NOT AS EXPECTED");
+    let found = snapshots(&failing, REPORT).call(&["compare", "old", "new"]);
+    assert!(found.out.contains("1 no longer as expected"), "{}", found.out);
+}
+
+#[test]
+fn another_problem_is_no_worse_solver() {
+    let worse = OVERVIEW.replace("1.000e-04", "2.000e-04");
+    let stiffer = REPORT.replace("E = 100", "E = 101").replace("left fixed", "left roller");
+    let found = snapshots(&worse, &stiffer).call(&["compare", "old", "new"]);
+    assert_eq!(found.code, SOUND);
+    for words in ["bar: parameters E = 100 -> E = 101", "bar: left fixed -> roller"] {
+        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
+    }
+    let finer = REPORT.replace("0.1*h/c", "0.05*h/c");
+    let found = snapshots(&worse, &finer).call(&["compare", "old", "new"]);
+    assert_eq!(found.code, FAILED, "steps are no problem of their own\n{}", found.out);
+}
+
+#[test]
+fn a_commit_that_is_not_there_is_an_error() {
+    let found = snapshots(OVERVIEW, REPORT).call(&["compare", "older", "new"]);
+    assert_eq!(found.code, BAD_INPUT);
+    assert!(
+        found.errors.contains("`older` is no file and no folder, and no commit with snapshots"),
+        "{}",
+        found.errors
+    );
+}
+
+/// Snapshots have the finest level only.
+#[test]
+fn a_run_is_not_compared_with_snapshots() {
+    let folder = snapshots(OVERVIEW, REPORT);
+    folder.write("run/report.json", "{\"suites\": []}");
+    let found = folder.call(&["compare", "old", "run"]);
+    assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
+    assert!(found.errors.contains("the results of a run and snapshots"), "{}", found.errors);
+    assert_eq!(folder.call(&["compare", "run", "run/report.json"]).code, SOUND);
 }

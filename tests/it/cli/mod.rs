@@ -5,7 +5,6 @@ mod check;
 mod checkpoint;
 mod compare;
 mod cost;
-mod diff;
 mod explain;
 mod explore;
 mod hostile;
