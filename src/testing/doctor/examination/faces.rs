@@ -67,18 +67,18 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 /// The finding on a rigid motion of a soft body that has a strain, by its columns.
 fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let course = patient.run(scene)?;
-    let d = scene.dimension;
     let (lambda, mu) = scene.lame();
     let mut most = 0.0_f64;
-    for state in &course.states[1..] {
-        let mut strain = state.deformation_gradient.clone();
-        for f in strain.chunks_exact_mut(d * d) {
-            (0..d).for_each(|i| f[i * d + i] -= 1.0);
-        }
-        most = most.max(largest_entry(&strain));
-        // The stress of a fluid that does not move apart has no scale here.
+    // Changes since the first step: what the columns mean is examined elsewhere.
+    let first = &course.states[1];
+    for state in &course.states[2..] {
+        let change = |now: &[f64], then: &[f64]| {
+            largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
+        };
+        most = most.max(change(&state.deformation_gradient, &first.deformation_gradient));
+        // The stress of a fluid has no scale here.
         if ELASTIC.contains(&scene.law) {
-            most = most.max(largest_entry(&state.stress) / (lambda + 2.0 * mu));
+            most = most.max(change(&state.stress, &first.stress) / (lambda + 2.0 * mu));
         }
     }
     Ok((!(most <= RIGID)).then(|| {

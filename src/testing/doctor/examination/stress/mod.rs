@@ -132,7 +132,7 @@ fn examine_scene(
 }
 
 /// Findings that a viscosity can cause.
-const UNNAMED: [&str; 2] = ["stress-scaled", "moduli-differ"];
+const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
     SolverFinding::defect(

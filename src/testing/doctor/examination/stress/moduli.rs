@@ -170,7 +170,10 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     let is_right = column.is_some_and(|column| (column - 1.0).abs() <= 0.25 * (factor - 1.0).abs());
     let is_alike = column.is_some_and(|column| (column / factor - 1.0).abs() <= columns::NEAR);
     let strain = columns::strain_factor(course, scene);
-    let is_strain = strain.is_some_and(|strain| (strain / factor - 1.0).abs() <= NEAR);
+    let is_strain = strain.is_some_and(|strain| {
+        let is_off = (strain - 1.0).abs() > 0.5 * (factor - 1.0).abs();
+        is_off && (strain / factor - 1.0).abs() <= NEAR
+    });
     let (name, what, look_at) = if is_alike && is_strain {
         (
             "velocity-gradient-scaled",
