@@ -1220,6 +1220,13 @@ FAULTS = {fault.name: fault for family in FAMILIES.values() for each in family f
 
 # Faults that fail none of the suites of `ci/doctor --gate`, and why.
 UNDETECTED = {
+    "mass-threshold-relative": "in no suite a particle reaches a node by less than 1e-12 of a cell, other than by rounding",
+    "mass-threshold-relative-2": "in no suite a particle reaches a node by less than 1e-12 of a cell, other than by rounding",
+    "displacement-wrapped-2": "no particle passes the periodic face in these suites",
+    "lame-poisson-ignored-in-one-dimension-2": "these suites in one dimension have Poisson's ratio 0; "
+                                               "`geostatic-column-moving` and `mms-axis-aligned-1d` detect it",
+    "jaumann-term-sign-2": "the suites with large rotations have laws of F",
+    "output-stress-one-step-late": "the error is that of one time step, which is below the error of linear functions",
 }
 
 # Solvers that differ from the definitions of the protocol and are sound.
