@@ -1,7 +1,9 @@
 //! The matrix of problems and methods: what each basis comes to in each suite.
 
 use crate::report::grouping::{distinct, grouped};
-use crate::verify::{CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict};
+use crate::verify::{
+    Acceptance, CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict,
+};
 
 /// Headings of the columns: bases of MPM, finite elements, and all that is neither.
 pub(crate) const COLUMNS: [&str; 8] =
@@ -93,7 +95,7 @@ fn word(case: &CaseOutcome) -> Option<String> {
 }
 
 fn of_verdict(study: &Convergence) -> Option<&'static str> {
-    if study.order_reached {
+    if study.accepted == Some(Acceptance::Order) {
         return None;
     }
     match study.judgement.verdict {

@@ -5,6 +5,7 @@ use super::error::error_scale::ErrorScale;
 use super::error::observer::History;
 use super::error::quantity::Quantity;
 use super::error::run_result::RunResult;
+use super::expectation::gate::Acceptance;
 use super::order::axis::Axis;
 use super::order::format_number::format_number;
 use super::order::richardson::Richardson;
@@ -35,8 +36,8 @@ pub struct Convergence {
     /// Whether bounds on figures are all that binds the case: then no order is asked for, and
     /// every usable level counts.
     pub bounded: bool,
-    /// Whether an order was required of an external solver, and the observed one is enough.
-    pub order_reached: bool,
+    /// Reason for which an external solver meets the requirement of the gate, if it does.
+    pub accepted: Option<Acceptance>,
     /// The totals whose drift was asked for.
     pub drifts: Vec<Conserved>,
     /// Whether the rate of the energy was asked for.
@@ -85,7 +86,7 @@ impl StudyResults for Convergence {
     fn fails(&self) -> bool {
         use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
         let failures = [TooLow, AtFloor, Oscillatory, Divergent, Failed];
-        !self.bounded && !self.order_reached && failures.contains(&self.judgement.verdict)
+        !self.bounded && self.accepted.is_none() && failures.contains(&self.judgement.verdict)
     }
 }
 
@@ -185,7 +186,7 @@ pub(in crate::verify) mod tests {
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,
             bounded: false,
-            order_reached: false,
+            accepted: None,
             drifts: Vec::new(),
             rated: false,
             judgement: judge(&levels, &OrderHypothesis::formal(2.0)),

@@ -12,7 +12,7 @@ pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
 pub fn indented(text: &str) -> String {
     let mut lines = Vec::new();
     wrap(&mut lines, WIDTH - 2, text);
-    lines.iter().map(|line| format!("  {line}\n")).collect()
+    format!("  {}\n", lines.join("\n  "))
 }
 
 /// `key` in the first column, `value` wrapped beside it.

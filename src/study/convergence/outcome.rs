@@ -95,7 +95,7 @@ pub(crate) fn judged(
             bounded: expectation.is_some_and(|expectation| expectation.verdict.is_none())
                 || is_met.is_some_and(|met| *met != Acceptance::Order)
                 || gate.is_some_and(|gate| gate.remark.is_some()),
-            order_reached: is_met == Some(&Acceptance::Order),
+            accepted: is_met.copied(),
             drifts,
             rated: expectation.is_some_and(|expected| expected.limits.energy_rate.is_some()),
             judgement,
