@@ -18,7 +18,7 @@ const OVERVIEW: &str = "OVERVIEW.snap";
 const REPORT: &str = "report.json";
 
 /// Results of one side.
-enum Side {
+enum ComparedResults {
     /// Of a run, with all levels.
     Run(ReportDocument),
     /// Of snapshots, with the finest level.
@@ -35,8 +35,8 @@ pub(super) fn compare(args: &CompareArgs) -> u8 {
         return BAD_INPUT;
     }
     let (old, new) = match (side(&args.old, &args.folder), side(&args.new, &args.folder)) {
-        (Ok(Side::Run(old)), Ok(Side::Run(new)))
-        | (Ok(Side::Snapshots(old)), Ok(Side::Snapshots(new))) => (old, new),
+        (Ok(ComparedResults::Run(old)), Ok(ComparedResults::Run(new)))
+        | (Ok(ComparedResults::Snapshots(old)), Ok(ComparedResults::Snapshots(new))) => (old, new),
         (Ok(_), Ok(_)) => {
             output::complain(&format!(
                 "error: `{}` and `{}` are the results of a run and snapshots, which have other figures\n\
@@ -66,14 +66,16 @@ fn print(found: &ReportComparison, format: Page) -> u8 {
 }
 
 /// The results at `place`: a file, a folder or a commit, in whose tree snapshots are in `folder`.
-fn side(place: &str, folder: &str) -> Result<Side, Diagnostic> {
+fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     let path = Path::new(place);
     if path.is_dir() {
         return match fs::read_to_string(path.join(OVERVIEW)) {
             Ok(overview) => {
                 Ok(snapshots(&overview, |file| fs::read_to_string(path.join(file)).ok()))
             }
-            Err(_) if path.join(REPORT).is_file() => run(&path.join(REPORT)).map(Side::Run),
+            Err(_) if path.join(REPORT).is_file() => {
+                run(&path.join(REPORT)).map(ComparedResults::Run)
+            }
             Err(_) => {
                 let message = format!("the folder `{place}` has neither {REPORT} nor {OVERVIEW}");
                 let help = "expected a folder of `mpm-verify run --out`, or of snapshots";
@@ -83,7 +85,7 @@ fn side(place: &str, folder: &str) -> Result<Side, Diagnostic> {
     }
     let is_file = path.is_file() || path.extension().is_some_and(|extension| extension == "json");
     if is_file {
-        return run(path).map(Side::Run);
+        return run(path).map(ComparedResults::Run);
     }
     let overview = committed(place, &format!("{folder}/{OVERVIEW}")).map_err(|why| {
         let message =
@@ -95,9 +97,9 @@ fn side(place: &str, folder: &str) -> Result<Side, Diagnostic> {
 }
 
 /// The results in snapshots, of which `read` gives the text of a file.
-fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> Side {
+fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedResults {
     let report = |group: &str, suite: &str| read(&format!("{group}/{suite}.snap"));
-    Side::Snapshots(ReportDocument::of_snapshots(overview, report))
+    ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))
 }
 
 /// The text of a file as a commit has it.

@@ -6,8 +6,8 @@ use mpm_verify::report::compare;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CompareArgs {
-    /// Results before: the JSON of `mpm-verify run --format json`, a folder of `run --out`, a folder of
-    /// snapshots, or a commit that has snapshots
+    /// Results before: the JSON of `mpm-verify run --format json`, a folder of `run --out`, a
+    /// folder of snapshots, or a commit that has snapshots
     #[arg(value_name = "OLD")]
     pub(in crate::cli) old: String,
     /// Results after

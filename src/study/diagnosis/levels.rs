@@ -1,5 +1,5 @@
-//! Levels that are too coarse for the exact solution, a body that nothing brings to rest, and errors
-//! of the size of the solution.
+//! Levels that are too coarse for the exact solution, a body that nothing brings to rest, and
+//! errors of the size of the solution.
 
 use super::jumps::sizes;
 use super::session::Known;

@@ -294,9 +294,9 @@ fn of_stress(
     ))
 }
 
-/// Stress (Pa), row after row, where the displacement gradient has grown in proportion to time up to
-/// the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D + W sigma
-/// - sigma W, with the spin W.
+/// Stress (Pa), row after row, where the displacement gradient has grown in proportion to time up
+/// to the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D
+/// + W sigma - sigma W, with the spin W.
 fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Vec<f64> {
     const PARTS: u64 = 400;
     let d = scene.dimension;
