@@ -144,7 +144,8 @@ pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let errors = || known.levels.iter().map(|level| level.error * scale);
     let (least, most) = (errors().fold(f64::INFINITY, f64::min), errors().fold(0.0_f64, f64::max));
     let size = largest_exact(plan, case, plan.exact.as_ref()?);
-    let is_whole = least >= WHOLE * size && most <= CONSTANT * least && size > 0.0;
+    let are_errors = errors().all(f64::is_finite);
+    let is_whole = are_errors && least >= WHOLE * size && most <= CONSTANT * least && size > 0.0;
     is_whole.then(|| KnownCause {
         kind: KnownCauseKind::AnotherProblem,
         cause: "the solver solves another problem: its errors are of the size of the solution on all \

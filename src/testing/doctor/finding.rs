@@ -112,3 +112,7 @@ impl ExaminationResult {
         }
     }
 }
+
+/// Where to look if nodes with little mass are left out.
+pub(super) const MASS_THRESHOLD: &str = "a threshold on the mass of nodes, below which they get no velocity: it must \
+     be zero, or far below the mass of a particle times the smallest weight";

@@ -3,7 +3,7 @@
 use super::stress::largest_entry;
 use super::translation::VELOCITY;
 use crate::testing::doctor::course::shown;
-use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::question::Examination;
@@ -70,8 +70,9 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
     let (lambda, mu) = scene.lame();
     let mut most = 0.0_f64;
     // Changes since the first step: what the columns mean is examined elsewhere.
-    let first = &course.states[1];
-    for state in &course.states[2..] {
+    let after_start = course.states.get(1..).and_then(<[_]>::split_first);
+    let Some((first, later)) = after_start else { return Ok(None) };
+    for state in later {
         let change = |now: &[f64], then: &[f64]| {
             largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
         };
@@ -91,8 +92,7 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
             ),
             "a node with little mass is left out and has no velocity, so that linear functions have a \
              gradient beside it",
-            "a threshold on the mass of nodes, below which they get no velocity: it must be zero, or far \
-             below the mass of a particle times the smallest weight",
+            MASS_THRESHOLD,
         )
     }))
 }

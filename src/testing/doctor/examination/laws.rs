@@ -255,7 +255,8 @@ fn of_stress(
         let off = error(mean, rate);
         off <= 2.0 * NEAR && off <= 0.5 * error(mean, stress)
     };
-    if scene.law == "linear_elastic" && of_rate(&of_jaumann_rate(scene, f)) {
+    if scene.law == "linear_elastic" && of_jaumann_rate(scene, f).is_some_and(|rate| of_rate(&rate))
+    {
         return Ok(SolverFinding::remark(
             "objective-rate",
             seen,
@@ -296,8 +297,8 @@ fn of_stress(
 
 /// Stress (Pa), row after row, where the displacement gradient has grown in proportion to time up
 /// to the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D
-/// + W sigma - sigma W, with the spin W.
-fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Vec<f64> {
+/// + W sigma - sigma W, with the spin W; `None` if the body is inverted on the way.
+fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     const PARTS: u64 = 400;
     let d = scene.dimension;
     let (lambda, mu) = scene.lame();
@@ -312,14 +313,13 @@ fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Vec<f64> {
     let mut sigma = Matrix3::zeros();
     for part in 0..PARTS {
         let middle = identity + (part as f64 + 0.5) * change;
-        let Some(inverse) = middle.try_inverse() else { return Vec::new() };
-        let step = change * inverse;
+        let step = change * middle.try_inverse()?;
         let strain = 0.5 * (step + step.transpose());
         let spin = step - strain;
         let law = lambda * strain.trace() * identity + 2.0 * mu * strain;
         sigma += law + spin * sigma - sigma * spin;
     }
-    (0..d * d).map(|k| sigma[(k / d, k % d)]).collect()
+    Some((0..d * d).map(|k| sigma[(k / d, k % d)]).collect())
 }
 
 fn list(tensor: &[f64]) -> String {

@@ -2,7 +2,7 @@
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
-use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use crate::testing::doctor::vectors::{dot, minus, size, times};
 use std::f64::consts::SQRT_2;
@@ -208,7 +208,6 @@ fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
             shown_vector(v, d)
         ),
         "nodes with little mass are left out, and their momentum is lost",
-        "a threshold on the mass of nodes, below which they get no velocity: it must be zero, or far \
-         below the mass of a particle times the smallest weight",
+        MASS_THRESHOLD,
     ))
 }
