@@ -75,8 +75,9 @@ pub(super) enum Command {
     /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(CostArgs),
-    /// Hold the JSON of two runs side by side: what moved, the most important first; exit status 1
-    /// if something got worse (a verdict, an error, a limit of stability, the work), 2 on bad input
+    /// Compare two runs or two sets of snapshots, and list the changes, the most important first;
+    /// exit status 1 if something got worse (a verdict, an error, a limit of stability, the work),
+    /// 2 on bad input
     Compare(CompareArgs),
     /// Print a script with which a shell completes the words of this command line
     Completions(CompletionsArgs),

@@ -90,7 +90,7 @@ impl CheckFindings {
             }
         }
         if !self.is_json {
-            if !(self.is_quiet && self.applicable.is_some()) {
+            if !(self.is_quiet && self.has_summary()) {
                 let lacks = lacks.join(", ");
                 output::print(&format!("{name}: not applicable, the solver lacks {lacks}\n"));
             }

@@ -195,9 +195,12 @@ impl<'a> ConvergenceRunner<'a> {
         let again = |level| self.level(case, truth, level, false);
         let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
         let error_scale = error_scale(plan, case, truth);
-        let gate = gate::result((plan, case), (&levels, &judgement), truth, again);
-        let binding = CaseBinding { expectation, gate: gate.as_ref() };
         let exemption = gate::exemption(case, &levels);
+        let gate = match exemption {
+            Some(_) => None,
+            None => gate::result((plan, case), (&levels, &judgement), truth, again),
+        };
+        let binding = CaseBinding { expectation, gate: gate.as_ref() };
         let outcome = judged(plan, case, binding, levels, judgement, floor, error_scale);
         Ok(match exemption {
             Some(reason) => outcome.not_gated(&reason),

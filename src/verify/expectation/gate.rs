@@ -100,10 +100,10 @@ impl Requirement {
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
-        let is_own = |bound: f64| has_failed || levels.iter().all(|level| level.error <= bound);
+        let is_within = |bound: f64| levels.iter().all(|level| level.error <= bound);
         let is_testable = levels.len() >= FEWEST_LEVELS
             || self.error_below.is_some()
-            || self.own_error_below.is_some_and(is_own);
+            || self.own_error_below.is_some_and(|bound| has_failed || is_within(bound));
         if is_testable {
             return None;
         }
