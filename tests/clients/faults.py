@@ -289,6 +289,18 @@ WALLS = [
           "Uses uniform knots at walls, where the spline on the boundary is not interpolating.",
           "the field at the wall is not zero when the boundary node is held",
           [f"{QUADRATIC} {USL}", f"{CUBIC} {MUSL}"], {"    if not periodic:\n": "    if False:\n"}),
+    Fault("wall-functions-cut",
+          "Uses uniform cubic functions at walls, and holds those centred on the wall and beyond it at zero.",
+          "a linear velocity that is zero at the wall is not reproduced next to it",
+          f"{CUBIC} {USL}",
+          {"self.cell[:, a], cells, periodic)": "self.cell[:, a], cells, True)",
+           "self.free[end] = 0": "self.hold(face, slice(None))",
+           'self.free[(*end, ..., face["axis"])] = 0': 'self.hold(face, face["axis"])'},
+          patch="""
+    def hold(self, face, component):
+        nodes = slice(-2, None) if face["high"] else slice(2)
+        self.free[(slice(None),) * face["axis"] + (nodes, ..., component)] = 0
+          """, source="a reader of the guide"),
     Fault("wall-releases-tension",
           "Implements fixed faces as contact: nodes are held only when the body moves into the wall.",
           "the body separates from the wall in tension",
@@ -1078,6 +1090,7 @@ EXPECTED = {
     "wall-one-node-inside": "wall-force",
     "wall-three-nodes-thick": "wall-force",
     "wall-splines-not-clamped": "wall-force",
+    "wall-functions-cut": "wall-breaks-linear-fields",
     "wall-releases-tension": "wall-lets-go",
     "wall-stops-particles": "wall-force",
     "affine-times-h": "affine-matrix-scaled",

@@ -33,8 +33,12 @@ const WEIGHT: f64 = 0.3;
 /// Part of the weight of a cell that may be too much in that force: averaging (PIC) makes it 0.14.
 const CARRIED: f64 = 0.4;
 
+/// Error of displacements in an even stretch: sound clients have up to 0.04 with quadratic
+/// functions that are modified at the wall, functions cut at the wall 0.07 or more.
+const STRETCH: f64 = 0.05;
+
 /// Kinds of findings, those that explain others first.
-const KINDS: [&str; 10] = [
+const KINDS: [&str; 11] = [
     "position-limited",
     "wall-holds-acceleration-only",
     "wall-holds-velocity-only",
@@ -45,6 +49,7 @@ const KINDS: [&str; 10] = [
     "particles-cross-wall",
     "wall-moves-under-gravity",
     "stress-column",
+    "wall-breaks-linear-fields",
 ];
 
 /// The finding that explains the others, with the faces that show it.
@@ -185,7 +190,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
              not the particle's own velocity or a mean with it",
         ));
     }
-    of_sinking(wall, &seen).or_else(|| of_column(wall))
+    of_sinking(wall, &seen).or_else(|| of_column(wall)).or_else(|| of_stretch(wall))
 }
 
 /// The finding on a wall that a body under gravity moves into.
@@ -193,8 +198,9 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
     // Averaging (PIC) softens the wall too, but more with smaller steps.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
-    // The wall does not carry the weight of its own nodes: half a cell.
-    let is_missing = wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
+    // The wall does not carry the weight of its own nodes, half a cell, though it holds them well.
+    let is_missing =
+        wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
     if sinks_by_steps || is_missing {
         return Some(SolverFinding::defect(
             "wall-moves-under-gravity",
@@ -223,5 +229,23 @@ fn of_column(wall: &Wall) -> Option<SolverFinding> {
         ),
         "the column `stress` has another order than the particles or `points`",
         "particles that are sorted by cells: columns have the order of the problem, or of `points`",
+    ))
+}
+
+/// The remark on a wall next to which linear fields are not reproduced.
+fn of_stretch(wall: &Wall) -> Option<SolverFinding> {
+    let error = Some(wall.stretch).filter(|error| !(error.abs() <= STRETCH))?;
+    Some(SolverFinding::remark(
+        "wall-breaks-linear-fields",
+        format!(
+            "in a bar that is stretched evenly from the wall, displacements next to it differ from the exact ones by \
+             up to {} of the displacement at a distance of one cell",
+            shown(error)
+        ),
+        "a linear velocity that is zero at the wall is not reproduced next to it, so that errors there are of first \
+         order in the cell size",
+        "nodes beyond the wall: each has the negative of the normal velocity of its mirror image, to which its mass \
+         and, with the other sign, its momentum are added; or functions that are modified at the wall. Averaging \
+         of velocities (PIC) has the same effect",
     ))
 }

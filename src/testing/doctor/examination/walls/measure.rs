@@ -1,5 +1,6 @@
 //! Forces of walls, and motions next to them, by the momentum of the halves of a bar.
 
+use super::stretch::stretch_errors;
 use crate::testing::doctor::course::{Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
 use crate::testing::doctor::patient::{Hindrance, Patient};
@@ -47,6 +48,8 @@ pub(super) struct Wall {
     /// Displacement along gravity at the wall, over g t times the time of one cell: with the steps
     /// of the run, and with half of them.
     pub(super) sinking: Option<[f64; 2]>,
+    /// Error of the displacements in an even stretch from the wall, over that at one cell.
+    pub(super) stretch: f64,
     /// Column `stress` next to the wall at the end of the first run, over the expected one.
     pub(super) column: Option<f64>,
 }
@@ -60,6 +63,7 @@ impl Wall {
             ("slides", self.along),
             ("falls", self.falling),
             ("first step of a fall", self.offset),
+            ("stretch", Some(self.stretch)),
         ];
         let texts = forces
             .into_iter()
@@ -109,6 +113,7 @@ pub(super) fn walls_across(
         scenes.push(falling.clone());
     }
     let courses = patient.run_all(&scenes)?;
+    let stretch = stretch_errors(patient, kind, axis, condition)?;
     let cell_time = H / c;
     let sinking = |side: BarEnd, course: &Course| {
         side.at_wall(course, &plain) / (GRAVITY * course.times[course.last()] * cell_time)
@@ -154,6 +159,7 @@ pub(super) fn walls_across(
                 let halved = halved.as_ref().and_then(|halved| halved.first());
                 [sunk[place], halved.map_or(sunk[place], |halved| sinking(side, halved))]
             }),
+            stretch: stretch[place],
             column: side.stress_column(&courses[0], &plain).map(|stress| {
                 let expected = -side.sign() * SPEED * c * c * plain.density;
                 stress / expected
@@ -180,19 +186,19 @@ fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
 
 /// One end of the bar.
 #[derive(Debug, Clone, Copy)]
-struct BarEnd {
-    axis: usize,
-    high: bool,
+pub(super) struct BarEnd {
+    pub(super) axis: usize,
+    pub(super) high: bool,
 }
 
 impl BarEnd {
     /// Sign of the outward normal.
-    fn sign(self) -> f64 {
+    pub(super) fn sign(self) -> f64 {
         if self.high { 1.0 } else { -1.0 }
     }
 
     /// Distance (m) of a place from the wall.
-    fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
+    pub(super) fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
         let ends = (scene.body.0[self.axis], scene.body.1[self.axis]);
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }

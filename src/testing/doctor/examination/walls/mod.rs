@@ -10,10 +10,12 @@
 //! ```text
 //! measure   the scenes, and the forces and motions at each wall
 //! judge     the finding that explains them
+//! stretch   a bar that is stretched evenly from each wall
 //! ```
 
 mod judge;
 mod measure;
+mod stretch;
 
 use super::translation::VELOCITY;
 use crate::testing::doctor::finding::SolverFinding;
@@ -69,7 +71,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let forces = walls.iter().map(name).collect::<Vec<_>>().join("; ");
     let mut measured = vec![format!(
         "forces over the expected ones (sound walls: 1 for a body that is pushed, is pulled, or falls; 1 for one \
-         that slides along a fixed wall, and 0 along a roller; 0 in the first step of a fall): {forces}"
+         that slides along a fixed wall, and 0 along a roller; 0 in the first step of a fall; 0 as the error of the displacements in an even stretch): {forces}"
     )];
     if !sliding.measured.is_empty() {
         measured.push(format!("sliding: {}", sliding.measured));
