@@ -52,10 +52,18 @@ const KINDS: [&str; 11] = [
     "wall-breaks-linear-fields",
 ];
 
-/// The finding that explains the others, with the faces that show it.
+/// The defect or, without one, the remark that explains the others, with the faces that show it.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
+    first_kind(walls, of_wall).or_else(|| uneven(walls)).or_else(|| first_kind(walls, of_stretch))
+}
+
+/// The finding of the first kind in the order of [`KINDS`], with the faces that show it.
+fn first_kind(
+    walls: &[Wall],
+    judge: impl Fn(&Wall) -> Option<SolverFinding>,
+) -> Option<SolverFinding> {
     let of_walls: Vec<(&Wall, SolverFinding)> =
-        walls.iter().filter_map(|wall| Some((wall, of_wall(wall)?))).collect();
+        walls.iter().filter_map(|wall| Some((wall, judge(wall)?))).collect();
     let first = KINDS.iter().find(|kind| of_walls.iter().any(|(_, found)| found.name == **kind))?;
     let faces: Vec<String> = of_walls
         .iter()
@@ -70,7 +78,7 @@ pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
 
 /// The finding on two walls with different forces where the same are expected: opposite faces of
 /// one condition, or one face with two conditions, as nothing moves along it.
-pub(super) fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
+fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
         |a: Option<f64>, b: Option<f64>| a.zip(b).is_some_and(|(a, b)| !((a - b).abs() <= UNEVEN));
@@ -190,7 +198,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
              not the particle's own velocity or a mean with it",
         ));
     }
-    of_sinking(wall, &seen).or_else(|| of_column(wall)).or_else(|| of_stretch(wall))
+    of_sinking(wall, &seen).or_else(|| of_column(wall))
 }
 
 /// The finding on a wall that a body under gravity moves into.

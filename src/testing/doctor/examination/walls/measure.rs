@@ -1,6 +1,5 @@
 //! Forces of walls, and motions next to them, by the momentum of the halves of a bar.
 
-use super::stretch::stretch_errors;
 use crate::testing::doctor::course::{Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
 use crate::testing::doctor::patient::{Hindrance, Patient};
@@ -16,6 +15,12 @@ const STEPS: u64 = 28;
 
 /// Speed of the bar over that of waves.
 const SPEED: f64 = 1e-3;
+
+/// Distance that waves travel while a bar is stretched evenly (cells), number of steps, and strain
+/// rate times the time of a wave through a cell.
+const STRETCH_TRAVEL: f64 = 4.0;
+const STRETCH_STEPS: u64 = 16;
+const STRETCH_RATE: f64 = 1e-4;
 
 /// Gravity (m/s2): the speed that it gives in the run is of that order.
 const GRAVITY: f64 = 1e-3;
@@ -168,6 +173,56 @@ pub(super) fn walls_across(
     }))
 }
 
+/// Errors of the displacements within two cells of the walls at both ends of `axis`, over the
+/// displacement at a distance of one cell; positive away from the wall.
+///
+/// With the initial velocity `v = a (X - X_wall)` along the normal a bar of linear elasticity
+/// stretches evenly until a wave arrives from its free end: every particle keeps its velocity. A
+/// method reproduces this if its functions represent a linear velocity up to the wall, which they do
+/// not if nodes beyond the wall are held at zero: the exact values are the odd continuation.
+fn stretch_errors(
+    patient: &Patient<'_>,
+    kind: Kind,
+    axis: usize,
+    condition: &'static str,
+) -> Result<[f64; 2], Hindrance> {
+    let ends = [false, true].map(|high| BarEnd { axis, high });
+    let scenes = ends.map(|end| stretched(kind, end, condition));
+    let courses = patient.run_all(&scenes)?;
+    Ok(std::array::from_fn(|k| {
+        let (end, scene, course) = (ends[k], &scenes[k], &courses[k]);
+        let strain = scene.velocity.gradient[axis][axis] * course.times[course.last()];
+        let mut largest = 0.0_f64;
+        for (label, u) in course.points(displacement, course.last()) {
+            let depth = end.depth(scene, label);
+            let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
+            // NaN stays.
+            if depth <= 2.0 * H && !(error.abs() <= largest.abs()) {
+                largest = error;
+            }
+        }
+        largest
+    }))
+}
+
+/// The bar with one wall, stretched from there.
+fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
+    let mut scene = bar(kind, end.axis, condition);
+    scene.faces = vec![(FACES[end.axis][usize::from(end.high)], condition)];
+    let wall = if end.high {
+        scene.grid.0[end.axis] -= 4.0 * H;
+        scene.body.1[end.axis]
+    } else {
+        scene.grid.1[end.axis] += 4.0 * H;
+        scene.body.0[end.axis]
+    };
+    let mut velocity = AffineField::default();
+    velocity.gradient[end.axis][end.axis] = STRETCH_RATE * scene.wave_speed() / H;
+    velocity.centre[end.axis] = wall;
+    scene.velocity = velocity;
+    scene.with_waves(STRETCH_TRAVEL, STRETCH_STEPS)
+}
+
 /// A broad body between two `fixed` walls across `axis`, which moves along them with a thousandth
 /// of `c` (m/s). It ends before waves have crossed it.
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
@@ -186,19 +241,19 @@ fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
 
 /// One end of the bar.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BarEnd {
-    pub(super) axis: usize,
-    pub(super) high: bool,
+struct BarEnd {
+    axis: usize,
+    high: bool,
 }
 
 impl BarEnd {
     /// Sign of the outward normal.
-    pub(super) fn sign(self) -> f64 {
+    fn sign(self) -> f64 {
         if self.high { 1.0 } else { -1.0 }
     }
 
     /// Distance (m) of a place from the wall.
-    pub(super) fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
+    fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
         let ends = (scene.body.0[self.axis], scene.body.1[self.axis]);
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
