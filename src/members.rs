@@ -23,6 +23,13 @@ macro_rules! each_material {
             "j2" => j2::J2 {
                 young: YOUNG, poisson: POISSON, r#yield: YIELD, #[serde(default)] hardening: HARDENING
             }, truth j2::J2Law;
+            "drucker_prager" => drucker_prager::DruckerPrager {
+                young: YOUNG, poisson: POISSON, friction: FRICTION, dilation: DILATION, strength: STRENGTH
+            }, truth drucker_prager::DruckerPragerLaw;
+            "mohr_coulomb" => mohr_coulomb::MohrCoulomb {
+                young: YOUNG, poisson: POISSON, friction_angle: FRICTION_ANGLE,
+                dilation_angle: DILATION_ANGLE, cohesion: COHESION
+            }, truth mohr_coulomb::MohrCoulombLaw;
             "newtonian" => newtonian::Newtonian { bulk: BULK, viscosity: VISCOSITY },
                 truth tait::TaitLaw;
             "linear_fluid" => linear_fluid::LinearFluid { bulk: BULK },

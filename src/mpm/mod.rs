@@ -60,9 +60,9 @@ pub use kernel::tally::Tally;
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
-    Hencky, J2, LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan,
-    MaterialProperties, MaterialSpec, NeoHookean, Newtonian, Prestressed, Range, Rigid,
-    StressBlock, StressUpdate,
+    DruckerPrager, ElastoPlastic, Hencky, J2, LinearElastic, LinearFluid, Material,
+    MaterialParameter, MaterialPlan, MaterialProperties, MaterialSpec, MohrCoulomb, NeoHookean,
+    Newtonian, Prestressed, Range, Rigid, StressBlock, StressUpdate,
 };
 pub use multibody::Bodies;
 pub use particles::{Block, Particles};

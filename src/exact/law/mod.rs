@@ -5,6 +5,7 @@ mod contract;
 #[cfg(test)]
 mod energy;
 mod registry;
+mod uniaxial_flow;
 
 use super::formula::Number;
 use super::tensor::Tensor;

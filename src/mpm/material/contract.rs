@@ -39,6 +39,11 @@ pub trait MaterialProperties {
         false
     }
 
+    /// A parameter that contradicts another one: its key, and the reason.
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
     /// Whether bodies neither move nor deform.
     fn is_at_rest(&self) -> bool {
         false

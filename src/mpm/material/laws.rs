@@ -2,7 +2,7 @@
 //! each says so in its properties and closed forms.
 
 use super::specimen::{FAST, SLOW, Specimen, diagonal, every, scattered, stress};
-use super::{MaterialPlan, POISSON, YIELD};
+use super::{COHESION, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH, YIELD};
 use crate::mpm::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
@@ -183,7 +183,8 @@ fn every_material_obeys_its_laws() {
 fn every_stress_is_the_derivative_of_an_energy() {
     let strong = MaterialPlan::every(|parameter| match *parameter {
         POISSON => 0.3,
-        YIELD => 1e9,
+        YIELD | STRENGTH | COHESION => 1e9,
+        FRICTION | FRICTION_ANGLE => 0.1,
         _ => 100.0,
     });
     for plan in strong {

@@ -8,6 +8,7 @@ mod hyperelastic;
 mod laws;
 mod parameter;
 mod plane_stress;
+mod plastic_flow;
 mod prestressed;
 mod registry;
 #[cfg(test)]
@@ -19,13 +20,17 @@ mod stress_update;
 use contract::ClosedForms;
 pub use contract::{Material, MaterialProperties};
 pub use parameter::{MaterialParameter, Range};
+pub use plastic_flow::ElastoPlastic;
 pub use prestressed::Prestressed;
 pub use stress_update::{StressBlock, StressUpdate};
 
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
-use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
+use parameter::{
+    BULK, COHESION, DENSITY, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE, HARDENING,
+    POISSON, STRENGTH, VISCOSITY, YIELD, YOUNG,
+};
 use registry::materials;
 
 each_material!(materials);

@@ -22,6 +22,8 @@ pub enum Range {
     NotNegative,
     /// Above -1 and below 1/2: an isotropic solid is stable there, and compressible.
     PoissonsRatio,
+    /// Zero or above, and below 90 (degrees).
+    Angle,
 }
 
 const fn parameter(
@@ -41,6 +43,18 @@ pub(super) const YIELD: MaterialParameter =
     parameter("the yield stress", "Y", "Pa", Range::Positive);
 pub(super) const HARDENING: MaterialParameter =
     parameter("the hardening modulus", "H", "Pa", Range::NotNegative);
+pub(super) const FRICTION: MaterialParameter =
+    parameter("the coefficient of friction", "eta", "", Range::NotNegative);
+pub(super) const DILATION: MaterialParameter =
+    parameter("the coefficient of dilation", "etab", "", Range::NotNegative);
+pub(super) const STRENGTH: MaterialParameter =
+    parameter("the strength without mean stress", "k", "Pa", Range::NotNegative);
+pub(super) const FRICTION_ANGLE: MaterialParameter =
+    parameter("the friction angle", "phi", "degrees", Range::Angle);
+pub(super) const DILATION_ANGLE: MaterialParameter =
+    parameter("the dilation angle", "psi", "degrees", Range::Angle);
+pub(super) const COHESION: MaterialParameter =
+    parameter("the cohesion", "c", "Pa", Range::NotNegative);
 pub(super) const BULK: MaterialParameter =
     parameter("the bulk modulus", "K", "Pa", Range::Positive);
 pub(super) const VISCOSITY: MaterialParameter =

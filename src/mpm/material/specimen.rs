@@ -1,7 +1,10 @@
 //! One particle of each registered material, for the tests of the family.
 
 use super::stress_update::StressUpdate;
-use super::{Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
+use super::{
+    COHESION, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE, Material, MaterialPlan, POISSON,
+    STRENGTH, VISCOSITY, YIELD, YOUNG,
+};
 use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
@@ -16,7 +19,11 @@ pub(super) fn every() -> Vec<MaterialPlan> {
     MaterialPlan::every(|parameter| match *parameter {
         YOUNG => 100.0,
         POISSON => 0.3,
-        YIELD => 3.0,
+        YIELD | STRENGTH | COHESION => 3.0,
+        FRICTION => 0.3,
+        DILATION => 0.1,
+        FRICTION_ANGLE => 20.0,
+        DILATION_ANGLE => 0.0,
         VISCOSITY => 0.7,
         _ => 40.0,
     })

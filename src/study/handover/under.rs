@@ -58,7 +58,7 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     match (known, parameter.range) {
         (Some((_, value)), _) => *value,
         (None, Range::Positive) => stiffness().map_or(1.0, |(_, value)| *value),
-        (None, Range::NotNegative | Range::PoissonsRatio) => 0.0,
+        (None, Range::NotNegative | Range::PoissonsRatio | Range::Angle) => 0.0,
     }
 }
 

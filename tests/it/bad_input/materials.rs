@@ -45,6 +45,22 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
     &[(ELASTIC, "{hencky: {young: E, poisson: ▸0.5, density: rho}}")],
     &["Poisson's ratio is 0.5", "expected a number above -1 and below 0.5"]
 )]
+#[case::dilation_above_friction(
+    &[(ELASTIC, "{drucker_prager: {young: E, poisson: 0, friction: 0.1, dilation: ▸0.3, strength: 1, density: rho}}")],
+    &["the coefficient of dilation is above that of friction", "does negative work"]
+)]
+#[case::a_dilation_angle_above_the_friction_angle(
+    &[(ELASTIC, "{mohr_coulomb: {young: E, poisson: 0, friction_angle: 20, dilation_angle: ▸30, cohesion: 1, density: rho}}")],
+    &["the dilation angle is above the friction angle"]
+)]
+#[case::a_friction_angle_of_a_right_angle(
+    &[(ELASTIC, "{mohr_coulomb: {young: E, poisson: 0, friction_angle: ▸90, dilation_angle: 0, cohesion: 1, density: rho}}")],
+    &["the friction angle is 90 degrees", "at least 0 and less than 90"]
+)]
+#[case::a_negative_cohesion(
+    &[(ELASTIC, "{mohr_coulomb: {young: E, poisson: 0, friction_angle: 30, dilation_angle: 0, cohesion: ▸-1, density: rho}}")],
+    &["the cohesion is -1, and must not be below zero"]
+)]
 #[case::a_small_strain_truth_for_plastic_flow(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("small_strain", "▸small_strain")],
     &["`small_strain` is not the problem of a `j2` material"]

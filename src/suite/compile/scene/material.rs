@@ -14,15 +14,22 @@ pub(crate) fn material(
     words: &MaterialSpec<NumberText>,
 ) -> Result<(MaterialPlan, f64), Diagnostic> {
     let path = path.then(words.name());
-    words.numbers(|key, parameter, text| {
+    let material = words.numbers(|key, parameter, text| {
         let at = path.then(key);
         let value = match parameter.range {
             Range::Positive => evaluator.positive(&at, text, parameter.what),
             Range::NotNegative => not_negative(evaluator, &at, text, parameter.what),
             Range::PoissonsRatio => poissons_ratio(evaluator, &at, text),
+            Range::Angle => angle(evaluator, &at, text, parameter.what),
         };
         value.map_err(uniform)
-    })
+    })?;
+    if let Some((key, reason)) = material.0.properties().contradiction() {
+        let diagnostic = evaluator.diagnostic(&path.then(key), reason);
+        return Err(diagnostic
+            .with_label("a flow that dilates more than friction allows does negative work"));
+    }
+    Ok(material)
 }
 
 /// A diagnostic of a parameter that varies from place to place, with what to state instead.
@@ -49,6 +56,20 @@ fn not_negative(
     }
     let message = format!("{what} is {}, and must not be below zero", shown(value));
     Err(evaluator.unusable(path, text, &message, "expected zero or a positive number"))
+}
+
+fn angle(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &NumberText,
+    what: &str,
+) -> Result<f64, Diagnostic> {
+    let degrees = evaluator.number(path, text)?;
+    if (0.0..90.0).contains(&degrees) {
+        return Ok(degrees);
+    }
+    let message = format!("{what} is {} degrees", shown(degrees));
+    Err(evaluator.unusable(path, text, &message, "expected at least 0 and less than 90 degrees"))
 }
 
 fn poissons_ratio(

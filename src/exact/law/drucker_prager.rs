@@ -1,0 +1,93 @@
+//! Drucker-Prager plasticity in uniaxial strain, under loading that never reverses.
+//!
+//! With `A = 2 mu/sqrt(3)`, `D = mu + K eta etab` and `s = -1` in compression, `1` in extension, the
+//! body yields at the strain `k/(A + s eta K)`; beyond, `d tau11/de = M - (K eta + s A)(K etab + s
+//! A)/D` with `M = lambda + 2 mu`. Both invariants change linearly, `sqrt(J2)` by `A - mu g` and the
+//! multiplier by `g = (A + s eta K)/D` per unit of strain, so that extension ends at the apex.
+
+use super::contract::{ConstitutiveLaw, Lame};
+use super::uniaxial_flow::{UNIAXIAL_ONLY, UniaxialFlow, UniaxialLaw};
+use crate::exact::formula::Number;
+use crate::exact::tensor::Tensor;
+
+/// Drucker-Prager plasticity with Hencky elasticity in uniaxial strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DruckerPragerLaw(UniaxialLaw);
+
+impl DruckerPragerLaw {
+    /// From Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta and of dilation
+    /// etab, and the strength k (Pa).
+    pub fn new(young: f64, poisson: f64, friction: f64, dilation: f64, strength: f64) -> Self {
+        let lame = Lame::new(young, poisson);
+        let bulk = lame.lambda + 2.0 / 3.0 * lame.mu;
+        let shear = 2.0 / libm::sqrt(3.0) * lame.mu;
+        let stiffness = lame.mu + bulk * friction * dilation;
+        let flow = |sign: f64| {
+            let towards = shear + sign * friction * bulk;
+            if !(towards > 0.0) {
+                return UniaxialFlow::NONE;
+            }
+            let strain = strength / towards;
+            let loss = lame.mu * towards / stiffness - shear;
+            UniaxialFlow {
+                strain,
+                modulus: lame.modulus()
+                    - (bulk * friction + sign * shear) * (bulk * dilation + sign * shear)
+                        / stiffness,
+                to_apex: if loss > 0.0 { shear * strain / loss } else { f64::INFINITY },
+            }
+        };
+        Self(UniaxialLaw { lame, compression: flow(-1.0), extension: flow(1.0) })
+    }
+}
+
+impl ConstitutiveLaw for DruckerPragerLaw {
+    const NAME: &'static str = "drucker_prager";
+    const EQUATION: &'static str = "Drucker-Prager in uniaxial strain that never reverses, \
+                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                    tau = L tr(eps_e) I + 2 mu eps_e, sqrt(J2) + eta p <= k";
+    const HAS_HISTORY: bool = true;
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        self.0.piola(grad)
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.lame.modulus()
+    }
+
+    fn flows(&self, grad: f64) -> bool {
+        self.0.flows(grad)
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        if dimension == 1 { Ok(()) } else { Err(UNIAXIAL_ONLY) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Values of an independent program, K = 1e4 Pa and mu = 6e3 Pa.
+    #[rstest]
+    #[case::elastic(-0.002, -36.0)]
+    #[case::compression(-0.01, -152.446_057_383_1)]
+    #[case::large(-0.05, -724.590_901_326_6)]
+    #[case::extension(0.0012, 19.191_532_825_0)]
+    #[case::apex(0.005, 100.0 / 3.0)]
+    fn uniaxial_strain_has_its_stress(#[case] strain: f64, #[case] tau: f64) {
+        let law = DruckerPragerLaw::new(15e3, 0.25, 0.3, 0.1, 10.0);
+        let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
+        assert_relative_eq!(piola * libm::exp(strain), tau, max_relative = 1e-10);
+        assert_eq!(law.flows(libm::expm1(strain)), strain != -0.002);
+    }
+
+    #[test]
+    fn a_steep_cone_is_elastic_in_compression() {
+        let law = DruckerPragerLaw::new(15e3, 0.25, 0.7, 0.1, 10.0);
+        assert!(!law.flows(-0.5) && law.flows(0.5));
+    }
+}

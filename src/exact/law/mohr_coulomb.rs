@@ -1,0 +1,125 @@
+//! Mohr-Coulomb plasticity in uniaxial strain, under loading that never reverses.
+//!
+//! The two lateral stresses are equal, so that the state is on an edge: two planes flow with the
+//! same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)`, `M = L + 2 mu`, the yield condition is
+//! `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`; per unit of strain the planes take `g (4 L t
+//! + 4 mu (1 + t))` from an axial stress that is the largest, or add `g (4 mu (1 - t) - 4 L t)` to
+//! one that is the smallest, and half of the shear part from or to the lateral ones.
+
+use super::contract::{ConstitutiveLaw, Lame};
+use super::uniaxial_flow::{UNIAXIAL_ONLY, UniaxialFlow, UniaxialLaw};
+use crate::exact::formula::Number;
+use crate::exact::tensor::Tensor;
+
+/// Mohr-Coulomb plasticity with Hencky elasticity in uniaxial strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MohrCoulombLaw(UniaxialLaw);
+
+impl MohrCoulombLaw {
+    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation (degrees),
+    /// and the cohesion (Pa).
+    pub fn new(
+        young: f64,
+        poisson: f64,
+        friction_angle: f64,
+        dilation_angle: f64,
+        cohesion: f64,
+    ) -> Self {
+        let lame = Lame::new(young, poisson);
+        let (phi, psi) = (friction_angle.to_radians(), dilation_angle.to_radians());
+        let (s, t) = (libm::sin(phi), libm::sin(psi));
+        let (Lame { lambda, mu }, elastic) = (lame, lame.modulus());
+        let strength = 2.0 * cohesion * libm::cos(phi);
+        // Weights of the axial and of the lateral stress in the yield function, and what the two
+        // planes take from these stresses.
+        let compression = (
+            [-(1.0 - s), 1.0 + s],
+            [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)],
+        );
+        let extension = (
+            [1.0 + s, -(1.0 - s)],
+            [4.0 * lambda * t + 4.0 * mu * (1.0 + t), 4.0 * lambda * t - 2.0 * mu * (1.0 - t)],
+        );
+        let flow = |sign: f64, (weights, relief): ([f64; 2], [f64; 2])| {
+            let dot = |[axial, lateral]: [f64; 2]| weights[0] * axial + weights[1] * lateral;
+            let rates = [sign * elastic, sign * lambda];
+            let towards = dot(rates);
+            if !(towards > 0.0) {
+                return UniaxialFlow::NONE;
+            }
+            let (strain, flow) = (strength / towards, towards / dot(relief));
+            let [axial, lateral] = [rates[0] - flow * relief[0], rates[1] - flow * relief[1]];
+            // The difference of the stresses at yield, and what a unit of strain takes from it.
+            let (gap, closing) = (2.0 * mu * strain, sign * (lateral - axial));
+            UniaxialFlow {
+                strain,
+                modulus: sign * axial,
+                to_apex: if closing > 0.0 { gap / closing } else { f64::INFINITY },
+            }
+        };
+        Self(UniaxialLaw {
+            lame,
+            compression: flow(-1.0, compression),
+            extension: flow(1.0, extension),
+        })
+    }
+}
+
+impl ConstitutiveLaw for MohrCoulombLaw {
+    const NAME: &'static str = "mohr_coulomb";
+    const EQUATION: &'static str = "Mohr-Coulomb in uniaxial strain that never reverses, \
+                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                    tau = L tr(eps_e) I + 2 mu eps_e, \
+                                    (t1 - t3) + (t1 + t3) sin(phi) <= 2 c cos(phi)";
+    const HAS_HISTORY: bool = true;
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        self.0.piola(grad)
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.lame.modulus()
+    }
+
+    fn flows(&self, grad: f64) -> bool {
+        self.0.flows(grad)
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        if dimension == 1 { Ok(()) } else { Err(UNIAXIAL_ONLY) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Values of an independent program, K = 1e4 Pa, mu = 7.5e3 Pa and c = 10 Pa.
+    #[rstest]
+    #[case::compression([30.0, 10.0], -0.01, -196.127_569_232)]
+    #[case::large([30.0, 10.0], -0.03, -570.914_763_447)]
+    #[case::extension([30.0, 10.0], 0.001, 13.698_188_095)]
+    #[case::apex([30.0, 10.0], 0.003, 17.320_508_076)]
+    #[case::without_dilation([20.0, 0.0], -0.01, -165.612_145_902)]
+    #[case::extension_without_dilation([20.0, 0.0], 0.001, 17.153_427_590)]
+    #[case::tresca([0.0, 0.0], -0.01, -113.333_333_333)]
+    fn uniaxial_strain_has_its_stress(
+        #[case] angles: [f64; 2],
+        #[case] strain: f64,
+        #[case] tau: f64,
+    ) {
+        let law = MohrCoulombLaw::new(18e3, 0.2, angles[0], angles[1], 10.0);
+        let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
+        assert_relative_eq!(piola * libm::exp(strain), tau, max_relative = 1e-10);
+        assert!(law.flows(libm::expm1(strain)));
+    }
+
+    #[test]
+    fn a_large_friction_angle_is_elastic_in_compression() {
+        // nu/(1 - nu) = 1/4 is above (1 - s)/(1 + s) = 0.17.
+        let law = MohrCoulombLaw::new(18e3, 0.2, 45.0, 0.0, 10.0);
+        assert!(!law.flows(-0.5) && law.flows(0.5));
+    }
+}

@@ -1,0 +1,75 @@
+//! Plastic flow in uniaxial strain under loading that never reverses.
+//!
+//! With elasticity in the logarithmic strain `e` of the driven axis and no hardening, the axial
+//! Kirchhoff stress of a yield surface of planes or of a cone is piecewise linear in `e`: elastic up
+//! to a strain at yield, then with the elastic-plastic modulus, and constant where all principal
+//! stresses are equal, at an apex.
+
+use super::contract::Lame;
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, tensor};
+
+/// Why a law of this kind does not hold in more dimensions, and what to state instead.
+pub(super) const UNIAXIAL_ONLY: [&str; 2] = [
+    "the stress is a function of the deformation in uniaxial strain only",
+    "make it a scene of dimension 1",
+];
+
+/// The flow in one sense, of compression or of extension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct UniaxialFlow {
+    /// Magnitude of the strain at yield; infinite where the body never yields.
+    pub(super) strain: f64,
+    /// `d tau11/de` beyond yield (Pa).
+    pub(super) modulus: f64,
+    /// Strain beyond yield at which the apex is reached; infinite where it never is.
+    pub(super) to_apex: f64,
+}
+
+impl UniaxialFlow {
+    /// A body that never yields.
+    pub(super) const NONE: Self =
+        Self { strain: f64::INFINITY, modulus: 0.0, to_apex: f64::INFINITY };
+}
+
+/// The axial stress of a law in uniaxial strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct UniaxialLaw {
+    pub(super) lame: Lame,
+    pub(super) compression: UniaxialFlow,
+    pub(super) extension: UniaxialFlow,
+}
+
+impl UniaxialLaw {
+    fn sense(&self, strain: f64) -> (f64, &UniaxialFlow) {
+        if strain < 0.0 { (-1.0, &self.compression) } else { (1.0, &self.extension) }
+    }
+
+    /// Kirchhoff stress (Pa) at the logarithmic strain `strain`.
+    pub(super) fn kirchhoff<T: Number>(&self, strain: T) -> T {
+        let (sign, flow) = self.sense(strain.value());
+        let elastic = self.lame.modulus();
+        let beyond = sign * strain.value() - flow.strain;
+        if !(beyond > 0.0) {
+            return T::from(elastic) * strain;
+        }
+        let at_yield = T::from(sign * elastic * flow.strain);
+        if beyond > flow.to_apex {
+            return at_yield + T::from(sign * flow.modulus * flow.to_apex);
+        }
+        at_yield + T::from(flow.modulus) * (strain - T::from(sign * flow.strain))
+    }
+
+    /// P (Pa) for the displacement gradient of a uniaxial strain along the first axis.
+    pub(super) fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let stretch = T::from(1.0) + grad[0][0];
+        let along = self.kirchhoff(Number::ln(stretch)) / stretch;
+        tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
+    }
+
+    /// Whether the body flows at the displacement gradient `grad`.
+    pub(super) fn flows(&self, grad: f64) -> bool {
+        let strain = libm::log1p(grad);
+        strain.abs() > self.sense(strain).1.strain
+    }
+}

@@ -1,0 +1,126 @@
+//! Drucker-Prager plasticity: a cone about the axis of mean stress.
+//!
+//! Yield where `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and `J2 = dev(tau) :
+//! dev(tau)/2`. The flow has the coefficient of dilation `etab` in place of `eta`. The return goes
+//! to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008, section 8.3). The
+//! frame is that of [`plastic_flow`](super::plastic_flow).
+//!
+//! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
+//! a tension cut-off, which is no part of the flow rule.
+
+use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
+use crate::mpm::algebra::Vector;
+
+/// Drucker-Prager elastoplasticity at finite strain, without hardening.
+pub type DruckerPrager = ElastoPlastic<Cone>;
+
+/// The cone of Drucker and Prager.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cone {
+    elasticity: LogElasticity,
+    friction: f64,
+    dilation: f64,
+    strength: f64,
+}
+
+impl DruckerPrager {
+    /// From Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta and of dilation
+    /// etab, and the strength k (Pa), which is sqrt(J2) at yield without mean stress.
+    pub fn new(young: f64, poisson: f64, friction: f64, dilation: f64, strength: f64) -> Self {
+        let elasticity = LogElasticity::new(young, poisson);
+        Self::with_surface(Cone { elasticity, friction, dilation, strength })
+    }
+}
+
+impl YieldSurface for Cone {
+    fn elasticity(&self) -> &LogElasticity {
+        &self.elasticity
+    }
+
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        (self.dilation > self.friction)
+            .then_some(("dilation", "the coefficient of dilation is above that of friction"))
+    }
+
+    fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {
+        let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =
+            *self;
+        let shear = 2.0_f64.sqrt() * mu * trial.deviator.norm();
+        let excess = shear + friction * 3.0 * bulk * trial.mean - strength;
+        if !(excess > 0.0) {
+            return None;
+        }
+        let flow = excess / (mu + bulk * friction * dilation);
+        let after = if mu * flow <= shear {
+            PrincipalStrain {
+                mean: trial.mean - dilation * flow / 3.0,
+                deviator: trial.deviator * (1.0 - mu * flow / shear),
+            }
+        } else {
+            // Only a cone that closes is left at its apex: `friction` is above zero here.
+            PrincipalStrain {
+                mean: strength / (3.0 * bulk * friction),
+                deviator: Vector::<3>::zeros(),
+            }
+        };
+        Some((after, trial.distance(&after)))
+    }
+
+    /// de Souza Neto et al. (2008), eq. 8.113: both invariants are linear in the strain.
+    #[cfg(test)]
+    fn isochoric(&self, e: f64) -> [f64; 2] {
+        let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =
+            *self;
+        let stiffness = mu + bulk * friction * dilation;
+        let beyond = e - strength / (2.0 * mu);
+        let mean = -2.0 * mu * bulk * dilation / stiffness * beyond;
+        let shear = strength + 2.0 * mu * bulk * friction * dilation / stiffness * beyond;
+        [mean + shear, mean - shear]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::MaterialPlan;
+    use super::super::plastic_flow::path::{isotropic, principal};
+    use rstest::rstest;
+
+    /// Paths of logarithmic strain, and the principal Kirchhoff stresses at their ends: closed forms
+    /// that were computed by an independent program. In uniaxial strain the stress is bilinear; in
+    /// extension it ends at the apex.
+    #[rstest]
+    #[case::elastic(&[[-0.002, 0.0, 0.0]], [-36.0, -12.0, -12.0])]
+    #[case::compression(&[[-0.01, 0.0, 0.0]], [-152.446_057_383_1, -80.748_883_761_5, -80.748_883_761_5])]
+    #[case::in_two_steps(
+        &[[-0.007, 0.0, 0.0], [-0.02, 0.0, 0.0]],
+        [-295.482_268_369_0, -168.583_643_102_5, -168.583_643_102_5]
+    )]
+    #[case::unloading(
+        &[[-0.02, 0.0, 0.0], [-0.017, 0.0, 0.0]],
+        [-241.482_268_369_0, -150.583_643_102_5, -150.583_643_102_5]
+    )]
+    #[case::further(
+        &[[-0.02, 0.0, 0.0], [-0.017, 0.0, 0.0], [-0.01, 0.0, 0.0]],
+        [-115.482_268_369_0, -108.583_643_102_5, -108.583_643_102_5]
+    )]
+    #[case::large(&[[-0.05, 0.0, 0.0]], [-724.590_901_326_6, -432.087_921_125_7, -432.087_921_125_7])]
+    #[case::extension(&[[0.0012, 0.0, 0.0]], [19.191_532_825_0, 7.948_556_474_1, 7.948_556_474_1])]
+    #[case::apex(&[[0.005, 0.0, 0.0]], [100.0 / 3.0; 3])]
+    #[case::apex_in_steps(&[[0.0012, 0.0, 0.0], [0.003, 0.0, 0.0], [0.005, 0.0, 0.0]], [100.0 / 3.0; 3])]
+    #[case::isochoric(&[[0.01, -0.01, 0.0]], [-2.222_222_222_2, -32.698_412_698_4, -17.460_317_460_3])]
+    #[case::isochoric_in_steps(
+        &[[0.004, -0.004, 0.0], [0.01, -0.01, 0.0], [0.03, -0.03, 0.0]],
+        [-28.888_888_888_9, -82.222_222_222_2, -55.555_555_555_6]
+    )]
+    fn paths_end_on_the_closed_forms(#[case] path: &[[f64; 3]], #[case] expected: [f64; 3]) {
+        let (young, poisson) = isotropic(1e4, 6e3);
+        let plan = MaterialPlan::DruckerPrager {
+            young,
+            poisson,
+            friction: 0.3,
+            dilation: 0.1,
+            strength: 10.0,
+        };
+        principal(plan, path, expected);
+    }
+}

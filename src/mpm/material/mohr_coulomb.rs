@@ -1,0 +1,224 @@
+//! Mohr-Coulomb plasticity: a pyramid of six planes in principal stresses.
+//!
+//! Yield where `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal Kirchhoff
+//! stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi in place of phi.
+//! The return goes to a plane, to one of the two edges where the planes of neighbouring orders meet,
+//! or to the apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi = 0
+//! this is Tresca's law, which has no apex. The frame is that of
+//! [`plastic_flow`](super::plastic_flow).
+//!
+//! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
+//! a tension cut-off, which is no part of the flow rule.
+
+use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
+use crate::mpm::algebra::Vector;
+
+/// Mohr-Coulomb elastoplasticity at finite strain, without hardening.
+pub type MohrCoulomb = ElastoPlastic<Pyramid>;
+
+/// The pyramid of Mohr and Coulomb.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pyramid {
+    elasticity: LogElasticity,
+    /// `sin(phi)` and `sin(psi)`.
+    sines: [f64; 2],
+    /// `2 c cos(phi)` (Pa).
+    strength: f64,
+}
+
+/// A plane of the pyramid, by the places of the largest and the smallest stress.
+type Plane = [usize; 2];
+
+impl MohrCoulomb {
+    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation (degrees),
+    /// and the cohesion (Pa).
+    pub fn new(
+        young: f64,
+        poisson: f64,
+        friction_angle: f64,
+        dilation_angle: f64,
+        cohesion: f64,
+    ) -> Self {
+        let elasticity = LogElasticity::new(young, poisson);
+        let sines = [friction_angle, dilation_angle].map(|angle| libm::sin(angle.to_radians()));
+        let strength = 2.0 * cohesion * libm::cos(friction_angle.to_radians());
+        Self::with_surface(Pyramid { elasticity, sines, strength })
+    }
+}
+
+impl Pyramid {
+    /// Value of the yield function (Pa) of a plane.
+    fn excess(&self, [high, low]: Plane, stress: &Vector<3>) -> f64 {
+        let sine = self.sines[0];
+        (1.0 + sine) * stress[high] - (1.0 - sine) * stress[low] - self.strength
+    }
+
+    /// Stress (Pa) that a unit of flow on a plane takes away.
+    fn relief(&self, [high, low]: Plane) -> Vector<3> {
+        let (LogElasticity { lambda, mu, .. }, sine) = (&self.elasticity, self.sines[1]);
+        let mut relief = Vector::<3>::from_element(2.0 * lambda * sine);
+        relief[high] += 2.0 * mu * (1.0 + sine);
+        relief[low] -= 2.0 * mu * (1.0 - sine);
+        relief
+    }
+
+    /// Value of a plane's yield function (Pa) that a unit of flow on another plane takes away.
+    fn slope(&self, plane: Plane, of: Plane) -> f64 {
+        self.excess(plane, &self.relief(of)) + self.strength
+    }
+
+    /// The stress on the plane.
+    fn on_plane(&self, plane: Plane, trial: &Vector<3>) -> Vector<3> {
+        let flow = self.excess(plane, trial) / self.slope(plane, plane);
+        trial - self.relief(plane) * flow
+    }
+
+    /// The stress where two planes meet; none if a flow is negative.
+    fn on_edge(&self, [a, b]: [Plane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
+        let (f_a, f_b) = (self.excess(a, trial), self.excess(b, trial));
+        let (aa, ab) = (self.slope(a, a), self.slope(a, b));
+        let (ba, bb) = (self.slope(b, a), self.slope(b, b));
+        let determinant = aa * bb - ab * ba;
+        let flow_a = (f_a * bb - ab * f_b) / determinant;
+        let flow_b = (aa * f_b - f_a * ba) / determinant;
+        (flow_a >= 0.0 && flow_b >= 0.0)
+            .then(|| trial - self.relief(a) * flow_a - self.relief(b) * flow_b)
+    }
+
+    /// The stress after the return from a trial stress outside, whose largest, middle and smallest
+    /// values are at the places `order`.
+    fn returned(&self, [high, middle, low]: [usize; 3], trial: &Vector<3>) -> Vector<3> {
+        let plane = [high, low];
+        let stress = self.on_plane(plane, trial);
+        if stress[high] >= stress[middle] && stress[middle] >= stress[low] {
+            return stress;
+        }
+        // On an edge two stresses are equal: only the third one can be out of order.
+        let high_edge = || {
+            let stress = self.on_edge([plane, [middle, low]], trial)?;
+            (stress[middle] >= stress[low]).then_some(stress)
+        };
+        let low_edge = || {
+            let stress = self.on_edge([plane, [high, middle]], trial)?;
+            (stress[high] >= stress[middle]).then_some(stress)
+        };
+        let edge = if stress[middle] > stress[high] {
+            high_edge().or_else(low_edge)
+        } else {
+            low_edge().or_else(high_edge)
+        };
+        // The edges of Tresca's prism never meet, so that the sine is above zero here.
+        edge.unwrap_or_else(|| Vector::<3>::from_element(self.strength / (2.0 * self.sines[0])))
+    }
+}
+
+impl YieldSurface for Pyramid {
+    fn elasticity(&self) -> &LogElasticity {
+        &self.elasticity
+    }
+
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        (self.sines[1] > self.sines[0])
+            .then_some(("dilation_angle", "the dilation angle is above the friction angle"))
+    }
+
+    fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {
+        let LogElasticity { bulk, mu, .. } = self.elasticity;
+        let stress = self.elasticity.stress(trial);
+        let mut order = [0, 1, 2];
+        order.sort_by(|i, j| stress[*j].total_cmp(&stress[*i]));
+        if !(self.excess([order[0], order[2]], &stress) > 0.0) {
+            return None;
+        }
+        let stress = self.returned(order, &stress);
+        let pressure = stress.sum() / 3.0;
+        let after = PrincipalStrain {
+            mean: pressure / (3.0 * bulk),
+            deviator: stress.add_scalar(-pressure) / (2.0 * mu),
+        };
+        Some((after, trial.distance(&after)))
+    }
+
+    /// One plane, as long as the third stress stays between the others.
+    #[cfg(test)]
+    fn isochoric(&self, e: f64) -> [f64; 2] {
+        let ([s, sp], LogElasticity { lambda, mu, .. }) = (self.sines, self.elasticity);
+        let [first, second] =
+            [2.0 * mu * (1.0 + sp) + 2.0 * lambda * sp, 2.0 * mu * (1.0 - sp) - 2.0 * lambda * sp];
+        let flow = 4.0 * mu / ((1.0 + s) * first + (1.0 - s) * second);
+        let at_yield = self.strength / (4.0 * mu);
+        let beyond = e - at_yield;
+        [
+            2.0 * mu * at_yield + beyond * (2.0 * mu - flow * first),
+            -2.0 * mu * at_yield - beyond * (2.0 * mu - flow * second),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::MaterialPlan;
+    use super::super::plastic_flow::path::{isotropic, principal};
+    use super::*;
+    use approx::assert_abs_diff_eq;
+    use proptest::prelude::*;
+    use rstest::rstest;
+
+    /// Angles, a path of logarithmic strain, and the principal Kirchhoff stresses at its end: closed
+    /// forms that were computed by an independent program. Uniaxial paths lie on an edge, isochoric
+    /// ones on a plane; the second isochoric path ends on an edge, where two stresses are equal.
+    #[rstest]
+    #[case::compression([30.0, 10.0], &[[-0.01, 0.0, 0.0]], [-196.127_569_232, -53.828_851_027, -53.828_851_027])]
+    #[case::in_steps(
+        [30.0, 10.0],
+        &[[-0.004, 0.0, 0.0], [-0.01, 0.0, 0.0], [-0.03, 0.0, 0.0]],
+        [-570.914_763_447, -178.757_915_765, -178.757_915_765]
+    )]
+    #[case::extension([30.0, 10.0], &[[0.001, 0.0, 0.0]], [13.698_188_095, 6.453_548_133, 6.453_548_133])]
+    #[case::apex([30.0, 10.0], &[[0.003, 0.0, 0.0]], [17.320_508_076; 3])]
+    #[case::apex_in_steps([30.0, 10.0], &[[0.001, 0.0, 0.0], [0.002, 0.0, 0.0], [0.01, 0.0, 0.0]], [17.320_508_076; 3])]
+    #[case::isochoric([30.0, 10.0], &[[0.02, -0.02, 0.0]], [-28.169_129_782, -119.148_405_496, -29.463_507_056])]
+    #[case::isochoric_to_an_edge(
+        [30.0, 10.0],
+        &[[0.03, -0.03, 0.0]],
+        [-46.816_296_96, -175.089_907_05, -46.816_296_96]
+    )]
+    #[case::without_dilation([20.0, 0.0], &[[-0.01, 0.0, 0.0]], [-165.612_145_902, -67.193_927_049, -67.193_927_049])]
+    #[case::extension_without_dilation([20.0, 0.0], &[[0.001, 0.0, 0.0]], [17.153_427_590, 6.423_286_205, 6.423_286_205])]
+    #[case::isochoric_without_dilation([20.0, 0.0], &[[0.01, -0.01, 0.0]], [9.396_926_208, -9.396_926_208, 0.0])]
+    #[case::tresca([0.0, 0.0], &[[-0.01, 0.0, 0.0]], [-113.333_333_333, -93.333_333_333, -93.333_333_333])]
+    #[case::isochoric_tresca([0.0, 0.0], &[[0.01, -0.01, 0.0]], [10.0, -10.0, 0.0])]
+    fn paths_end_on_the_closed_forms(
+        #[case] angles: [f64; 2],
+        #[case] path: &[[f64; 3]],
+        #[case] expected: [f64; 3],
+    ) {
+        let (young, poisson) = isotropic(1e4, 7.5e3);
+        let ([friction_angle, dilation_angle], cohesion) = (angles, 10.0);
+        let plan =
+            MaterialPlan::MohrCoulomb { young, poisson, friction_angle, dilation_angle, cohesion };
+        principal(plan, path, expected);
+    }
+
+    proptest! {
+        /// After a return no yield function is positive in any order of the stresses, and one is
+        /// zero: a wrong edge leaves one positive.
+        #[test]
+        fn a_return_ends_on_the_pyramid(
+            strain in proptest::array::uniform3(-0.05..0.05_f64),
+            friction in 0.0..50.0_f64,
+            share in 0.0..1.0_f64,
+            cohesion in 0.0..50.0_f64,
+        ) {
+            let law = MohrCoulomb::new(2e4, 0.2, friction, share * friction, cohesion).surface;
+            let trial = PrincipalStrain::new(&Vector::<3>::from(strain));
+            if let Some((after, flow)) = law.return_from(&trial, 0.0) {
+                let stress = law.elasticity.stress(&after);
+                let planes = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]];
+                let largest = planes.map(|plane| law.excess(plane, &stress)).into_iter().fold(f64::MIN, f64::max);
+                assert_abs_diff_eq!(largest, 0.0, epsilon = 1e-10);
+                prop_assert!(flow > 0.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,328 @@
+//! Elastoplasticity at finite strain: Hencky elasticity and a return to the yield surface in
+//! logarithmic strain.
+//!
+//! `F = Fe Fp`, Kirchhoff stress `tau = J sigma = K tr(eps) I + 2 mu dev(eps)` of the elastic
+//! strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter 14). With the
+//! exponential map, the return in `eps` is that of small strain, along the axes of the trial
+//! strain: a yield surface needs principal values only. The plastic flow is kept as `Cp^-1` of
+//! `be = F Cp^-1 F^T`: the trial state follows from F alone, so a body that starts deformed needs
+//! no more than its F, and nothing drifts while it is elastic.
+//!
+//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
+
+use super::contract::{Material, MaterialProperties};
+use super::linear_elastic::LinearElastic;
+use super::spectral::{
+    MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
+};
+use super::stress_update::{StressBlock, StressUpdate};
+use crate::mpm::algebra::{Matrix, Vector, det, product};
+use crate::mpm::particles::Particles;
+use crate::mpm::simd::{BATCH, vectorized};
+use crate::subject::{Checkpoint, Column, Entry, Memory};
+
+/// Moduli (Pa) of isotropic elasticity in logarithmic strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LogElasticity {
+    pub(super) lambda: f64,
+    pub(super) bulk: f64,
+    pub(super) mu: f64,
+}
+
+impl LogElasticity {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub(super) fn new(young: f64, poisson: f64) -> Self {
+        let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+        Self { lambda, bulk: lambda + 2.0 / 3.0 * mu, mu }
+    }
+
+    /// Principal Kirchhoff stresses (Pa).
+    pub(super) fn stress(&self, strain: &PrincipalStrain) -> Vector<3> {
+        strain.deviator.map(|eps| 3.0 * self.bulk * strain.mean + 2.0 * self.mu * eps)
+    }
+
+    /// Energy per reference volume (J/m3), `K/2 tr(eps)^2 + mu |dev eps|^2`.
+    fn energy(&self, strain: &Vector<3>) -> f64 {
+        let deviator = strain.add_scalar(-strain.sum() / 3.0);
+        0.5 * self.bulk * strain.sum() * strain.sum() + self.mu * deviator.norm_squared()
+    }
+}
+
+/// Principal values of an elastic logarithmic strain: their mean, and what differs from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalStrain {
+    pub(super) mean: f64,
+    pub(super) deviator: Vector<3>,
+}
+
+impl PrincipalStrain {
+    pub(super) fn new(values: &Vector<3>) -> Self {
+        let mean = values.sum() / 3.0;
+        Self { mean, deviator: values.add_scalar(-mean) }
+    }
+
+    /// Equivalent strain `sqrt(2/3) |a - b|` of the difference of two strains.
+    pub(super) fn distance(&self, other: &Self) -> f64 {
+        let mean = self.mean - other.mean;
+        let deviator = self.deviator - other.deviator;
+        libm::sqrt(2.0 / 3.0 * (deviator.norm_squared() + 3.0 * mean * mean))
+    }
+}
+
+/// A yield surface with its flow rule.
+pub trait YieldSurface: Send + Sync {
+    /// The elasticity inside the surface.
+    fn elasticity(&self) -> &LogElasticity;
+
+    /// A parameter that contradicts another one: its key, and the reason.
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
+    /// The elastic strain after the return to the surface from a trial strain, and the plastic
+    /// strain that the return adds to `flowed`, the accumulated one; none if the trial state is
+    /// inside.
+    fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)>;
+
+    /// The closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
+    /// `(e, -e, 0)`, beyond yield.
+    #[cfg(test)]
+    fn isochoric(&self, e: f64) -> [f64; 2];
+}
+
+/// Isotropic elastoplasticity with a yield surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElastoPlastic<S> {
+    pub(super) surface: S,
+    /// One for each particle, from the first step on.
+    flowed: Vec<Flowed>,
+}
+
+/// Plastic state of a particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Flowed {
+    /// `Cp^-1`, the inverse of the plastic right Cauchy-Green tensor.
+    inverse_metric: Matrix<3>,
+    /// Accumulated plastic strain.
+    strain: f64,
+}
+
+/// The plastic strain alone.
+impl Entry for Flowed {
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.push(self.strain);
+    }
+}
+
+impl Flowed {
+    const NOT: Self = Self {
+        inverse_metric: Matrix::<3>::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        strain: 0.0,
+    };
+}
+
+impl Default for Flowed {
+    fn default() -> Self {
+        Self::NOT
+    }
+}
+
+impl Memory for Flowed {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { inverse_metric, strain } = self;
+        checkpoint.visit(inverse_metric);
+        checkpoint.visit(strain);
+    }
+}
+
+impl<S: YieldSurface> ElastoPlastic<S> {
+    /// A body that has not flowed.
+    pub(super) fn with_surface(surface: S) -> Self {
+        Self { surface, flowed: Vec::new() }
+    }
+
+    /// The Kirchhoff stress at F after the return, and the plastic state then, from the trial
+    /// strain along its axes.
+    fn kirchhoff(
+        &self,
+        f: &Matrix<3>,
+        before: Flowed,
+        (strain, axes): (Vector<3>, Matrix<3>),
+    ) -> (Matrix<3>, Flowed) {
+        let trial = PrincipalStrain::new(&strain);
+        let stress = |strain| assembled(&self.surface.elasticity().stress(strain), &axes);
+        let Some((elastic, flow)) = self.surface.return_from(&trial, before.strain) else {
+            return (stress(&trial), before);
+        };
+        let squares = elastic.deviator.map(|eps| libm::exp(2.0 * (elastic.mean + eps)));
+        // An F without inverse ends the run for its volume.
+        let back = f.try_inverse().unwrap_or(*f);
+        let inverse_metric = back * assembled(&squares, &axes) * back.transpose();
+        (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
+    }
+}
+
+impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
+    fn wave_modulus(&self) -> f64 {
+        let LogElasticity { lambda, mu, .. } = self.surface.elasticity();
+        lambda + 2.0 * mu
+    }
+
+    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+        self.surface.contradiction()
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Err("plastic flow depends on the whole history of the motion")
+    }
+
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Err("the yield stress bounds the whole stress, of which the law knows its own part only")
+    }
+}
+
+impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
+    fn reads_deformation(&self) -> bool {
+        true
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
+        vec![Column::of_particles("plastic flow", &self.flowed)]
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.flowed);
+    }
+
+    /// That of the elastic strain.
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let density = |p: usize, f: &Matrix<D>| {
+            let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
+            let f = in_space(f);
+            let strain = half_log(&spectral(&(f * before.inverse_metric * f.transpose())).0);
+            self.surface.elasticity().energy(&strain)
+        };
+        let all = particles.def_grad.iter().zip(&particles.vol0).enumerate();
+        Some(all.map(|(p, (f, vol0))| vol0 * density(p, f)).sum())
+    }
+
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let mut flowed = std::mem::take(&mut self.flowed);
+        body.by_block_with(&mut flowed, &|StressBlock { def_grad, vol, vol0, sigma, .. },
+                                          flowed| {
+            let columns = def_grad.chunks(BATCH).zip(flowed.chunks_mut(BATCH));
+            let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
+            let results = volumes.zip(sigma.chunks_mut(BATCH));
+            for ((def_grad, flowed), ((vol, vol0), sigma)) in columns.zip(results) {
+                let (strains, axes) = trial(def_grad, flowed);
+                let results = vol.iter_mut().zip(vol0).zip(sigma);
+                let particles = def_grad.iter().zip(flowed).zip(results).enumerate();
+                for (lane, ((f, flowed), ((vol, vol0), sigma))) in particles {
+                    let trial = (strains.get(lane), axes.get(lane));
+                    let (j, (stress, after)) =
+                        (det(f), self.kirchhoff(&in_space(f), *flowed, trial));
+                    *flowed = after;
+                    *vol = j * vol0;
+                    *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j);
+                }
+            }
+        });
+        self.flowed = flowed;
+    }
+}
+
+/// Trial strains of a batch of particles, `ln(be)/2` with `be = F Cp^-1 F^T`, along their axes.
+fn trial<const D: usize>(
+    def_grad: &[Matrix<D>],
+    flowed: &[Flowed],
+) -> (VectorBatch<3>, MatrixBatch<3>) {
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut trial = MatrixBatch::identity();
+            for (lane, (f, Flowed { inverse_metric, .. })) in
+                def_grad.iter().zip(flowed).enumerate()
+            {
+                let f = in_space(f);
+                trial.set(lane, &product(&product(&f, inverse_metric), &f.transpose()));
+            }
+            let (squares, axes) = spectral_batch(trial);
+            (squares.map(half_log_batch), axes)
+        },
+    )
+}
+
+/// F in three dimensions: nothing stretches along the axes that are left out.
+fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
+    Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
+}
+
+#[cfg(test)]
+impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
+    /// The axes of simple shear stretch by exp(e) and exp(-e).
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        let e = libm::asinh(0.5 * gamma);
+        let [first, second] = self.surface.isochoric(e);
+        let (mean, shear) = (0.5 * (first + second), 0.5 * (first - second));
+        [mean + shear * libm::tanh(e), shear / libm::cosh(e), mean - shear * libm::tanh(e)]
+    }
+
+    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
+        None
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let LogElasticity { lambda, mu, .. } = self.surface.elasticity();
+        let squares = (f.transpose() * f).symmetric_eigenvalues();
+        let (log, strain) = (libm::log(det(f)), squares.map(|square| 0.5 * libm::log(square)));
+        Some(0.5 * lambda * log * log + mu * strain.norm_squared())
+    }
+}
+
+/// Paths of strain with fixed axes, for tests.
+#[cfg(test)]
+pub(super) mod path {
+    use super::super::MaterialPlan;
+    use super::super::specimen::{SLOW, Specimen};
+    use crate::mpm::algebra::{Matrix, Vector, det};
+    use approx::assert_relative_eq;
+
+    /// Young's modulus (Pa) and Poisson's ratio from the bulk and the shear modulus (Pa).
+    pub(in super::super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
+        let young = 9.0 * bulk * mu / (3.0 * bulk + mu);
+        (young, (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu)))
+    }
+
+    /// Asserts the principal Kirchhoff stresses (Pa) at the end of a path through these principal
+    /// logarithmic strains, in all dimensions that have room for it and with the axes exchanged.
+    pub(in super::super) fn principal(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
+        for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {
+            let turned = |values: &[f64; 3]| axes.map(|axis| values[axis]);
+            let path: Vec<[f64; 3]> = path.iter().map(turned).collect();
+            let expected = turned(&expected);
+            follow::<3>(plan, &path, expected);
+            if path.iter().all(|strain| strain[2] == 0.0) {
+                follow::<2>(plan, &path, expected);
+            }
+            if path.iter().all(|strain| strain[1..] == [0.0; 2]) {
+                follow::<1>(plan, &path, expected);
+            }
+        }
+    }
+
+    fn follow<const D: usize>(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
+        let mut solid = Specimen::<D>::new(plan);
+        let (mut before, mut tau) = ([0.0; 3], Matrix::<D>::zeros());
+        for strain in path {
+            let stretch = |values: &[f64; 3]| {
+                Matrix::<D>::from_diagonal(&Vector::from_fn(|i, _| libm::exp(values[i])))
+            };
+            let step: [f64; 3] = std::array::from_fn(|i| strain[i] - before[i]);
+            tau = solid.deform(&stretch(&step), SLOW) * det(&stretch(strain));
+            before = *strain;
+        }
+        for i in 0..D {
+            assert_relative_eq!(tau[(i, i)], expected[i], max_relative = 1e-9, epsilon = 1e-9);
+        }
+    }
+}
