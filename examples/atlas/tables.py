@@ -69,7 +69,7 @@ def further(reports: dict[str, list[dict]]) -> str:
                 [first, *_] = [old for old in reports[code.name] if old["suite"] == run["suite"]]
                 rows.append([code.title, f"`{run['suite']}`", run["variant"],
                              cell(run), cell(first)])
-    return table(["code", "suite", "further run", "it shows", "and without"], rows)
+    return table(["code", "suite", "further run", "result", "original result"], rows)
 
 
 def write(folder: Path) -> None:
