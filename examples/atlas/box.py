@@ -1,7 +1,7 @@
-"""The grid of a problem as the cube from 0 to 1 that many codes compute in.
+"""Maps the grid of a problem into the unit cube, in which many codes compute.
 
-A code that knows one box, and walls around it that cannot be left out, gets the problem's grid with
-cells to spare on all sides, so that no wall is met, and in lengths and times of its own.
+For a code with a fixed box and walls around it, the grid gets extra cells on all sides, so that the
+body does not reach a wall. Lengths and times are scaled to the units of the code.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "solvers"))
 
 from mpm_verify import Array, Cannot, Message, Problem  # noqa: E402
 
-# Precisions, by the words of the protocol.
+# Precisions, by their names in the protocol.
 PRECISION = {"f32": "single", "f64": "double"}
 
 
@@ -55,7 +55,7 @@ class Box:
 
 @contextmanager
 def aside() -> Iterator[None]:
-    """Sends what a package prints while it is imported to standard error."""
+    """Redirects the output of a package during its import to standard error."""
     sys.stdout.flush()
     out = os.dup(1)
     os.dup2(2, 1)
@@ -72,13 +72,13 @@ def gravity(problem: Problem) -> Array:
 
 
 def uniform(what: str, values: Array) -> float:
-    """The value that all have."""
+    """The common value of all entries."""
     if np.ptp(values) > 1e-9 * abs(values[0]):
         raise Cannot(f"particles of several {what}")
     return float(values[0])
 
 
 def laws(able: list[str], any_law: bool) -> list[str]:
-    """Laws that a code is said to know: any where nothing deforms, and the caller says so."""
+    """Declared laws of a code: all laws if nothing deforms and the caller requests it."""
     rest = ["linear_elastic", "neo_hookean", "hencky", "corotated"]
     return able + [law for law in rest if any_law and law not in able]

@@ -1,7 +1,7 @@
 """felupe: finite elements on lines, squares and cubes, explicit in time.
 
-The package has meshes, fields, the assembly, and the neo-Hookean law. The step, the lumped mass and
-the other laws are those of lagrangian.py.
+The package provides meshes, fields, the assembly, and the neo-Hookean law. lagrangian.py provides the
+step, the lumped mass and the other laws.
 """
 
 from __future__ import annotations

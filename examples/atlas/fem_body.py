@@ -1,6 +1,6 @@
 """The body of a problem for finite elements: a box of elements of size h.
 
-The protocol hands over the initial state at particles. It is interpolated to nodes by polynomials
+The protocol provides the initial state at particles. It is interpolated to nodes by polynomials
 of degree 5 along each axis of the lattice of particles, an error of order 6 in h.
 """
 
@@ -19,7 +19,7 @@ TOLERANCE = 1e-6  # of places, in cells
 
 
 class FiniteElements(TotalLagrangian):
-    """Lumped masses and an explicit step above the library of a subclass. With quadratic elements
+    """Lumped masses and an explicit step; a subclass provides the library. With quadratic elements
     the step has order 4, and states are given at quadrature points."""
 
     formal_order: int
@@ -82,7 +82,7 @@ class FiniteElements(TotalLagrangian):
         return {"reference_position": self.nodes, "weight": volume[:, 0]}
 
     def hold(self, low: Array, high: Array) -> None:
-        """Finds the nodes that faces hold, and those that periodic axes make one."""
+        """Finds the constrained nodes, and the nodes that periodic axes identify."""
         step = TOLERANCE * self.problem.h
         self.free = np.ones_like(self.nodes)
         place = np.rint((self.nodes - low) / step).astype(int)
@@ -98,7 +98,7 @@ class FiniteElements(TotalLagrangian):
         _, self.one = np.unique(place, axis=0, return_inverse=True)
 
     def join(self, field: Array) -> Array:
-        """Sums over nodes that periodic axes make one, at each of them."""
+        """Sums over nodes that periodic axes identify, at each of them."""
         sums = [np.bincount(self.one, values)[self.one] for values in field.T]
         return np.stack(sums, axis=1)
 

@@ -1,5 +1,5 @@
-"""What implicit Euler errs by in the pulses in space, where nothing else errs: Fourier series along
-an endless bar, one mode at a time, against d'Alembert's solution (suite free-bar-pulse-hencky-3d)."""
+"""Error of implicit Euler alone in the three-dimensional pulses: Fourier series along an infinite bar,
+one mode at a time, compared with d'Alembert's solution (suite free-bar-pulse-hencky-3d)."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ def clip(s: np.ndarray) -> np.ndarray:
 
 
 def integral(s: np.ndarray) -> np.ndarray:
-    """That of cos(pi s/(2 W))^4."""
+    """Fourier coefficients of cos(pi s/(2 W))^4."""
     w, s = HALF_WIDTH, clip(s)
     return (3 / 8 * s + w / (2 * np.pi) * np.sin(np.pi * s / w)
             + w / (16 * np.pi) * np.sin(2 * np.pi * s / w))

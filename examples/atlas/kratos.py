@@ -1,7 +1,7 @@
 """Kratos' MPM application: linear functions on a mesh of squares or cubes, explicit in time.
 
-Each particle is made from a small element of its own, in whose middle it sits. Walls are nodes that
-are held: any, along any axis.
+Each particle is created from a separate small element, at its centre. Walls are constrained nodes,
+along any axis.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class Kratos:
         self.give(Mpm.MP_VELOCITY, problem.velocity)
 
     def settings(self) -> Km.Parameters:
-        """Those of the solver."""
+        """Parameters of the solver."""
         central = self.scheme == "central_difference"
         settings = Km.Parameters("""{"solver_type": "dynamic", "time_integration_method": "explicit",
             "analysis_type": "linear", "model_part_name": "MPM_Material",
@@ -111,7 +111,7 @@ class Kratos:
             part.CreateNewElement(ELEMENTS[self.d], k + 1, nodes, properties)
 
     def hold(self, part: Km.ModelPart) -> None:
-        """Holds the nodes on faces, and beyond them."""
+        """Constrains the nodes on faces and beyond them."""
         for face in self.problem.faces:
             condition, axis = face["condition"], face["axis"]
             held = {"free": [], "fixed": range(self.d), "roller": [axis]}[condition]

@@ -1,7 +1,8 @@
-"""The example mpm99 that Taichi brings along: MLS-MPM, quadratic B-splines, APIC, two dimensions.
+"""Taichi's example mpm99: MLS-MPM, quadratic B-splines, APIC, two dimensions.
 
-Hu et al. (2018), ACM Trans. Graph. 37. Its kernel has an acceleration of 50 downwards: a time unit
-is taken in which that is the gravity of the problem, or nothing. The walls are never met.
+Hu et al. (2018), ACM Trans. Graph. 37. Its kernel has a constant downward acceleration of 50. The
+time unit is chosen so that this is the gravity of the problem, or negligible. The body does not
+reach the walls.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from mpm_verify import serve
 with aside():
     import taichi as ti
 
-GRAVITY, JELLY, SOFTER = 50.0, 1, 0.3  # as mpm99 has them
+GRAVITY, JELLY, SOFTER = 50.0, 1, 0.3  # constants of mpm99
 PAD = 6
 
 

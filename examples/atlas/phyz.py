@@ -1,7 +1,7 @@
-"""The crate phyz-particle: FLIP blended with PIC beside an affine field, cubic B-splines, in space.
+"""The crate phyz-particle: FLIP blended with PIC and an affine field, cubic B-splines, three dimensions.
 
-An acceleration of 9.81 along its second axis is compiled in: a time unit is taken in which that is
-the gravity of the problem, or nothing.
+It has a constant acceleration of 9.81 along its second axis. The time unit is chosen so that this is
+the gravity of the problem, or negligible.
 """
 
 from __future__ import annotations

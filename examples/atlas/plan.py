@@ -1,4 +1,4 @@
-"""Which codes are put under which suites, and with which settings."""
+"""The suites and settings of each code."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LAGRANGIAN = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-
               "released-bar", "mms-fixed-bar-small", "mms-periodic-bar-sin",
               "mms-periodic-bar-cos", "free-bar-pulse-small-3d", "mms-axis-aligned-3d"]
 
-# Own methods that stand beside the codes, by the names of their cases.
+# Own methods for comparison with the codes, by the names of their cases.
 OWN = {
     "mpm-linear-flip-usl": "linear, FLIP",
     "mpm-linear-flip-usl-at-zero": "linear, FLIP",
@@ -33,13 +33,13 @@ OWN = {
 
 
 def is_rigid(suite: str) -> bool:
-    """Whether nothing deforms, so that codes are not asked for the law."""
+    """Whether nothing deforms, so that codes do not need the law."""
     return suite.startswith(("translating-block", "falling-block"))
 
 
 @dataclass
 class Run:
-    """One code with some settings under one suite, in whose text `changes` are made."""
+    """One code with some settings on one suite, whose text is edited by `changes`."""
 
     suite: str
     variant: str
@@ -49,8 +49,8 @@ class Run:
 
 @dataclass
 class Code:
-    """A public code: variants to be put under all suites of its dimensions, and further runs that
-    isolate a cause, each with the suites that it is for; some change the text of these."""
+    """A public code: variants that run on all suites of its dimensions, and further runs that isolate a
+    cause, each with its suites; some edit the text of these."""
 
     name: str  # of the adapter, of the requirements and of a Cargo project
     title: str
@@ -59,7 +59,7 @@ class Code:
     further: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
     changes: dict[str, dict[str, str]] = field(default_factory=dict)
     crate: str | None = None
-    adapter: str | None = None  # path from this folder, if it is not that of the name
+    adapter: str | None = None  # path from this folder, if it differs from the name
     takes_any_law: bool = True  # option `--any-law` for suites in which nothing deforms
 
     def runs(self) -> list[Run]:
@@ -73,12 +73,12 @@ class Code:
                 for suite, variant, arguments in asked]
 
 
-# The lattice of particles, some tenth of a cell off the faces of cells on which it lies, so that none of
-# it comes to lie on a face later, which whole steps of 0.06 of a cell would bring about from 0.1 of a cell.
+# Moves the lattice of particles off the cell faces by about a tenth of a cell. The offset is not exactly 0.1 of
+# a cell, from which whole steps of 0.06 of a cell would lead to a face later.
 OFF_FACES = {"grid: {from: [0, 0.375, 0.375], to: [1, 0.625, 0.625]}":
              "grid: {from: [0, 0.3723, 0.3723], to: [1, 0.6223, 0.6223]}"}
 
-# A step that is refined with the grid, where the suite has one for all levels.
+# A time step proportional to h, for a suite with one time step for all levels.
 DT_AS_H = {"dt: 1e-3": 'dt: "0.2*h/sqrt(E/rho)"'}
 
 CODES = [

@@ -1,7 +1,7 @@
 """scikit-fem: finite elements on lines, squares and cubes, explicit in time.
 
-The package assembles and interpolates. The step, the lumped mass and the laws are those of
-lagrangian.py.
+The package assembles and interpolates. lagrangian.py provides the step, the lumped mass and the
+laws.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ MESHES = {1: skfem.MeshLine, 2: skfem.MeshQuad, 3: skfem.MeshHex}
 
 @skfem.LinearForm
 def virtual_work(v, w):
-    """Of the row `w.p` of the first Piola-Kirchhoff stress."""
+    """Linear form of the row `w.p` of the first Piola-Kirchhoff stress."""
     return sum(w.p[k] * v.grad[k] for k in range(len(v.grad)))
 
 

@@ -11,7 +11,7 @@ PAGE = Path(__file__).resolve().parent.parent.parent / "docs" / "atlas.md"
 
 
 def cell(run: dict) -> str:
-    """Order with its interval and the verdict; of a translation, the largest error."""
+    """Order with its interval and the verdict; for a translation, the largest error."""
     if run["lacks"]:
         return "not applicable (" + "; ".join(run["lacks"]) + ")"
     errors = [float(level["error"]) for level in run["levels"]]
@@ -61,7 +61,7 @@ def start(case: str) -> str:
 
 
 def further(reports: dict[str, list[dict]]) -> str:
-    """The runs that isolate a cause, each beside the variant that it differs from."""
+    """The runs that isolate a cause, each with the original variant."""
     rows = []
     for code in CODES:
         for run in reports.get(code.name, []):
@@ -69,7 +69,7 @@ def further(reports: dict[str, list[dict]]) -> str:
                 [first, *_] = [old for old in reports[code.name] if old["suite"] == run["suite"]]
                 rows.append([code.title, f"`{run['suite']}`", run["variant"],
                              cell(run), cell(first)])
-    return table(["code", "suite", "further run", "it shows", "and without"], rows)
+    return table(["code", "suite", "further run", "result", "original result"], rows)
 
 
 def write(folder: Path) -> None:

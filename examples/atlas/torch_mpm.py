@@ -1,6 +1,6 @@
-"""mpm-pytorch: quadratic B-splines, APIC, three dimensions, in single precision as it comes.
+"""mpm-pytorch: quadratic B-splines, APIC, three dimensions, single precision by default.
 
-Positions are clipped to a box and F to [-2, 2]; neither is met.
+Positions are clipped to a box and F to [-2, 2]; neither limit is reached.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class MpmPytorch:
                              "conditions": ["free"], "loads": ["gravity"]}
 
     def setup(self, problem: Problem) -> None:
-        # Masses of nodes below 1e-15 are left alone: in units of the box none is.
+        # Nodal masses below 1e-15 are ignored: in units of the box there are none.
         self.box = box = Box(problem, PAD)
         n = len(box.x)
         self.x, self.v = tensor(box.x), tensor(box.v)
@@ -39,7 +39,7 @@ class MpmPytorch:
         law = LAWS.get(problem.materials[0]["law"], CorotatedElasticity)
         self.law = law(E=box.young, nu=box.poisson)
         if torch.get_default_dtype() == torch.float64:
-            # That of the package knows single precision only.
+            # The function of the package supports only single precision.
             del self.law.svd
             self.law.svd = torch.linalg.svd
         self.solver = MPMSolver(

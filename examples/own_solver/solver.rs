@@ -1,5 +1,5 @@
 //! A one-dimensional Material Point Method: linear functions, FLIP, MUSL (Sulsky, Zhou & Schreyer
-//! 1995). It stands for the reader's own solver and knows nothing of what verifies it.
+//! 1995). It stands for your own solver and does not depend on mpm-verify.
 
 /// An elastic bar on a grid of equal cells.
 pub(crate) struct Bar {

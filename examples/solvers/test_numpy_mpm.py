@@ -1,6 +1,6 @@
-"""The MPM in NumPy, held to the order that it claims: one test for each suite.
+"""Tests of the NumPy client against its formal order, one per suite.
 
-The program is found on the path, or where the variable `MPM_VERIFY` says.
+The program is on the path, or named by the variable `MPM_VERIFY`.
 """
 
 import os

@@ -1,9 +1,9 @@
 // Version 2 of the solver protocol of mpm-verify in C++17: see docs/protocol.md. No dependencies.
 //
 // An adapter derives from mpm_verify::Solver, and its main() ends with
-// `return mpm_verify::serve(about, make);`. Columns go as bytes, in the order of the machine, which
-// is to be little-endian. What is written to std::cout goes to standard error; printf() must not be
-// used, for it would get between the messages.
+// `return mpm_verify::serve(about, make);`. Columns are sent as bytes; the machine must be
+// little-endian. Output to std::cout is redirected to standard error. Do not use printf(), whose output
+// would mix with the messages.
 
 #pragma once
 
@@ -194,7 +194,7 @@ private:
     std::ostream out;
 };
 
-// The initial state of one level of refinement: `json` as docs/protocol.md says.
+// The initial state of one level of refinement: `json` as in docs/protocol.md.
 struct Problem {
     Message message;
     Channel& channel;
@@ -274,7 +274,7 @@ inline void write(Channel& channel, const State& state) {
                       decimal(state.min_j) + "}", bytes);
 }
 
-// Answers the harness until it says goodbye. `make` makes a solver in the initial state.
+// Answers the harness until it sends `bye`. `make` creates a solver in the initial state.
 inline int serve(const About& about,
                  const std::function<std::unique_ptr<Solver>(const Problem&)>& make) {
     Channel channel;

@@ -1,7 +1,7 @@
 !> Version 2 of the solver protocol of mpm-verify in Fortran 2008: see docs/protocol.md.
 !>
-!> Columns go as bytes, which are those of the machine if it is little-endian. A solver must print to
-!> `error_unit` only: what it prints to the standard output gets between the messages.
+!> Columns are sent as bytes; the machine must be little-endian. A solver must print to `error_unit`
+!> only, because other output would mix with the messages.
 module mpm_verify
   use, intrinsic :: iso_fortran_env, only: real64, int64, error_unit
   implicit none
