@@ -1,15 +1,45 @@
 //! `mpm-verify compare`.
 
-use super::args::{CompareArgs, Page};
+use super::arguments::share;
 use super::output;
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use mpm_verify::report::compare;
-use mpm_verify::report::compare::{ReportComparison, ReportDocument, Unreadable};
+use clap::{Args, ValueEnum};
+use mpm_verify::report::compare::{self, ReportComparison, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
 use std::process::Command;
+
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// Results before: the JSON of `mpm-verify run --format json`, a folder of `run --out`, a
+    /// folder of snapshots, or a commit that has snapshots
+    #[arg(value_name = "OLD")]
+    old: String,
+    /// Results after
+    #[arg(value_name = "NEW", default_value = "verification")]
+    new: String,
+    /// Folder of the snapshots in the tree of a commit
+    #[arg(long, default_value = "verification")]
+    folder: String,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Page::Text)]
+    format: Page,
+    /// Largest relative change of a figure that counts as none
+    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
+    tolerance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Page {
+    /// Aligned tables
+    Text,
+    /// A comment for a pull request
+    Markdown,
+    /// One JSON document
+    Json,
+}
 
 /// Name of the snapshot of all cases.
 const OVERVIEW: &str = "OVERVIEW.snap";

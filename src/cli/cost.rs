@@ -1,8 +1,9 @@
 //! `mpm-verify cost`: what accuracy costs, measured on this machine.
 
-use super::args::CostArgs;
+use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, select, solver};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
@@ -10,7 +11,27 @@ use mpm_verify::study::cost::{best_candidate, price};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
 use mpm_verify::verify::{BestCandidate, TimedSuite};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct CostArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
+    /// `500ms`, `2min`
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["figures", "solver"])]
+    budget: Option<f64>,
+    #[command(flatten)]
+    format: FormatArgs,
+    /// Write work-precision diagrams into this folder
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
+    /// Measure the finer levels too that suites list under `full`
+    #[arg(long)]
+    full: bool,
+    #[command(flatten)]
+    program: SolverArgs,
+}
 
 /// Prices suites one after the other; nothing else of the harness runs while one is timed.
 pub(super) fn cost(args: &CostArgs) -> u8 {

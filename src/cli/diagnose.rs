@@ -1,14 +1,30 @@
 //! `mpm-verify diagnose`: why cases do not have the order of theory.
 
-use super::args::DiagnoseArgs;
+use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
 use super::status::{BAD_INPUT, PASSED};
 use super::{output, select, solver};
+use clap::Args;
 use mpm_verify::external::SolverFactory;
-use mpm_verify::report;
-use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
+use mpm_verify::{report, study};
 use serde_json::{Value, json};
+
+#[derive(Debug, Args)]
+pub(super) struct DiagnoseArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Cases whose name contains this
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    case: String,
+    /// Predicted time for the runs of each case: `30s`, `2min`
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
+    budget: f64,
+    #[command(flatten)]
+    format: FormatArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+}
 
 /// Prints the diagnosis of each case that is named.
 pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {

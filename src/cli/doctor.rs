@@ -1,9 +1,18 @@
 //! `mpm-verify doctor`: what is wrong with a solver of another program.
 
-use super::args::DoctorArgs;
+use super::arguments::{FormatArgs, SolverArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
 use super::{output, solver};
+use clap::Args;
 use mpm_verify::testing::{DoctorReport, doctor as examine, page};
+
+#[derive(Debug, Args)]
+pub(super) struct DoctorArgs {
+    #[command(flatten)]
+    solver: SolverArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
 
 /// Examines the solver that the command line names, and prints what was found.
 pub(super) fn doctor(args: &DoctorArgs) -> u8 {

@@ -1,19 +1,32 @@
 //! `mpm-verify explain`: the problem, what a step of each case takes, and what is expected.
 
-use super::args::ExplainArgs;
+use super::arguments::{FormatArgs, Targets};
 use super::status::{BAD_INPUT, PASSED};
 use super::{output, select, show};
-use mpm_verify::nearest;
-use mpm_verify::report;
-use mpm_verify::study;
-use mpm_verify::study::Estimate;
+use clap::Args;
 use mpm_verify::study::describe::level_list::{PlannedLevel, planned_levels};
 use mpm_verify::study::describe::profiles::Dispensable;
 use mpm_verify::study::describe::sketch::{sketch_svg, sketch_text};
+use mpm_verify::study::{self, Estimate};
 use mpm_verify::suite::Suite;
+use mpm_verify::{nearest, report};
 use serde_json::{Value, json};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Say what a step would no longer take without this effect of the scene
+    #[arg(long, value_name = "EFFECT")]
+    without: Option<String>,
+    /// Draw the scene of one suite into this file (SVG), and print nothing
+    #[arg(long, value_name = "FILE")]
+    sketch: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
 
 /// Prints the page of each suite.
 pub(super) fn explain(args: &ExplainArgs) -> u8 {

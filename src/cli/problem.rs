@@ -1,11 +1,38 @@
 //! `mpm-verify problem`: a level of a suite as a file.
 
-use super::args::ProblemArgs;
+use super::arguments::{number, whole};
 use super::status::{BAD_INPUT, PASSED};
 use super::{output, select};
+use clap::Args;
+use mpm_verify::external::ProblemFormat;
 use mpm_verify::study::{exact_state, level_problem};
 use mpm_verify::suite::{ConvergencePlan, Suite};
 use std::io::{IsTerminal, stdout};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(super) struct ProblemArgs {
+    /// Suite: a file, a name, or `-` for standard input
+    #[arg(value_name = "SUITE")]
+    suite: PathBuf,
+    /// Level, the coarsest being 1 [default: the finest that the gate runs]
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
+    level: Option<usize>,
+    /// The exact state at this time (s), and not the initial one
+    #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
+    at: Option<f64>,
+    /// Format of the output: csv, json, npz, vtu
+    #[arg(long, alias = "out", value_name = "FORMAT", value_parser = format, default_value = "csv")]
+    format: ProblemFormat,
+}
+
+/// The format with this name.
+fn format(name: &str) -> Result<ProblemFormat, String> {
+    let known = ProblemFormat::ALL;
+    let names = || known.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
+    let found = known.iter().find(|format| format.name() == name);
+    found.copied().ok_or_else(|| format!("expected one of {}", names()))
+}
 
 /// Writes the initial state of a level, or its exact state at a time, to standard output.
 pub(super) fn problem(args: &ProblemArgs) -> u8 {

@@ -1,14 +1,25 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
-use super::args::ProposeArgs;
+use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::status::BAD_INPUT;
 use super::{output, show, solver};
+use clap::Args;
 use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
 use mpm_verify::study::{Runner, preflight, under};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use serde_json::json;
+
+#[derive(Debug, Args)]
+pub(super) struct ProposeArgs {
+    #[command(flatten)]
+    targets: Targets,
+    #[command(flatten)]
+    format: FormatArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+}
 
 /// Runs each suite as if it expected nothing, and prints what it could expect.
 pub(super) fn propose(args: &ProposeArgs) -> u8 {

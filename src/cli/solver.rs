@@ -1,6 +1,6 @@
 //! Suites under a solver of another program.
 
-use super::args::SolverArgs;
+use super::arguments::SolverArgs;
 use super::output;
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
 use mpm_verify::study::under_on;

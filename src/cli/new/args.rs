@@ -1,6 +1,6 @@
 //! The words of `mpm-verify new`.
 
-use crate::cli::args::FormatArgs;
+use crate::cli::arguments::FormatArgs;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 

@@ -1,12 +1,13 @@
 //! `mpm-verify new`: a suite to begin with.
 
-pub(super) mod args;
+mod args;
 mod ask;
 mod template;
 
 use super::output;
 use super::status::{BAD_INPUT, PASSED};
-use args::{LawChoice, NewArgs, TruthChoice};
+pub(super) use args::NewArgs;
+use args::{LawChoice, TruthChoice};
 use ask::Question;
 use clap::ValueEnum;
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};

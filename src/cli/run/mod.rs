@@ -1,17 +1,16 @@
-//! `mpm-verify run`.
+//! `mpm-verify run` and `mpm-verify merge`.
 
-mod config;
+mod args;
 mod files;
 mod gate;
-mod interrupt;
-mod page;
 mod printing;
-mod series;
+mod progress;
 
-use super::args::{ReportArgs, RunArgs};
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::terminal::progress::RunProgress;
 use super::{output, select, solver, watch};
+use args::ReportArgs;
+pub(super) use args::{MergeArgs, RunArgs};
+use files::Series;
 use gate::SolverGate;
 use mpm_verify::external::SolverProgram;
 use mpm_verify::study::{ResultCache, Runner, StepWarning};
@@ -19,7 +18,7 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
-use series::Series;
+use progress::RunProgress;
 use std::path::Path;
 use std::time::Duration;
 
@@ -33,6 +32,21 @@ pub(super) fn run(args: &RunArgs) -> u8 {
     let targets = &args.report.targets.targets;
     let once = || report(&args.report, |suites| chosen(args, suites));
     if args.watch { watch::repeat(targets, once) } else { once() }
+}
+
+/// Reports what the parts of a run have found, as one run of all would.
+pub(super) fn merge(args: &MergeArgs) -> u8 {
+    if let Err(message) = threads(args.report.jobs) {
+        output::complain(&message);
+        return BAD_INPUT;
+    }
+    match ResultCache::of_parts(&args.from) {
+        Ok(parts) => report(&args.report, |suites| Ok((suites, Judging::of_kept(parts)))),
+        Err((folder, error)) => {
+            output::complain(&format!("error: --from {}: {error}", folder.display()));
+            BAD_INPUT
+        }
+    }
 }
 
 /// The suites that `args` choose, with the cache and the solver of the run.
@@ -60,7 +74,7 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
         }
     }
     // Ctrl-C is the usual end of watching.
-    let at_interrupt = (!args.watch).then(|| interrupt::note(args.resume.is_some()));
+    let at_interrupt = (!args.watch).then(|| progress::interrupt_note(args.resume.is_some()));
     Ok((suites, Judging { kept, solver, gate, series, at_interrupt }))
 }
 
@@ -76,15 +90,15 @@ fn cases_with(text: &str, suites: &[Suite]) -> Vec<Suite> {
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
 /// if something later cannot be used.
-pub(super) fn report(
+fn report(
     args: &ReportArgs,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<Suite>, Judging), String>,
 ) -> u8 {
-    if let Err(message) = args.out.as_deref().map_or(Ok(()), files::prepare) {
+    if let Err(message) = args.out.as_deref().map_or(Ok(()), files::prepare_out) {
         output::complain(&message);
         return BAD_INPUT;
     }
-    if let Err(message) = args.html.as_deref().map_or(Ok(()), page::prepare) {
+    if let Err(message) = args.html.as_deref().map_or(Ok(()), files::prepare_page) {
         output::complain(&message);
         return BAD_INPUT;
     }
@@ -129,8 +143,8 @@ pub(super) fn report(
     let outcomes: Vec<SuiteOutcome> = suites.iter().map(run).collect();
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
-    let written = args.out.as_deref().map_or(Ok(()), |folder| files::write(folder, &outcomes));
-    let page = |file| page::write(file, &sources, &suites, &outcomes, refused.len());
+    let written = args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, &outcomes));
+    let page = |file| files::write_page(file, &sources, &suites, &outcomes, refused.len());
     let written = written.and(args.html.as_deref().map_or(Ok(()), page)).and(shown);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
@@ -157,7 +171,7 @@ pub(super) fn report(
     }
 }
 
-pub(super) fn threads(jobs: Option<usize>) -> Result<(), String> {
+fn threads(jobs: Option<usize>) -> Result<(), String> {
     const MOST: usize = 1024;
     let Some(jobs) = jobs else { return Ok(()) };
     if !(1..=MOST).contains(&jobs) {
@@ -172,7 +186,7 @@ fn extent(args: &ReportArgs) -> Extent {
 }
 
 /// The cache and the solver of a run.
-pub(super) struct Judging {
+struct Judging {
     kept: Option<ResultCache>,
     solver: Option<SolverProgram>,
     gate: Option<SolverGate>,
@@ -184,7 +198,7 @@ pub(super) struct Judging {
 
 impl Judging {
     /// Results that are there.
-    pub(super) fn of_kept(kept: ResultCache) -> Self {
+    fn of_kept(kept: ResultCache) -> Self {
         Self { kept: Some(kept), solver: None, gate: None, series: None, at_interrupt: None }
     }
 }
