@@ -1,22 +1,49 @@
 //! `mpm-verify new`: a suite to begin with.
 
-mod args;
-mod ask;
 mod template;
 
+use super::arguments::FormatArgs;
 use super::output;
 use super::status::{BAD_INPUT, PASSED};
-pub(super) use args::NewArgs;
-use args::{LawChoice, TruthChoice};
-use ask::Question;
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
+use mpm_verify::nearest;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, BufRead, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use template::{Choices, NamedChoice};
+use template::{Choices, LawChoice, NamedChoice, TruthChoice};
+
+#[derive(Debug, Args)]
+pub(super) struct NewArgs {
+    /// Name of the suite: lower-case letters, digits and hyphens
+    #[arg(value_name = "NAME")]
+    name: String,
+    /// Dimension of space [default: 1]
+    #[arg(long, value_name = "D", value_parser = ["1", "2", "3"])]
+    dimension: Option<String>,
+    /// Material of the body [default: neo_hookean, or the one that goes with the truth]
+    #[arg(long, value_enum)]
+    material: Option<LawChoice>,
+    /// Exact solution [default: the one that goes with the material]
+    #[arg(long, value_enum)]
+    truth: Option<TruthChoice>,
+    /// Basis functions [default: quadratic_bspline]
+    #[arg(long)]
+    basis: Option<String>,
+    /// Transfer between particles and grid [default: flip]
+    #[arg(long)]
+    transfer: Option<String>,
+    /// Time scheme [default: musl]
+    #[arg(long)]
+    scheme: Option<String>,
+    /// File to write; one that is there is left alone [default: NAME.yaml]
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
 
 /// Writes a suite, and says where it is and what comes next.
 pub(super) fn new(args: &NewArgs) -> u8 {
@@ -144,4 +171,70 @@ fn save(path: &Path, text: &str) -> Result<(), String> {
 fn in_the_way(path: &Path) -> String {
     let path = path.display();
     format!("error: {path} is there already, and is not overwritten; --output names another file")
+}
+
+/// A choice that no option has made.
+struct Question<'a> {
+    /// Subject of the question.
+    what: &'a str,
+    choices: &'a [&'a str],
+    /// The choice that an empty answer stands for.
+    default: &'a str,
+}
+
+impl Question<'_> {
+    /// The answer on standard input if that is a terminal; the default otherwise, and where there
+    /// is nothing to choose.
+    fn ask(&self) -> String {
+        let input = std::io::stdin();
+        if self.choices.len() < 2 || !input.is_terminal() {
+            return self.default.to_owned();
+        }
+        self.ask_on(&mut input.lock(), &mut std::io::stderr())
+    }
+
+    /// Asks until one of the choices is named; an empty line, or the end of input, takes the
+    /// default.
+    fn ask_on(&self, input: &mut impl BufRead, out: &mut impl Write) -> String {
+        let Self { what, choices, default } = self;
+        loop {
+            let _ = write!(out, "{what} ({}) [{default}]: ", choices.join(", "));
+            let _ = out.flush();
+            let mut line = String::new();
+            let is_over = !input.read_line(&mut line).is_ok_and(|bytes| bytes > 0);
+            let answer = line.trim();
+            if is_over || answer.is_empty() {
+                return (*default).to_owned();
+            }
+            if choices.contains(&answer) {
+                return answer.to_owned();
+            }
+            let near = nearest(answer, choices.iter().copied());
+            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let _ = writeln!(out, "`{answer}` is none of these{help}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::named("usl\n", "usl", 1)]
+    #[case::nothing_said("\n", "musl", 1)]
+    #[case::spaces("  usf \n", "usf", 1)]
+    #[case::end_of_input("", "musl", 1)]
+    #[case::asked_again("mulsl\nusl\n", "usl", 2)]
+    #[case::no_line_end("usf", "usf", 1)]
+    fn answers(#[case] typed: &str, #[case] wanted: &str, #[case] asked: usize) {
+        let question =
+            Question { what: "time scheme", choices: &["usf", "usl", "musl"], default: "musl" };
+        let mut out = Vec::new();
+        assert_eq!(question.ask_on(&mut typed.as_bytes(), &mut out), wanted);
+        let out = String::from_utf8(out).unwrap();
+        assert_eq!(out.matches("time scheme (usf, usl, musl) [musl]: ").count(), asked, "{out}");
+        assert_eq!(out.contains("did you mean `musl`?"), asked > 1, "{out}");
+    }
 }
