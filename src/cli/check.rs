@@ -2,7 +2,7 @@
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, select, solver, watch};
+use super::{output, select, solver};
 use clap::Args;
 use mpm_verify::report::indented;
 use mpm_verify::study;
@@ -25,9 +25,6 @@ pub(super) struct CheckArgs {
     format: FormatArgs,
     #[command(flatten)]
     solver: SolverArgs,
-    /// Check again whenever one of the files changes, until Ctrl-C
-    #[arg(long)]
-    watch: bool,
 }
 
 /// Arguments for the extent of the findings that `check` prints.
@@ -41,14 +38,9 @@ pub(super) struct CheckPrintArgs {
     notes: bool,
 }
 
-/// Checks suites, once or whenever their files change.
+/// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support what
+/// is expected.
 pub(super) fn check(args: &CheckArgs) -> u8 {
-    if args.watch { watch::repeat(&args.targets.targets, || all(args)) } else { all(args) }
-}
-
-/// Says of every suite that it is sound, or what is wrong with it, and warns of what will not do
-/// what it seems to.
-fn all(args: &CheckArgs) -> u8 {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
     let mut findings = CheckFindings::new(args, found.len());

@@ -19,7 +19,6 @@ mod select;
 mod show;
 mod solver;
 mod status;
-mod watch;
 
 use arguments::ColorArgs;
 use clap::error::ContextKind;

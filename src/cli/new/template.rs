@@ -74,8 +74,8 @@ pub(super) struct NamedChoice {
 }
 
 /// Variables of the templates that depend on the dimension. Levels run within seconds, in 3-D the
-/// coarse ones only; steps divide the time between instants. The motion has another phase along each
-/// axis, so that some parts are stretched while others are compressed.
+/// coarse ones only; steps divide the time between instants. The motion has another phase along
+/// each axis, so that some parts are stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [
         ("body", "bar"),

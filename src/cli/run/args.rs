@@ -28,9 +28,6 @@ pub(in crate::cli) struct RunArgs {
     /// broke, or on the finest
     #[arg(long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
-    /// Run again whenever one of the files changes, until Ctrl-C
-    #[arg(long)]
-    pub(super) watch: bool,
     #[command(flatten)]
     pub(super) judged: JudgedSolverArgs,
 }

@@ -7,7 +7,7 @@ mod printing;
 mod progress;
 
 use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::{output, select, solver, watch};
+use super::{output, select, solver};
 use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
@@ -22,16 +22,13 @@ use progress::RunProgress;
 use std::path::Path;
 use std::time::Duration;
 
-/// Runs suites, once or whenever their files change.
+/// Runs suites and judges them.
 pub(super) fn run(args: &RunArgs) -> u8 {
-    // The threads can be made only once.
     if let Err(message) = threads(args.report.jobs) {
         output::complain(&message);
         return BAD_INPUT;
     }
-    let targets = &args.report.targets.targets;
-    let once = || report(&args.report, |suites| chosen(args, suites));
-    if args.watch { watch::repeat(targets, once) } else { once() }
+    report(&args.report, |suites| chosen(args, suites))
 }
 
 /// Reports what the parts of a run have found, as one run of all would.
@@ -73,8 +70,7 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
             output::complain("note: no case is left for this part");
         }
     }
-    // Ctrl-C is the usual end of watching.
-    let at_interrupt = (!args.watch).then(|| progress::interrupt_note(args.resume.is_some()));
+    let at_interrupt = Some(progress::interrupt_note(args.resume.is_some()));
     Ok((suites, Judging { kept, solver, gate, series, at_interrupt }))
 }
 

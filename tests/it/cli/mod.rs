@@ -19,7 +19,6 @@ mod run;
 mod shards;
 mod steps;
 mod time_series;
-mod watch;
 
 pub(crate) use crate::common::folder::Folder;
 use rstest::rstest;
