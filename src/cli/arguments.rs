@@ -2,7 +2,9 @@
 
 use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
+use std::borrow::Cow;
 use std::path::PathBuf;
+use thiserror::Error;
 
 #[derive(Debug, Args)]
 pub(super) struct Targets {
@@ -48,43 +50,54 @@ pub(super) enum Format {
     Json,
 }
 
+/// The error of a parser of values: the values that it accepts.
+#[derive(Debug, Error)]
+#[error("expected {0}")]
+pub(super) struct Expected(pub(super) Cow<'static, str>);
+
+impl Expected {
+    fn one(what: &'static str) -> Self {
+        Self(what.into())
+    }
+}
+
 /// A time with its unit, in seconds.
-pub(super) fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let known = units.iter().find_map(|(unit, size)| {
         let number: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
         Some(number * size)
     });
     let usable = known.filter(|time| *time > 0.0 && time.is_finite());
-    usable.ok_or_else(|| "expected a time with its unit, such as `10s` or `500ms`".to_owned())
+    usable.ok_or_else(|| Expected::one("a time with its unit, such as `10s` or `500ms`"))
 }
 
 /// A whole number.
-pub(super) fn whole(text: &str) -> Result<usize, String> {
-    text.parse().map_err(|_| "expected a whole number".to_owned())
+pub(super) fn whole(text: &str) -> Result<usize, Expected> {
+    text.parse().map_err(|_| Expected::one("a whole number"))
 }
 
 /// A whole number from 1 on.
-pub(super) fn count(text: &str) -> Result<usize, String> {
+pub(super) fn count(text: &str) -> Result<usize, Expected> {
     let known = text.parse().ok().filter(|count| *count > 0);
-    known.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
+    known.ok_or_else(|| Expected::one("a whole number, 1 or more"))
 }
 
 /// A number of megabytes.
-fn megabytes(text: &str) -> Result<u64, String> {
+fn megabytes(text: &str) -> Result<u64, Expected> {
     count(text).map(|count| count as u64)
 }
 
 /// A finite number.
-pub(super) fn number(text: &str) -> Result<f64, String> {
+pub(super) fn number(text: &str) -> Result<f64, Expected> {
     let known = text.parse().ok().filter(|number: &f64| number.is_finite());
-    known.ok_or_else(|| "expected a finite number".to_owned())
+    known.ok_or_else(|| Expected::one("a finite number"))
 }
 
 /// A finite number that is not negative.
-pub(super) fn share(text: &str) -> Result<f64, String> {
+pub(super) fn share(text: &str) -> Result<f64, Expected> {
     let known = number(text).ok().filter(|share| *share >= 0.0);
-    known.ok_or_else(|| "expected a finite number, zero or more".to_owned())
+    known.ok_or_else(|| Expected::one("a finite number, zero or more"))
 }
 
 #[derive(Debug, Args)]

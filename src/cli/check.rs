@@ -1,7 +1,7 @@
 //! `mpm-verify check`.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
-use super::status::{BAD_INPUT, FAILED, PASSED};
+use super::status::{CommandError, Status};
 use super::{output, select, solver};
 use clap::Args;
 use mpm_verify::report::indented;
@@ -40,18 +40,12 @@ pub(super) struct CheckPrintArgs {
 
 /// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support what
 /// is expected.
-pub(super) fn check(args: &CheckArgs) -> u8 {
+pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
     let mut findings = CheckFindings::new(args, found.len());
     let mut names: BTreeMap<String, String> = BTreeMap::new();
-    let solver = match solver::greeted(&args.solver) {
-        Ok(solver) => solver,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+    let solver = solver::greeted(&args.solver)?;
     let checked = found.into_par_iter().map(|found| {
         let (source, mut suite) = found?;
         let mut lacks = Vec::new();
@@ -93,11 +87,11 @@ pub(super) fn check(args: &CheckArgs) -> u8 {
         findings.sound(&suite, &source, &diagnostics, solver.is_some());
     }
     findings.end(counts);
-    match counts {
-        Counts { errors: 1.., .. } => BAD_INPUT,
-        Counts { warnings: 1.., .. } if args.strict => FAILED,
-        _ => PASSED,
-    }
+    Ok(match counts {
+        Counts { errors: 1.., .. } => Status::BadInput,
+        Counts { warnings: 1.., .. } if args.strict => Status::Failed,
+        _ => Status::Passed,
+    })
 }
 
 fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {

@@ -1,7 +1,7 @@
 //! Texts that this program generates from itself: JSON Schemas, shell completions and manual pages.
 
 use super::output;
-use super::status::{BAD_INPUT, PASSED};
+use super::status::{CommandError, Status};
 use clap::{Args, Command, ValueEnum};
 use clap_complete::Shell;
 use clap_mangen::Man;
@@ -27,13 +27,13 @@ pub(super) enum SchemaName {
 }
 
 /// Prints the schema that the command line names.
-pub(super) fn schema(args: &SchemaArgs) -> u8 {
+pub(super) fn schema(args: &SchemaArgs) -> Status {
     output::print(&match args.of {
         SchemaName::Suite => suite_schema(),
         SchemaName::Json => report_schema(),
         SchemaName::Protocol => protocol_schema(),
     });
-    PASSED
+    Status::Passed
 }
 
 #[derive(Debug, Args)]
@@ -51,15 +51,15 @@ pub(super) struct ManArgs {
 }
 
 /// Prints what a shell completes.
-pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> u8 {
+pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut cli, "mpm-verify", &mut script);
     output::print_bytes(&script);
-    PASSED
+    Status::Passed
 }
 
 /// Prints the page of the program, or that of one of its commands.
-pub(super) fn man(args: &ManArgs, cli: Command) -> u8 {
+pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> {
     let mut cli = cli.disable_help_subcommand(true);
     cli.build();
     let page = match &args.command {
@@ -72,11 +72,10 @@ pub(super) fn man(args: &ManArgs, cli: Command) -> u8 {
     let mut text = Vec::new();
     let Some(Ok(())) = page.map(|page| page.render(&mut text)) else {
         let name = args.command.as_deref().unwrap_or_default();
-        output::complain(&format!("error: there is no command called `{name}`"));
-        return BAD_INPUT;
+        return Err(CommandError::Message(format!("there is no command called `{name}`")));
     };
     output::print_bytes(&text);
-    PASSED
+    Ok(Status::Passed)
 }
 
 /// The command under the name of its page, `mpm-verify-run`.

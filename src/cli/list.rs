@@ -3,7 +3,7 @@
 
 use super::arguments::{FormatArgs, Targets};
 use super::show;
-use super::status::{FAILED, PASSED};
+use super::status::Status;
 use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
@@ -21,7 +21,7 @@ pub(super) struct ListArgs {
 }
 
 /// Prints every suite with its cases.
-pub(super) fn list(args: &ListArgs) -> u8 {
+pub(super) fn list(args: &ListArgs) -> Status {
     let targets = &args.targets.targets;
     if args.format.is_json() {
         return show::json(targets, |source, suite| Ok(listed(source, suite)));
@@ -59,7 +59,7 @@ pub(super) struct StepsArgs {
 }
 
 /// Prints the steps of each suite. The status says whether all are within the tolerance.
-pub(super) fn steps(args: &StepsArgs) -> u8 {
+pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let is_off = Cell::new(false);
     let of_suite = |suite: &Suite| {
@@ -79,7 +79,7 @@ pub(super) fn steps(args: &StepsArgs) -> u8 {
             format!("{}\n{rows}", suite.name)
         })
     };
-    if code == PASSED && is_off.get() { FAILED } else { code }
+    if code == Status::Passed && is_off.get() { Status::Failed } else { code }
 }
 
 fn beyond(step: &TimeStep) -> bool {

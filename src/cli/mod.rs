@@ -24,7 +24,7 @@ use arguments::ColorArgs;
 use clap::error::ContextKind;
 use clap::{CommandFactory, Parser, Subcommand};
 use mpm_verify::nearest;
-use status::{BAD_INPUT, PASSED};
+use status::{CommandError, Status};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -92,27 +92,25 @@ enum Command {
     Man(generate::ManArgs),
 }
 
-/// Parses the command line and does what it says. What could not be printed is an error.
+/// Parses the command line and runs the command. Output that could not be written is an error.
 pub(crate) fn main() -> ExitCode {
-    let mut code = match with_command(std::env::args_os().collect(), &Cli::command()) {
-        Ok(words) => parsed(words),
-        Err(message) => {
-            output::complain(&message);
-            BAD_INPUT
-        }
-    };
+    let words = with_command(std::env::args_os().collect(), &Cli::command());
+    let mut status = words.and_then(run_words).unwrap_or_else(|error| {
+        output::complain(&error.to_string());
+        Status::BadInput
+    });
     if let Some(message) = output::failure() {
         output::complain(message);
-        code = BAD_INPUT;
+        status = Status::BadInput;
     }
-    ExitCode::from(code)
+    status.into()
 }
 
-fn parsed(words: Vec<OsString>) -> u8 {
+fn run_words(words: Vec<OsString>) -> Result<Status, CommandError> {
     match Cli::try_parse_from(words) {
         Ok(cli) => {
             cli.color.write_global();
-            done(cli.command)
+            run_command(cli.command)
         }
         // Help and the version too, which are printed to standard output.
         Err(mut answer) => {
@@ -123,37 +121,37 @@ fn parsed(words: Vec<OsString>) -> u8 {
                 answer.remove(ContextKind::Suggested);
             }
             output::keep(answer.print());
-            if answer.use_stderr() { BAD_INPUT } else { PASSED }
+            Ok(if answer.use_stderr() { Status::BadInput } else { Status::Passed })
         }
     }
 }
 
-fn done(command: Command) -> u8 {
+fn run_command(command: Command) -> Result<Status, CommandError> {
     match command {
         Command::Run(args) => run::run(&args),
         Command::New(args) => new::new(&args),
         Command::Merge(args) => run::merge(&args),
-        Command::List(args) => list::list(&args),
+        Command::List(args) => Ok(list::list(&args)),
         Command::Check(args) => check::check(&args),
         Command::Explain(args) => explain::explain(&args),
         Command::Diagnose(args) => diagnose::diagnose(&args),
         Command::Doctor(args) => doctor::doctor(&args),
         Command::Propose(args) => propose::propose(&args),
-        Command::Schema(args) => generate::schema(&args),
-        Command::Steps(args) => list::steps(&args),
+        Command::Schema(args) => Ok(generate::schema(&args)),
+        Command::Steps(args) => Ok(list::steps(&args)),
         Command::Problem(args) => problem::problem(&args),
         Command::Cost(args) => cost::cost(&args),
         Command::Compare(args) => compare::compare(&args),
-        Command::Completions(args) => generate::completions(&args, Cli::command()),
+        Command::Completions(args) => Ok(generate::completions(&args, Cli::command())),
         Command::Man(args) => generate::man(&args, Cli::command()),
     }
 }
 
-/// The words with `run` in front of those that name no command.
+/// The arguments with `run` in front of those that name no command.
 ///
 /// # Errors
-/// If the first word is neither a command nor a suite, and a command is what it comes nearest to.
-fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsString>, String> {
+/// If the first argument is neither a command nor a suite, and is most like a command.
+fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsString>, CommandError> {
     let at = first(&words);
     let word = words.get(at).map(|word| word.to_string_lossy());
     let word = word.as_deref().unwrap_or_default();
@@ -170,7 +168,8 @@ fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsStrin
         let near = nearest(word, known).filter(|near| commands.contains(near));
         if let Some(command) = near.filter(|near| suites.iter().all(|suite| suite != near)) {
             let message = format!("there is no command or suite called `{word}`");
-            return Err(format!("error: {message}\nhelp: did you mean the command `{command}`?"));
+            let help = format!("did you mean the command `{command}`?");
+            return Err(CommandError::Message(format!("{message}\nhelp: {help}")));
         }
     }
     let mut words = words;
@@ -178,7 +177,7 @@ fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsStrin
     Ok(words)
 }
 
-/// Place of the first word behind the program's name and the options that any command has.
+/// Place of the first argument after the program's name and the options that any command has.
 fn first(words: &[OsString]) -> usize {
     let mut at = words.len().min(1);
     while let Some(word) = words.get(at).and_then(|word| word.to_str()) {

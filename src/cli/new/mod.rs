@@ -4,7 +4,7 @@ mod template;
 
 use super::arguments::FormatArgs;
 use super::output;
-use super::status::{BAD_INPUT, PASSED};
+use super::status::{CommandError, Status};
 use clap::{Args, ValueEnum};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
 use mpm_verify::nearest;
@@ -46,25 +46,17 @@ pub(super) struct NewArgs {
 }
 
 /// Writes a suite, and says where it is and what comes next.
-pub(super) fn new(args: &NewArgs) -> u8 {
-    match written(args) {
-        Ok(path) => {
-            let path = path.display().to_string();
-            output::print(&if args.format.is_json() {
-                format!("{:#}\n", serde_json::json!({"file": path}))
-            } else {
-                format!("wrote {path}\nnext: mpm-verify check {path}\n")
-            });
-            PASSED
-        }
-        Err(message) => {
-            output::complain(&message);
-            BAD_INPUT
-        }
-    }
+pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
+    let path = written(args)?.display().to_string();
+    output::print(&if args.format.is_json() {
+        format!("{:#}\n", serde_json::json!({"file": path}))
+    } else {
+        format!("wrote {path}\nnext: mpm-verify check {path}\n")
+    });
+    Ok(Status::Passed)
 }
 
-fn written(args: &NewArgs) -> Result<PathBuf, String> {
+fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
     // Before any question; `save` makes sure.
     if path.exists() {
@@ -72,13 +64,13 @@ fn written(args: &NewArgs) -> Result<PathBuf, String> {
     }
     let choices = choices(args)?;
     let text = template::text(&choices, &path);
-    load(&choices, &path, &text).map_err(|diagnostic| diagnostic.to_string())?;
+    load(&choices, &path, &text)?;
     save(&path, &text)?;
     Ok(path)
 }
 
 /// All choices: those of the options, and the answers or defaults.
-fn choices(args: &NewArgs) -> Result<Choices, String> {
+fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");
     let bases = BasisName::ALL.iter().map(|basis| basis.name()).collect();
@@ -106,21 +98,22 @@ fn setting(
 }
 
 /// The material, which settles the truth.
-fn law(args: &NewArgs) -> Result<LawChoice, String> {
+fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth
     {
         let law = law.name();
-        return Err(match truth {
+        let reason = match truth {
             TruthChoice::Manufactured => format!(
-                "error: --truth manufactured: no force is manufactured for `{law}`, a law in rate \
+                "no force is manufactured for `{law}`, a law in rate \
                  form has no stress of the deformation alone"
             ),
             TruthChoice::StandingWave => format!(
-                "error: --truth standing_wave: no wave of `{law}` stands, waves of finite strain \
+                "no wave of `{law}` stands, waves of finite strain \
                  steepen; it is a truth of `linear_elastic`"
             ),
-        });
+        };
+        return Err(CommandError::option("--truth", truth.name(), reason));
     }
     if let Some(law) = args.material {
         return Ok(law);
@@ -130,7 +123,7 @@ fn law(args: &NewArgs) -> Result<LawChoice, String> {
     let laws: Vec<LawChoice> = truths.iter().flat_map(|truth| truth.laws()).copied().collect();
     let names: Vec<&str> = laws.iter().map(|law| law.name()).collect();
     let answer = Question { what: "material", choices: &names, default: names[0] }.ask();
-    LawChoice::from_str(&answer, false)
+    LawChoice::from_str(&answer, false).map_err(CommandError::Message)
 }
 
 /// Loads the suite. Where an option is to blame, the diagnostic shows that, not a file that is not
@@ -160,17 +153,19 @@ fn at_its_option(choices: &Choices, text: &str, diagnostic: &Diagnostic) -> Opti
 }
 
 /// Writes a new file; one that has come meanwhile stays as it is.
-fn save(path: &Path, text: &str) -> Result<(), String> {
+fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => in_the_way(path),
-        _ => format!("error: {}: {error}", path.display()),
+        _ => CommandError::about(path.display(), error),
     })
 }
 
-fn in_the_way(path: &Path) -> String {
+fn in_the_way(path: &Path) -> CommandError {
     let path = path.display();
-    format!("error: {path} is there already, and is not overwritten; --output names another file")
+    CommandError::Message(format!(
+        "{path} is there already, and is not overwritten; --output names another file"
+    ))
 }
 
 /// A choice that no option has made.

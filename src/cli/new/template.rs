@@ -47,6 +47,14 @@ impl LawChoice {
 }
 
 impl TruthChoice {
+    /// Name of the solution on the command line.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Manufactured => "manufactured",
+            Self::StandingWave => "standing_wave",
+        }
+    }
+
     /// Materials for which the solution is known, the default first.
     pub(super) fn laws(self) -> &'static [LawChoice] {
         match self {

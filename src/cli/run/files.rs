@@ -2,6 +2,7 @@
 
 use super::progress::RunProgress;
 use crate::cli::output;
+use crate::cli::status::CommandError;
 use mpm_verify::report::{self, page};
 use mpm_verify::study::describe::sketch::sketch_svg;
 use mpm_verify::study::{Runner, SeriesFile};
@@ -13,12 +14,12 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Makes the folder of `--out`, before hours are spent on what cannot be written.
-pub(super) fn prepare_out(folder: &Path) -> Result<(), String> {
+pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
 
 /// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
-pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
+pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), CommandError> {
     let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
     let every_file = || -> io::Result<()> {
         save("report.json", &report::json(outcomes))?;
@@ -34,7 +35,7 @@ pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), 
 }
 
 /// Makes the folder of the page, before hours are spent on what cannot be written.
-pub(super) fn prepare_page(file: &Path) -> Result<(), String> {
+pub(super) fn prepare_page(file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable("--html", file, &"this is a folder"));
     }
@@ -51,7 +52,7 @@ pub(super) fn write_page(
     suites: &[Suite],
     outcomes: &[SuiteOutcome],
     refused: usize,
-) -> Result<(), String> {
+) -> Result<(), CommandError> {
     let named = |source: &Source| {
         let name = Path::new(source.name()).file_name();
         name.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
@@ -79,7 +80,7 @@ pub(super) struct Series {
 
 impl Series {
     /// Makes the folder, before hours are spent on what cannot be written.
-    pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, String> {
+    pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
         Ok(Self { folder, all })
@@ -91,7 +92,7 @@ impl Series {
         runner: &Runner<'_>,
         outcome: &SuiteOutcome,
         bar: &RunProgress,
-    ) -> Result<(), String> {
+    ) -> Result<(), CommandError> {
         let is_shown = |case: &&CaseOutcome| self.all || !case.passed();
         for case in outcome.cases.iter().filter(is_shown) {
             let mut failure = None;
@@ -104,8 +105,8 @@ impl Series {
                     String::new()
                 })
             });
-            if let Some(message) = failure {
-                return Err(message);
+            if let Some(error) = failure {
+                return Err(error);
             }
             let name = format!("{}::{}", outcome.suite, case.case);
             let note = match found {
@@ -123,7 +124,7 @@ fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
     fs::write(path, &file.bytes)
 }
 
-/// The message of an `option` whose file or folder cannot be written.
-fn unwritable(option: &str, path: &Path, error: &impl Display) -> String {
-    format!("error: {option} {}: {error}", path.display())
+/// The error of an `option` whose file or folder cannot be written.
+fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
+    CommandError::option(option, path.display(), error)
 }
