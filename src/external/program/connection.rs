@@ -4,10 +4,8 @@
 //! of this blocks nobody. Each ends when its pipe does, which a kill brings about.
 
 use super::answer::Answer;
-use super::frame::{MessageFrame, Outgoing};
-use super::limits::ProgramLimits;
+use super::frame::{MessageFrame, Outgoing, read_all};
 use super::printable::printable;
-use super::reader::read_all;
 use std::io::{Read, Write};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,7 +20,7 @@ const SHORT: usize = 1 << 20;
 /// Bytes of standard error that are kept.
 const LAST_BYTES: usize = 2000;
 
-/// Lines of it that are told.
+/// Maximum number of lines of standard error in a message.
 const LAST_LINES: usize = 3;
 
 /// Longest time that a process has to end by itself; it has no more than it may be silent.
@@ -30,6 +28,21 @@ const GRACE: Duration = Duration::from_secs(1);
 
 /// Time between two looks at a process that says nothing.
 const GLANCE: Duration = Duration::from_millis(50);
+
+/// Limits of each process of a solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramLimits {
+    /// Longest time without an answer.
+    pub silence: Duration,
+    /// Address space (bytes), on Unix; none: what the system gives.
+    pub memory: Option<u64>,
+}
+
+impl Default for ProgramLimits {
+    fn default() -> Self {
+        Self { silence: Duration::from_secs(60), memory: None }
+    }
+}
 
 /// A process with its pipes. It is killed when this is dropped, with all that it has started in
 /// its group.

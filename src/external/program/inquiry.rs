@@ -1,14 +1,14 @@
 //! Values that a solver requests at places and times: body forces, the initial state, loads and
 //! conditions on faces.
 
-use super::column::ColumnText;
+use super::answer::{ColumnText, ValueRequest};
 use super::frame::Outgoing;
 use super::printable::printable;
-use super::request::{RequestedPlaces, ValueRequest, field_named, time};
 use crate::external::fields::{
-    BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
+    BODY_FIELDS, BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
 };
 use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
+use crate::nearest::nearest;
 use serde_json::json;
 
 /// Answers requests for values of one problem.
@@ -254,5 +254,51 @@ impl Inquiry {
         let mut at = FieldPlaces::new(&places.labels, &places.bodies);
         at.displacement = places.displacement.as_deref();
         fields.values(of, t, &at)
+    }
+}
+
+/// Places of a request, in numbers.
+struct RequestedPlaces {
+    labels: Vec<f64>,
+    bodies: Vec<usize>,
+    displacement: Option<Vec<f64>>,
+    /// Whether they are the particles or the points.
+    are_own: bool,
+}
+
+/// The field that a request names.
+fn field_named(
+    name: &str,
+    loads: &[ProblemLoad],
+    faces: &[ProblemFace],
+) -> Result<FieldName, String> {
+    if let Some((_, field)) = BODY_FIELDS.iter().find(|(known, _)| *known == name) {
+        return Ok(*field);
+    }
+    let loads = (0..loads.len()).map(|load| (format!("load:{load}"), FieldName::Load(load)));
+    let faces = faces.iter().enumerate();
+    let faces = faces.map(|(i, face)| (format!("face:{}", face.name), FieldName::Face(i)));
+    let known: Vec<(String, FieldName)> = loads.chain(faces).collect();
+    if let Some((_, field)) = known.iter().find(|(known, _)| known == name) {
+        return Ok(*field);
+    }
+    let names = BODY_FIELDS.iter().map(|(known, _)| *known);
+    let names: Vec<&str> = names.chain(known.iter().map(|(known, _)| known.as_str())).collect();
+    Err(match nearest(name, names.iter().copied()) {
+        Some(known) => format!("unknown field; did you mean `{known}`?"),
+        None => format!("unknown field; known: {}", names.join(", ")),
+    })
+}
+
+/// The time (s) that a request means.
+fn time(field: FieldName, t: Option<f64>) -> Result<f64, String> {
+    match t {
+        None if field.is_initial() => Ok(0.0),
+        None => Err("the request has no time `t`".to_owned()),
+        Some(t) if field.is_initial() && t != 0.0 => {
+            Err(format!("it is known at t = 0 only, not at t = {t}"))
+        }
+        Some(t) if !t.is_finite() => Err(format!("the time is {t}")),
+        Some(t) => Ok(t),
     }
 }

@@ -1,11 +1,9 @@
 //! A solver behind a command, as a maker of subjects.
 
-use super::answer::Answer;
-use super::connection::Connection;
+use super::answer::{Answer, Hello};
+use super::connection::{Connection, ProgramLimits};
 use super::frame::Outgoing;
-use super::hello::Hello;
 use super::inquiry::Inquiry;
-use super::limits::ProgramLimits;
 use super::printable::printable;
 use super::subject::{ProgramSubject, conclude, longest_answer};
 use crate::external::capabilities::ProblemNeeds;

@@ -1,9 +1,8 @@
 //! A level on its way in another process.
 
-use super::answer::{Answer, Points, State};
+use super::answer::{Answer, Hello, Points, State};
 use super::connection::Connection;
 use super::frame::Outgoing;
-use super::hello::Hello;
 use super::inquiry::Inquiry;
 use super::printable::printable;
 use crate::external::fields::FieldName;
