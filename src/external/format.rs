@@ -5,7 +5,7 @@ use crate::named::named;
 use crate::subject::StateField;
 use crate::vtk::{TensorRank, points};
 use serde_json::json;
-use std::io::{Cursor, Write};
+use std::io::{self, Cursor, Write};
 use zip::ZipWriter;
 use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
@@ -35,12 +35,12 @@ impl LevelProblem {
     /// The bytes of a file that holds the problem.
     ///
     /// # Errors
-    /// One line that says why a writer failed.
-    pub fn written(&self, format: ProblemFormat) -> Result<Vec<u8>, String> {
+    /// A failure of the writer of zip files.
+    pub fn written(&self, format: ProblemFormat) -> io::Result<Vec<u8>> {
         match format {
             ProblemFormat::Csv => Ok(csv_table(self).into_bytes()),
             ProblemFormat::Json => Ok(self.document().into_bytes()),
-            ProblemFormat::Npz => npz_file(self).map_err(|error| error.to_string()),
+            ProblemFormat::Npz => Ok(npz_file(self)?),
             ProblemFormat::Vtu => Ok(vtu_file(self)),
         }
     }

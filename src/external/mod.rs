@@ -33,4 +33,4 @@ pub use problem::{
     ProblemMaterial, ProblemParticles, ProblemRegion,
 };
 #[cfg(feature = "external-programs")]
-pub use program::{ProgramLimits, SolverProgram, protocol_schema, read_answers};
+pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, read_answers};

@@ -1,7 +1,7 @@
 //! Answers of a solver, with its capabilities and columns of numbers.
 
+use super::error::{ProgramError, plain, printable};
 use super::frame::MessageFrame;
-use super::printable::{plain, printable};
 use crate::external::capabilities::Capabilities;
 use crate::subject::Precision;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -174,28 +174,28 @@ impl ColumnText {
         name: &str,
         count: usize,
         bytes: &[u8],
-    ) -> Result<Vec<f64>, String> {
+    ) -> Result<Vec<f64>, ProgramError> {
         let numbers = match self {
             Self::Numbers(numbers) => numbers,
             Self::Bytes { f64: (offset, length) } => {
                 let end = length.checked_mul(8).and_then(|length| offset.checked_add(length));
                 let part = end.and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
-                    format!(
-                        "gave the column `{name}` as {length} doubles from byte {offset} on, of \
-                         {} bytes",
-                        bytes.len()
-                    )
+                    let name = name.to_owned();
+                    ProgramError::ColumnBytes { name, length, offset, bytes: bytes.len() }
                 })?;
                 let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
                 part.chunks_exact(8).map(number).collect()
             }
         };
         if numbers.len() != count {
-            let found = numbers.len();
-            return Err(format!("gave the column `{name}` {found} numbers, expected {count}"));
+            let (name, found) = (name.to_owned(), numbers.len());
+            return Err(ProgramError::ColumnLength { name, found, expected: count });
         }
         match numbers.iter().position(|number| !number.is_finite()) {
-            Some(at) => Err(format!("gave the column `{name}` {} as number {at}", numbers[at])),
+            Some(index) => {
+                let (name, value) = (name.to_owned(), numbers[index]);
+                Err(ProgramError::NotFinite { name, value, index })
+            }
             None => Ok(numbers),
         }
     }
@@ -203,20 +203,21 @@ impl ColumnText {
 
 impl Answer {
     /// Reads the answer in a frame.
-    pub(super) fn read(frame: &MessageFrame) -> Result<Self, String> {
+    pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
             // What Python and others write for what JSON has no word for.
             for word in ["NaN", "Infinity"] {
                 if text.contains(word) {
-                    return format!("answered with {word}, which is no number");
+                    return ProgramError::NoNumber(word);
                 }
             }
-            if !text.trim_start().starts_with('{') {
-                let hint = "what else it prints belongs on its standard error";
-                return format!("answered with what is no message ({hint}): `{}`", excerpt(&text));
-            }
-            format!("answered with what is no message ({}): `{}`", plain(&error), excerpt(&text))
+            let reason = if text.trim_start().starts_with('{') {
+                plain(&error)
+            } else {
+                "what else it prints belongs on its standard error".to_owned()
+            };
+            ProgramError::NoMessage { reason, excerpt: excerpt(&text) }
         })
     }
 

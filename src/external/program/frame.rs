@@ -1,5 +1,6 @@
 //! Messages as they cross the pipe: written, and read as they come.
 
+use super::error::ProgramError;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::io::{self, BufRead, BufReader};
@@ -95,7 +96,7 @@ fn announced(line: &[u8]) -> usize {
 pub(super) fn read_all(
     output: ChildStdout,
     longest: &AtomicUsize,
-    to: &SyncSender<Result<MessageFrame, String>>,
+    to: &SyncSender<Result<MessageFrame, ProgramError>>,
 ) {
     let mut output = BufReader::new(output);
     loop {
@@ -115,25 +116,22 @@ pub(super) fn read_all(
 pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
-) -> Result<Option<MessageFrame>, String> {
-    let unreadable = |error: io::Error| format!("cannot be read: {error}");
-    // It is asked anew while a line grows: the first answer comes before the problem is known.
-    let too_long = |size: usize| {
+) -> Result<Option<MessageFrame>, ProgramError> {
+    // The limit is read again while a line grows: the first answer comes before the problem is known.
+    let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
-        (size > most).then(|| format!("answered with more than {most} bytes"))
+        if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }
     };
     let mut frame = MessageFrame::default();
     loop {
-        let part = output.fill_buf().map_err(unreadable)?;
+        let part = output.fill_buf().map_err(ProgramError::Unreadable)?;
         let (used, done) = match part.iter().position(|byte| *byte == b'\n') {
             Some(end) => (end + 1, true),
             None => (part.len(), part.is_empty()),
         };
         frame.line.extend_from_slice(&part[..used]);
         output.consume(used);
-        if let Some(reason) = too_long(frame.line.len()) {
-            return Err(reason);
-        }
+        check_size(frame.line.len())?;
         if done {
             break;
         }
@@ -142,18 +140,16 @@ pub(super) fn read_one(
         return Ok(None);
     }
     if frame.line.pop_if(|last| *last == b'\n').is_none() {
-        return Err("ended in the middle of an answer".to_owned());
+        return Err(ProgramError::Truncated("an answer"));
     }
     let following = announced(&frame.line);
-    if let Some(reason) = too_long(following) {
-        return Err(reason);
-    }
+    check_size(following)?;
     frame.bytes = vec![0; following];
     match output.read_exact(&mut frame.bytes) {
         Ok(()) => Ok(Some(frame)),
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
-            Err("ended in the middle of a block of bytes".to_owned())
+            Err(ProgramError::Truncated("a block of bytes"))
         }
-        Err(error) => Err(unreadable(error)),
+        Err(error) => Err(ProgramError::Unreadable(error)),
     }
 }

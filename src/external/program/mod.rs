@@ -7,20 +7,21 @@
 //! connection   the process: requests in, answers out, within limits of time and memory
 //! answer       answers of a solver, and columns of numbers
 //! frame        one message: a line of JSON, and a block of bytes
-//! printable    untrusted text
+//! error        failures of the process and of the protocol
 //! schema       all messages as a JSON Schema
 //! ```
 
 mod answer;
 mod connection;
+mod error;
 mod frame;
 mod inquiry;
-mod printable;
 mod schema;
 mod solver;
 mod subject;
 
 pub use connection::ProgramLimits;
+pub use error::ProgramError;
 pub use schema::protocol_schema;
 pub use solver::SolverProgram;
 
